@@ -1,0 +1,64 @@
+#include "engine/base/file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+namespace bolt {
+
+namespace {
+
+struct Close {
+    void operator()(std::FILE* file) const { (void)std::fclose(file); }
+};
+
+tl::unexpected<Error> file_error(const std::filesystem::path& path, ErrorCode code, std::string what) {
+    Error error;
+    error.code = code;
+    error.file = path.string();
+    error.what = std::move(what);
+    return fail(std::move(error));
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit, ErrorCode code) {
+    std::error_code status;
+    if (std::filesystem::is_directory(path, status)) return file_error(path, code, "this is a folder, not a file");
+    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+    if (!file) return file_error(path, code, std::string("cannot be opened: ") + std::strerror(errno));
+    std::string text;
+    char block[65536];
+    std::size_t count = 0;
+    while ((count = std::fread(block, 1, sizeof block, file.get())) > 0) {
+        text.append(block, count);
+        if (text.size() > limit)
+            return file_error(path, code, "is larger than " + std::to_string(limit >> 20U) + " MiB");
+    }
+    if (std::ferror(file.get()) != 0) return file_error(path, code, "cannot be read");
+    return text;
+}
+
+Status write_file(const std::filesystem::path& path, std::string_view text) {
+    std::filesystem::path part = path;
+    part += ".part";
+    std::FILE* file = std::fopen(part.c_str(), "wb");
+    if (file == nullptr)
+        return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(errno));
+    const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    const int write_errno = errno;
+    const bool closed = std::fclose(file) == 0;
+    if (!written || !closed) {
+        const int reason = written ? errno : write_errno;
+        (void)std::remove(part.c_str());
+        return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(reason));
+    }
+    std::error_code status;
+    std::filesystem::rename(part, path, status);
+    if (status) return file_error(path, ErrorCode::failed, "cannot be written: " + status.message());
+    return {};
+}
+
+}  // namespace bolt

@@ -1,0 +1,24 @@
+// A small seeded generator whose sequence is the same on every platform and standard library
+// (std::normal_distribution is not). PCG32: M. E. O'Neill, HMC-CS-2014-0905.
+#pragma once
+
+#include <cstdint>
+
+namespace bolt {
+
+class Random {
+  public:
+    explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
+
+    std::uint32_t bits();                    // 32 uniform bits
+    double uniform();                        // [0, 1)
+    double uniform(double low, double high); // [low, high)
+    double normal();                         // mean 0, standard deviation 1, cut at ±3
+    bool chance(double probability) { return uniform() < probability; }
+
+  private:
+    std::uint64_t state_;
+    std::uint64_t increment_;
+};
+
+}  // namespace bolt

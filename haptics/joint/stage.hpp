@@ -1,0 +1,29 @@
+// What the hand feels now, and in which condition the joint is. Plain names shared by both laws.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace bolt::joint {
+
+enum class Law : std::uint8_t { published, mechanistic };
+
+// The four stages of the 2018 paper, read off the state.
+enum class Stage : std::uint8_t { navigation, transition, linearity, yield };
+inline constexpr int stage_count = 4;
+
+enum class Condition : std::uint8_t { sound, stripped, broken };
+
+constexpr std::string_view name(Law law) { return law == Law::published ? "published" : "mechanistic"; }
+
+constexpr std::string_view name(Stage stage) {
+    constexpr std::string_view names[] = {"navigation", "transition", "linearity", "yield"};
+    return names[static_cast<int>(stage)];
+}
+
+constexpr std::string_view name(Condition condition) {
+    constexpr std::string_view names[] = {"sound", "stripped", "broken"};
+    return names[static_cast<int>(condition)];
+}
+
+}  // namespace bolt::joint

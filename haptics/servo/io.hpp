@@ -1,0 +1,41 @@
+// What goes into a tick and what comes out of it: plain values, small, and recorded bit for bit.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/base/math.hpp"
+#include "haptics/joint/stage.hpp"
+
+namespace bolt::servo {
+
+enum class Grip : std::uint8_t { none, fingers, wrench };
+
+// Pose of the tool as the device asks for it, in the assembly's frame. Single precision: devices give no more, and a
+// recorded sample is then exactly the sample that was used.
+// Tool frame: origin in the middle of the jaw (or between the fingertips), x along the handle, z the jaw's normal.
+struct DeviceSample {
+    float position[3] = {0.0F, 0.0F, 0.0F};           // m
+    float orientation[4] = {1.0F, 0.0F, 0.0F, 0.0F};  // unit quaternion w, x, y, z: tool to assembly
+};
+
+struct Input {
+    DeviceSample device;
+    Grip grip = Grip::none;
+    bool enabled = false;     // dead-man held: without it nothing is rendered
+    std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
+};
+
+struct Output {
+    // To the device, after scaling and the limits of the output stage: N and N·m at the tool's origin.
+    Vec3 force{0.0};
+    Vec3 torque{0.0};
+
+    // True values, unscaled.
+    std::int16_t joint = -1;    // engaged joint; −1: none
+    joint::Stage stage = joint::Stage::navigation;
+    double wrench_torque = 0.0; // N·m about the bolt's axis, tightening positive
+    double nut_angle = 0.0;     // rad from the hand-started nut, tightening positive
+    double clamp = 0.0;         // N
+};
+
+}  // namespace bolt::servo
