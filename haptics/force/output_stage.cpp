@@ -1,0 +1,47 @@
+#include "haptics/force/output_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::force {
+
+namespace {
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Not glm::length: a huge but finite component must not overflow to infinity and so slip through as NaN.
+Vec3 at_most(const Vec3& v, double most) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (largest == 0.0 || most <= 0.0) return Vec3(0.0);
+    const Vec3 unit = v / largest;
+    const double length = largest * glm::length(unit);
+    return length <= most ? v : unit * (most / glm::length(unit));
+}
+
+Vec3 towards(const Vec3& now, const Vec3& wanted, double most) { return now + at_most(wanted - now, most); }
+
+}  // namespace
+
+OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& wanted, bool enabled,
+                           double dt) {
+    const bool sound = finite(wanted.force) && finite(wanted.torque);
+    if (!sound) ++state.faults;
+    if (!enabled || !sound) {
+        // Down from the greatest output in `release`, whatever the slew limits say.
+        state.strength = 0.0;
+        state.force = towards(state.force, Vec3(0.0), limits.force * dt / limits.release);
+        state.torque = towards(state.torque, Vec3(0.0), limits.torque * dt / limits.release);
+    } else {
+        state.strength = std::min(1.0, state.strength + dt / limits.ramp_up);
+        const Vec3 force = at_most(wanted.force, limits.force) * state.strength;
+        const Vec3 torque = at_most(wanted.torque, limits.torque) * state.strength;
+        state.force = towards(state.force, force, limits.force_rate * dt);
+        state.torque = towards(state.torque, torque, limits.torque_rate * dt);
+    }
+    // Last of all, so that nothing above can be wrong enough to matter.
+    state.force = at_most(state.force, limits.force);
+    state.torque = at_most(state.torque, limits.torque);
+    return {state.force, state.torque};
+}
+
+}  // namespace bolt::force

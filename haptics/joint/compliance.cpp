@@ -1,0 +1,76 @@
+#include "haptics/joint/compliance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bolt::joint {
+
+double bolt_compliance(const Thread& thread, double E, double grip, double shank) {
+    const double smooth = std::clamp(shank, 0.0, grip);
+    const double head = 0.5 * thread.d / thread.A_N();
+    const double shaft = smooth / thread.A_N();
+    const double free_thread = (grip - smooth) / thread.A_d3();
+    const double engaged = 0.5 * thread.d / thread.A_d3();
+    const double nut = 0.4 * thread.d / thread.A_N();
+    return (head + shaft + free_thread + engaged + nut) / E;
+}
+
+namespace {
+
+// ∫ dz / (π/4 (D(z)² − d_h²)) from D0 to D1 along a cone of slope dD/dz = 2 tan φ.
+double cone_integral(double D0, double D1, double hole, double tan_phi) {
+    const double ratio = (D1 - hole) * (D0 + hole) / ((D1 + hole) * (D0 - hole));
+    return std::log(ratio) / (pi * hole * tan_phi);
+}
+
+}  // namespace
+
+double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A) {
+    double grip = 0.0;
+    for (const Member& layer : layers) grip += layer.thickness;
+    if (grip <= 0.0) return 0.0;
+
+    const double d_w = bearing_diameter;
+    const double y = (D_A > d_w ? D_A : 3.0 * d_w) / d_w;
+    // VDI 2230-1 (5.1/28) for a through-bolted joint (w = 1), β_L = l_K/d_w.
+    const double tan_phi = 0.362 + 0.032 * std::log(0.5 * grip / d_w) + 0.153 * std::log(y);
+    const double limit = D_A > 0.0 ? std::max(D_A, d_w) : 1e9;
+
+    // The diameter grows from d_w at either end to the middle of the grip, and stops at D_A: cone, then sleeve.
+    const auto diameter = [&](double z) { return std::min(d_w + 2.0 * tan_phi * std::min(z, grip - z), limit); };
+    const double cone_end = std::min(0.5 * grip, 0.5 * (limit - d_w) / tan_phi);
+    const double breaks[] = {0.0, cone_end, grip - cone_end, grip};
+
+    double compliance = 0.0;
+    double begin = 0.0;
+    for (const Member& layer : layers) {
+        const double end = begin + layer.thickness;
+        for (int i = 0; i < 3; ++i) {
+            const double z0 = std::max(begin, breaks[i]);
+            const double z1 = std::min(end, breaks[i + 1]);
+            if (z1 <= z0) continue;
+            const double D0 = diameter(z0), D1 = diameter(z1);
+            const double area_integral = i == 1 ? (z1 - z0) / (0.25 * pi * (square(limit) - square(hole)))
+                                                : cone_integral(std::min(D0, D1), std::max(D0, D1), hole, tan_phi);
+            compliance += area_integral / layer.E;
+        }
+        begin = end;
+    }
+    return compliance;
+}
+
+double joint_compliance(const JointDesign& design) {
+    constexpr double steel = 205e9;
+    const FastenerSize& size = design.thread.size;
+    std::vector<Member> layers = design.members;
+    if (design.washer_under_head) layers.insert(layers.begin(), Member{size.washer_thickness, steel});
+    if (design.washer_under_nut) layers.push_back(Member{size.washer_thickness, steel});
+    const double thread_l = design.bolt_thread_length > 0.0 ? design.bolt_thread_length
+                                                            : thread_length(size.d, design.bolt_length);
+    return bolt_compliance(design.thread.thread, design.bolt_class.E, design.grip_length(),
+                           design.bolt_length - thread_l) +
+           member_compliance(layers, size.nut_bearing, size.hole, design.member_diameter);
+}
+
+}  // namespace bolt::joint

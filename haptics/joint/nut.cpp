@@ -1,0 +1,62 @@
+#include "haptics/joint/nut.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::joint {
+
+namespace {
+
+// Torque on the nut as it depends on the speed after the step: at_rest − dt · stiffness · ω.
+struct Drive {
+    double at_rest = 0.0;
+    double stiffness = 0.0;
+};
+
+double next_speed(const Resistance& r, double inertia, NutMotion nut, const Drive& drive, double dt) {
+    const double push = inertia * nut.speed / dt + drive.at_rest;
+    const double mass = inertia / dt + dt * drive.stiffness;
+    const double floor = 0.1 * inertia / dt;  // a resistance that falls faster than this is caught, not followed
+    if (push > r.tighten) return (push - r.tighten) / std::max(mass + dt * r.tighten_slope, floor);
+    if (push < r.loosen) return (push - r.loosen) / std::max(mass + dt * r.loosen_slope, floor);
+    return 0.0;
+}
+
+double share_of(const Resistance& r, double torque, double speed) {
+    if (speed != 0.0) return speed > 0.0 ? 1.0 : -1.0;
+    const double friction = torque >= r.lead ? r.tighten - r.lead : r.lead - r.loosen;
+    return friction > 0.0 ? std::clamp((torque - r.lead) / friction, -1.0, 1.0) : 0.0;
+}
+
+}  // namespace
+
+NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt) {
+    // A thread that would run by itself is held by the fingers that started it: the nut rests at zero torque.
+    Resistance r = given;
+    r.tighten = std::max(r.tighten, 0.0);
+    r.loosen = std::min(r.loosen, 0.0);
+
+    NutStep step;
+    const double gap = handle.engaged ? handle.angle - nut.angle : 0.0;
+    const double wound = gap - std::clamp(gap, -handle.half_play, handle.half_play);
+    Drive drive{handle.stiffness * wound, wound == 0.0 ? 0.0 : handle.stiffness};
+    double speed = next_speed(r, inertia, nut, drive, dt);
+    step.torque = drive.at_rest - dt * drive.stiffness * speed;
+
+    const double limit = handle.torque_limit;
+    if (limit > 0.0 && std::abs(step.torque) > limit) {
+        drive = {std::copysign(limit, wound), 0.0};
+        speed = next_speed(r, inertia, nut, drive, dt);
+        step.torque = drive.at_rest;
+        step.slipped = true;
+    } else if (step.torque * wound < 0.0) {  // a jaw pushes; it does not pull
+        drive = {};
+        speed = next_speed(r, inertia, nut, drive, dt);
+        step.torque = 0.0;
+    }
+    step.nut = {nut.angle + dt * speed, speed};
+    step.share = share_of(r, step.torque, speed);
+    return step;
+}
+
+}  // namespace bolt::joint

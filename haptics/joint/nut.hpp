@@ -1,0 +1,40 @@
+// The nut on its thread, driven by a hand through a wrench: it stands until the torque overcomes the resistance, then
+// follows, with no chatter at rest and no energy made.
+//
+// Coulomb friction is set-valued at rest. One implicit step of the velocity (Moreau's time stepping) resolves it in
+// closed form: stand, turn on, or turn off, whichever is consistent; there is nothing to iterate and nothing to tune.
+#pragma once
+
+#include "haptics/joint/mechanistic.hpp"
+
+namespace bolt::joint {
+
+struct NutMotion {
+    double angle = 0.0;  // rad
+    double speed = 0.0;  // rad/s
+};
+
+// What holds the nut: a spring with play between the hand's angle and the nut's, or nothing.
+struct Handle {
+    bool engaged = false;
+    double angle = 0.0;         // rad, the hand's angle in the nut's count (re-grips taken off)
+    double half_play = 0.0;     // rad, backlash to either side
+    double stiffness = 0.0;     // N·m/rad
+    double torque_limit = 0.0;  // N·m, at which the grip slips (fingers); 0: never
+};
+
+struct NutStep {
+    NutMotion nut;
+    double torque = 0.0;    // N·m on the nut, tightening positive
+    double share = 0.0;     // friction share after the step, −1…1
+    bool slipped = false;   // the grip's torque limit was reached
+};
+
+// `inertia` (kg·m²) of nut and wrench about the bolt must be at least dt² times the steepest fall of the loosening
+// torque; coupling_inertia() gives one that is.
+NutStep step_nut(const Resistance& r, double inertia, NutMotion nut, const Handle& handle, double dt);
+
+// The inertia that makes the coupling spring resolve within a step.
+inline double coupling_inertia(double stiffness, double dt) { return stiffness * dt * dt; }
+
+}  // namespace bolt::joint

@@ -1,0 +1,101 @@
+#include "haptics/servo/engagement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::servo {
+
+namespace {
+
+constexpr double centring = 1.5e-3;       // m off the axis at which a jaw still slides on
+constexpr double squareness = 0.9976;     // cos 4°
+constexpr double finger_reach = 0.012;    // m
+constexpr double hold_relaxation = 0.05;  // s
+
+struct Offset {
+    double axial = 0.0;   // m, along the nut's axis
+    double radial = 0.0;  // m
+};
+
+Offset offset_of(const Vec3& from_centre, const NutPlace& nut) {
+    const double axial = glm::dot(from_centre, nut.axis);
+    return {axial, glm::length(from_centre - axial * nut.axis)};
+}
+
+bool pulled_away(const NutPlace& nut, const Offset& o, Grip grip) {
+    if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) > 2.0 * finger_reach;
+    return std::abs(o.axial) > 0.6 * nut.height || o.radial > 0.3 * nut.across_flats;
+}
+
+bool takes_hold(const Setup& setup, const NutPlace& nut, const Offset& o, const ToolPose& tool, Grip grip,
+                double misalignment) {
+    if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) < finger_reach;
+    return std::abs(o.axial) < 0.35 * nut.height && o.radial < centring &&
+           std::abs(glm::dot(tool.normal, nut.axis)) > squareness &&
+           std::abs(misalignment) <= setup.wrench.half_play;
+}
+
+}  // namespace
+
+ToolPose pose_of(const DeviceSample& sample) {
+    ToolPose tool;
+    for (int i = 0; i < 3; ++i)
+        tool.position[i] = std::isfinite(sample.position[i]) ? static_cast<double>(sample.position[i]) : 1e6;
+    const Quat q(static_cast<double>(sample.orientation[0]), static_cast<double>(sample.orientation[1]),
+                 static_cast<double>(sample.orientation[2]), static_cast<double>(sample.orientation[3]));
+    const double norm = std::sqrt(glm::dot(q, q));
+    if (std::isfinite(norm) && norm > 0.5 && norm < 2.0) {  // a lying device keeps the default orientation
+        const Quat unit = q / norm;
+        tool.handle = unit * Vec3(1, 0, 0);
+        tool.normal = unit * Vec3(0, 0, 1);
+    }
+    return tool;
+}
+
+Vec3 nut_centre(const NutPlace& nut, double nut_angle) {
+    const double gap = std::max(0.0, nut.start_gap - nut.lead * nut_angle);
+    return nut.seat + nut.axis * (gap + 0.5 * nut.height);
+}
+
+double tool_azimuth(const Setup& setup, const NutPlace& nut, const ToolPose& tool, Grip grip) {
+    // Counter-clockwise about the axis loosens a right-hand thread: tightening is the negative azimuth.
+    const double handle = -std::atan2(glm::dot(tool.handle, nut.e2), glm::dot(tool.handle, nut.e1));
+    if (grip != Grip::wrench) return handle;
+    return handle + (glm::dot(tool.normal, nut.axis) < 0.0 ? setup.wrench.head_angle : -setup.wrench.head_angle);
+}
+
+void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool, Grip grip,
+                       Engagement& e) {
+    if (e.joint >= 0) {
+        const NutPlace& nut = setup.nuts[static_cast<std::size_t>(e.joint)];
+        const double nut_angle = joints[static_cast<std::size_t>(e.joint)].nut.angle;
+        const Offset o = offset_of(tool.position - nut_centre(nut, nut_angle), nut);
+        if (grip != e.grip || pulled_away(nut, o, grip)) {
+            e = Engagement{};
+        } else {
+            const double azimuth = tool_azimuth(setup, nut, tool, grip);
+            e.hand_angle += wrap(azimuth - e.azimuth, 2.0 * pi);
+            e.azimuth = azimuth;
+            e.held_at *= 1.0 - setup.dt / hold_relaxation;
+            return;
+        }
+    }
+    if (grip == Grip::none) return;
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
+        const NutPlace& nut = setup.nuts[i];
+        const double nut_angle = joints[i].nut.angle;
+        const Vec3 from_centre = tool.position - nut_centre(nut, nut_angle);
+        if (std::abs(from_centre.x) + std::abs(from_centre.y) + std::abs(from_centre.z) > 0.1) continue;
+        const double azimuth = tool_azimuth(setup, nut, tool, grip);
+        const double misalignment = wrap(azimuth - nut_angle, pi / 3.0);  // a hexagon repeats every 60°
+        if (!takes_hold(setup, nut, offset_of(from_centre, nut), tool, grip, misalignment)) continue;
+        e.joint = static_cast<int>(i);
+        e.grip = grip;
+        e.azimuth = azimuth;
+        e.hand_angle = nut_angle + (grip == Grip::wrench ? misalignment : 0.0);
+        e.held_at = from_centre;
+        return;
+    }
+}
+
+}  // namespace bolt::servo

@@ -1,0 +1,36 @@
+// Which nut the hand holds, and with what. Until contact geometry answers this (jaw sliding onto the hexagon), it is
+// read off the poses: the jaw must be level with the nut, centred, square to the axis and aligned within its play.
+#pragma once
+
+#include "haptics/servo/io.hpp"
+#include "haptics/servo/setup.hpp"
+
+namespace bolt::servo {
+
+struct ToolPose {
+    Vec3 position{0.0};
+    Vec3 handle{1.0, 0.0, 0.0};  // x axis of the tool
+    Vec3 normal{0.0, 0.0, 1.0};  // z axis of the tool
+};
+
+ToolPose pose_of(const DeviceSample& sample);
+
+struct Engagement {
+    int joint = -1;             // −1: nothing held
+    Grip grip = Grip::none;
+    double azimuth = 0.0;       // rad, the tool's last angle about the bolt, tightening positive, not unwrapped
+    double hand_angle = 0.0;    // rad, the same unwrapped, in the nut's count
+    Vec3 held_at{0.0};          // tool minus nut centre when it was engaged; relaxes to zero
+};
+
+// Centre of the nut, m: it comes down as it turns.
+Vec3 nut_centre(const NutPlace& nut, double nut_angle);
+
+// Angle of the jaw (or of the fingers) about the bolt, rad, tightening positive.
+double tool_azimuth(const Setup& setup, const NutPlace& nut, const ToolPose& tool, Grip grip);
+
+// Lets go when the grip changes or the tool is pulled away; takes hold when it fits.
+void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool, Grip grip,
+                       Engagement& engagement);
+
+}  // namespace bolt::servo

@@ -1,0 +1,61 @@
+#include "haptics/servo/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::servo {
+
+namespace {
+
+NutPlace place(const joint::JointDesign& design) {
+    NutPlace nut;
+    nut.seat = design.seat;
+    nut.axis = glm::normalize(design.axis);
+    const Vec3 helper = std::abs(nut.axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+    nut.e1 = glm::normalize(helper - nut.axis * glm::dot(helper, nut.axis));
+    nut.e2 = glm::cross(nut.axis, nut.e1);
+    nut.height = design.thread.size.nut_height;
+    nut.across_flats = design.thread.size.across_flats;
+    nut.start_gap = design.start_gap;
+    nut.lead = design.thread.thread.pitch / (2.0 * pi);
+    return nut;
+}
+
+}  // namespace
+
+double jaw_half_play(double jaw, double across_flats) {
+    const double half_flat = 0.5 * across_flats / std::sqrt(3.0);
+    return 0.5 * std::max(jaw - across_flats, 0.0) / half_flat;
+}
+
+Setup make_setup(const Description& d) {
+    Setup setup;
+    setup.dt = d.dt;
+    setup.group = d.law == joint::Law::mechanistic ? joint::make_group(d.joints, d.flange, d.seed)
+                                                   : joint::make_published_group(d.published);
+    double across_flats = 0.0;
+    for (const joint::JointDesign& design : d.joints) {
+        setup.nuts.push_back(place(design));
+        across_flats = std::max(across_flats, design.thread.size.across_flats);
+    }
+    if (d.law == joint::Law::published)
+        for (NutPlace& nut : setup.nuts)
+            nut.start_gap = nut.lead * to_radians(joint::published_boundaries(d.published).linearity);
+
+    setup.wrench.head_angle = d.head_angle;
+    setup.wrench.handle_length = d.handle_length;
+    setup.wrench.half_play = jaw_half_play(d.jaw, across_flats);
+    const double greatest = std::max(d.greatest_torque, 1.0);
+    setup.wrench.stiffness = greatest / to_radians(2.5);  // wrench and wrists give 2.5° at the greatest torque
+
+    setup.limits = d.limits;
+    const double margin = 0.8;  // of the device's range at the greatest torque asked for
+    if (d.limits.torque > 0.0)
+        setup.torque_scale = std::min(1.0, margin * d.limits.torque / greatest);
+    else
+        setup.torque_as_force = std::min(1.0 / d.handle_length, margin * d.limits.force / greatest);
+    setup.guiding.gain = square(std::min(3.0, 0.2 * d.limits.force)) / setup.guiding.stiffness;
+    return setup;
+}
+
+}  // namespace bolt::servo

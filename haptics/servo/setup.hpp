@@ -1,0 +1,68 @@
+// Everything a tick reads and never changes. Made once, when an assembly is loaded; all allocation happens here.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "haptics/force/guiding.hpp"
+#include "haptics/force/output_stage.hpp"
+#include "haptics/joint/design.hpp"
+#include "haptics/joint/group.hpp"
+
+namespace bolt::servo {
+
+// A nut in the assembly's frame: right-handed thread, `axis` from the members towards the nut, e1 × e2 = axis.
+struct NutPlace {
+    Vec3 seat{0.0};
+    Vec3 axis{0.0, 1.0, 0.0};
+    Vec3 e1{1.0, 0.0, 0.0};
+    Vec3 e2{0.0, 0.0, -1.0};
+    double height = 0.0;        // m
+    double across_flats = 0.0;  // s, m
+    double start_gap = 0.0;     // m, face to seat at angle 0
+    double lead = 0.0;          // m/rad
+};
+
+struct Wrench {
+    double head_angle = 0.0;     // rad, between jaw and handle; flipping the wrench changes its side
+    double handle_length = 0.0;  // m
+    double half_play = 0.0;      // rad, jaw on hexagon, to either side
+    double stiffness = 0.0;      // N·m/rad, wrench and hand coupling
+};
+
+struct Setup {
+    double dt = 0.001;
+    joint::GroupParameters group;
+    std::vector<NutPlace> nuts;
+    Wrench wrench;
+    double finger_stiffness = 5.0;     // N·m/rad
+    double finger_torque = 0.8;        // N·m at which fingertips slip on the nut
+    double hold_stiffness = 1000.0;    // N/m, engaged tool against the nut's centre
+    double hold_torsion = 5.0;         // N·m/rad, against tilting
+    double torque_scale = 1.0;         // device torque / true torque
+    double torque_as_force = 0.0;      // N at the grip per N·m, for devices without torque
+    force::Guiding guiding;
+    force::OutputLimits limits;
+};
+
+struct Description {
+    std::span<const joint::JointDesign> joints;
+    joint::Law law = joint::Law::mechanistic;
+    joint::PublishedParameters published;
+    const joint::FlangePlate* flange = nullptr;
+    double jaw = 0.0;              // m
+    double head_angle = 0.0;       // rad
+    double handle_length = 0.0;    // m
+    double greatest_torque = 0.0;  // N·m that the lesson asks for: what the device's range is scaled to
+    force::OutputLimits limits;
+    std::uint64_t seed = 0;
+    double dt = 0.001;
+};
+
+Setup make_setup(const Description& description);
+
+// Free rotation, to either side, of a jaw of width `jaw` on a hexagon of width s: the jaw's clearance over the half
+// length of a flat, 2 (jaw − s)/2 / (s/√3) rad to first order.
+double jaw_half_play(double jaw, double across_flats);
+
+}  // namespace bolt::servo
