@@ -26,7 +26,8 @@ tl::unexpected<Error> file_error(const std::filesystem::path& path, ErrorCode co
 
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit, ErrorCode code) {
     std::error_code status;
-    if (std::filesystem::is_directory(path, status)) return file_error(path, code, "this is a folder, not a file");
+    if (std::filesystem::is_directory(path, status))
+        return file_error(path, code, "this is a folder, not a file");
     const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
     if (!file) return file_error(path, code, std::string("cannot be opened: ") + std::strerror(errno));
     std::string text;
@@ -53,7 +54,8 @@ Status write_file(const std::filesystem::path& path, std::string_view text) {
     if (!written || !closed) {
         const int reason = written ? errno : write_errno;
         (void)std::remove(part.c_str());
-        return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(reason));
+        return file_error(path, ErrorCode::failed,
+                          std::string("cannot be written: ") + std::strerror(reason));
     }
     std::error_code status;
     std::filesystem::rename(part, path, status);

@@ -10,10 +10,10 @@ class Random {
   public:
     explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
-    std::uint32_t bits();                    // 32 uniform bits
-    double uniform();                        // [0, 1)
-    double uniform(double low, double high); // [low, high)
-    double normal();                         // mean 0, standard deviation 1, cut at ±3
+    std::uint32_t bits();                     // 32 uniform bits
+    double uniform();                         // [0, 1)
+    double uniform(double low, double high);  // [low, high)
+    double normal();                          // mean 0, standard deviation 1, cut at ±3
     bool chance(double probability) { return uniform() < probability; }
 
   private:

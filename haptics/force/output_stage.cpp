@@ -22,8 +22,8 @@ Vec3 towards(const Vec3& now, const Vec3& wanted, double most) { return now + at
 
 }  // namespace
 
-OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& wanted, bool enabled,
-                           double dt) {
+OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& wanted,
+                           bool enabled, double dt) {
     const bool sound = finite(wanted.force) && finite(wanted.torque);
     if (!sound) ++state.faults;
     if (!enabled || !sound) {

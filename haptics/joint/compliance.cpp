@@ -37,8 +37,11 @@ double member_compliance(std::span<const Member> layers, double bearing_diameter
     const double tan_phi = 0.362 + 0.032 * std::log(0.5 * grip / d_w) + 0.153 * std::log(y);
     const double limit = D_A > 0.0 ? std::max(D_A, d_w) : 1e9;
 
-    // The diameter grows from d_w at either end to the middle of the grip, and stops at D_A: cone, then sleeve.
-    const auto diameter = [&](double z) { return std::min(d_w + 2.0 * tan_phi * std::min(z, grip - z), limit); };
+    // The diameter grows from d_w at either end to the middle of the grip, and stops at D_A: cone, then
+    // sleeve.
+    const auto diameter = [&](double z) {
+        return std::min(d_w + 2.0 * tan_phi * std::min(z, grip - z), limit);
+    };
     const double cone_end = std::min(0.5 * grip, 0.5 * (limit - d_w) / tan_phi);
     const double breaks[] = {0.0, cone_end, grip - cone_end, grip};
 
@@ -51,8 +54,9 @@ double member_compliance(std::span<const Member> layers, double bearing_diameter
             const double z1 = std::min(end, breaks[i + 1]);
             if (z1 <= z0) continue;
             const double D0 = diameter(z0), D1 = diameter(z1);
-            const double area_integral = i == 1 ? (z1 - z0) / (0.25 * pi * (square(limit) - square(hole)))
-                                                : cone_integral(std::min(D0, D1), std::max(D0, D1), hole, tan_phi);
+            const double area_integral =
+                i == 1 ? (z1 - z0) / (0.25 * pi * (square(limit) - square(hole)))
+                       : cone_integral(std::min(D0, D1), std::max(D0, D1), hole, tan_phi);
             compliance += area_integral / layer.E;
         }
         begin = end;

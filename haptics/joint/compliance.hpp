@@ -10,9 +10,9 @@ namespace bolt::joint {
 // δ_S: head (0.5 d), shank, free thread, engaged thread (0.5 d on the core) and nut (0.4 d).
 double bolt_compliance(const Thread& thread, double E, double grip, double shank);
 
-// δ_P of a stack of layers under the deformation cones of head and nut (through-bolted joint), concentric, with a cone
-// that may be cut by the outer diameter D_A (0: unlimited; the cone's angle is then taken at D_A = 3 d_w).
-// Layers of different modulus are integrated exactly along the cone.
+// δ_P of a stack of layers under the deformation cones of head and nut (through-bolted joint), concentric,
+// with a cone that may be cut by the outer diameter D_A (0: unlimited; the cone's angle is then taken at D_A
+// = 3 d_w). Layers of different modulus are integrated exactly along the cone.
 double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A);
 
 // Both, of a design: shank length from the bolt's thread length, washers as steel layers.

@@ -16,7 +16,8 @@ double signed_torque(const GroupParameters& group, const JointState& joint, Dire
 bool spent(const JointState& joint) { return joint.condition == Condition::broken; }
 
 // Turns on until the torque is there; gives up where the joint no longer can.
-void tighten_to(const GroupParameters& group, std::vector<JointState>& joints, double torque, const CurveOptions& o) {
+void tighten_to(const GroupParameters& group, std::vector<JointState>& joints, double torque,
+                const CurveOptions& o) {
     for (std::size_t i = 0; i < longest && joints[0].torque < torque && !spent(joints[0]); ++i)
         turn_nut(group, joints, 0, joints[0].nut.angle + o.speed * o.dt, 1.0, o.dt);
     for (int i = 0; i < 10'000; ++i) step_group(group, joints, -1, Handle{}, 0.001);
@@ -40,11 +41,14 @@ std::vector<CurveSample> torque_angle_curve(const GroupParameters& group, const 
         samples.push_back({turned, joint.stage, signed_torque(group, joint, o.direction), joint.clamp});
         if (on) {
             if (joint.stage == Stage::yield && yield_begin < 0.0) yield_begin = turned;
-            if (spent(joint) || (yield_begin >= 0.0 && turned >= yield_begin + o.past_yield - 0.5 * std::abs(step)))
+            if (spent(joint) ||
+                (yield_begin >= 0.0 && turned >= yield_begin + o.past_yield - 0.5 * std::abs(step)))
                 break;
         } else {
-            if (joint.stage != Stage::navigation) free_begin = -1.0;
-            else if (free_begin < 0.0) free_begin = turned;
+            if (joint.stage != Stage::navigation)
+                free_begin = -1.0;
+            else if (free_begin < 0.0)
+                free_begin = turned;
             if (free_begin >= 0.0 && turned >= free_begin + 0.5 * pi) break;
             if (joint.nut.angle <= 0.0) break;
         }

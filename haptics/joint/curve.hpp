@@ -8,7 +8,7 @@
 namespace bolt::joint {
 
 struct CurveSample {
-    double angle = 0.0;   // rad from the start of the run
+    double angle = 0.0;  // rad from the start of the run
     Stage stage = Stage::navigation;
     double torque = 0.0;  // N·m; loosening negative. Law `published`: with the signs of the print
     double clamp = 0.0;   // N
@@ -18,8 +18,9 @@ struct CurveOptions {
     Direction direction = Direction::tighten;
     double speed = to_radians(30.0);  // rad/s
     double dt = 0.001;                // s, one sample a step
-    // Tightening ends `past_yield` after the yield stage has begun, or where the joint breaks or strips. Loosening
-    // starts from a joint tightened to `torque`, rested for 10 s, and ends when the nut has been free for a quarter turn.
+    // Tightening ends `past_yield` after the yield stage has begun, or where the joint breaks or strips.
+    // Loosening starts from a joint tightened to `torque`, rested for 10 s, and ends when the nut has been
+    // free for a quarter turn.
     double past_yield = to_radians(90.0);
     double torque = 0.0;
 };

@@ -13,10 +13,10 @@ namespace bolt::joint {
 enum class Lubrication { as_received, dry, oiled, mos2 };
 
 struct FrictionDesign {
-    double thread = 0.12;          // μ_G, running
-    double bearing = 0.12;         // μ_K, running, under the turned nut
-    double static_ratio = 1.15;    // breakaway / running
-    double scatter = 0.0;          // standard deviation of both from bolt to bolt, relative
+    double thread = 0.12;        // μ_G, running
+    double bearing = 0.12;       // μ_K, running, under the turned nut
+    double static_ratio = 1.15;  // breakaway / running
+    double scatter = 0.0;        // standard deviation of both from bolt to bolt, relative
     Lubrication lubrication = Lubrication::as_received;
 };
 
@@ -29,9 +29,9 @@ struct JointDesign {
     std::string id;
     ThreadSize thread;
     PropertyClass bolt_class;
-    double nut_strength = 0.0;     // Pa, proof stress of the nut (ISO 898-2); 0: matched to the bolt
-    double bolt_length = 0.0;      // m, under the head
-    double bolt_thread_length = 0; // m; 0: ISO 4014
+    double nut_strength = 0.0;      // Pa, proof stress of the nut (ISO 898-2); 0: matched to the bolt
+    double bolt_length = 0.0;       // m, under the head
+    double bolt_thread_length = 0;  // m; 0: ISO 4014
     bool washer_under_head = false;
     bool washer_under_nut = false;
     std::vector<Member> members;   // what is clamped, without washers

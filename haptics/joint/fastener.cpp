@@ -14,21 +14,12 @@ namespace {
 constexpr double mm = 1e-3;
 constexpr double MPa = 1e6;
 
-constexpr FastenerSize row(std::string_view name, double d, double coarse, double fine1, double fine2, double fine3,
-                           double s, double k, double dw_head, double m, double dw_nut, double w1, double w2,
-                           double wh, double hole) {
-    return {name,
-            d * mm,
-            coarse * mm,
-            {fine1 * mm, fine2 * mm, fine3 * mm},
-            s * mm,
-            k * mm,
-            dw_head * mm,
-            m * mm,
-            dw_nut * mm,
-            w1 * mm,
-            w2 * mm,
-            wh * mm,
+constexpr FastenerSize row(std::string_view name, double d, double coarse, double fine1, double fine2,
+                           double fine3, double s, double k, double dw_head, double m, double dw_nut,
+                           double w1, double w2, double wh, double hole) {
+    return {name,        d * mm,  coarse * mm,  {fine1 * mm, fine2 * mm, fine3 * mm},
+            s * mm,      k * mm,  dw_head * mm, m * mm,
+            dw_nut * mm, w1 * mm, w2 * mm,      wh * mm,
             hole * mm};
 }
 
@@ -110,13 +101,15 @@ Result<ThreadSize> parse_thread(std::string_view text) {
     const std::string_view name = text.substr(0, cross);
     for (const FastenerSize& size : sizes) {
         if (size.name != name) continue;
-        if (cross == std::string_view::npos) return ThreadSize{size, metric_thread(size.d, size.coarse_pitch)};
+        if (cross == std::string_view::npos)
+            return ThreadSize{size, metric_thread(size.d, size.coarse_pitch)};
         const std::string_view digits = text.substr(cross + 1);
         double pitch = 0.0;
         const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), pitch);
         const bool whole = problem == std::errc{} && end == digits.data() + digits.size();
         const auto is = [&](double p) { return p > 0.0 && std::abs(p - pitch * mm) < 1e-9; };
-        if (whole && (is(size.coarse_pitch) || std::any_of(std::begin(size.fine_pitches), std::end(size.fine_pitches), is)))
+        if (whole && (is(size.coarse_pitch) ||
+                      std::any_of(std::begin(size.fine_pitches), std::end(size.fine_pitches), is)))
             return ThreadSize{size, metric_thread(size.d, pitch * mm)};
         std::string pitches = pitch_text(size.coarse_pitch);
         for (const double p : size.fine_pitches)
@@ -149,8 +142,8 @@ Result<PropertyClass> property_class(std::string_view name, double d) {
         result.stainless = c.stainless;
         return result;
     }
-    return unknown(fmt::format("\"{}\" is no property class that we know", name), name, property_class_names(),
-                   fmt::format("one of {}", fmt::join(property_class_names(), ", ")));
+    return unknown(fmt::format("\"{}\" is no property class that we know", name), name,
+                   property_class_names(), fmt::format("one of {}", fmt::join(property_class_names(), ", ")));
 }
 
 double thread_length(double d, double l) {

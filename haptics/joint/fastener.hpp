@@ -13,19 +13,19 @@ namespace bolt::joint {
 
 // Metres. Bolt ISO 4014/4017, nut ISO 4032 (style 1), washer ISO 7089, hole ISO 273 medium, thread ISO 261.
 struct FastenerSize {
-    std::string_view name;    // "M16"
-    double d;                 // nominal diameter
+    std::string_view name;  // "M16"
+    double d;               // nominal diameter
     double coarse_pitch;
-    double fine_pitches[3];   // 0 where there is none
-    double across_flats;      // s of head and nut (M10, M12, M14, M22: ISO 272, not the old DIN 934)
-    double head_height;       // k
-    double head_bearing;      // d_w min of the bolt head
-    double nut_height;        // m max
-    double nut_bearing;       // d_w min of the nut
+    double fine_pitches[3];  // 0 where there is none
+    double across_flats;     // s of head and nut (M10, M12, M14, M22: ISO 272, not the old DIN 934)
+    double head_height;      // k
+    double head_bearing;     // d_w min of the bolt head
+    double nut_height;       // m max
+    double nut_bearing;      // d_w min of the nut
     double washer_inner;
     double washer_outer;
     double washer_thickness;
-    double hole;              // d_h, medium series
+    double hole;  // d_h, medium series
 };
 
 std::span<const FastenerSize> fastener_sizes();
@@ -43,13 +43,13 @@ std::vector<std::string> thread_names();
 
 // Strength of the bolt material (ISO 898-1; stainless ISO 3506-1). Pascals.
 struct PropertyClass {
-    std::string name;           // "8.8", "A2-70"
-    double R_p02 = 0.0;         // proof strength at 0.2 % plastic strain (or lower yield strength)
-    double R_m = 0.0;           // tensile strength
-    double proof_ratio = 0.0;   // elastic limit / R_p0.2: S_p/R_p0.2 of ISO 898-1; for stainless our estimate
-    double fracture_strain = 0; // elongation after fracture A
-    double E = 0.0;             // Young's modulus
-    double kappa = 0.0;         // torsion: 3/2 fully plastic (VDI 2230), 2 elastic (published stainless tables)
+    std::string name;          // "8.8", "A2-70"
+    double R_p02 = 0.0;        // proof strength at 0.2 % plastic strain (or lower yield strength)
+    double R_m = 0.0;          // tensile strength
+    double proof_ratio = 0.0;  // elastic limit / R_p0.2: S_p/R_p0.2 of ISO 898-1; for stainless our estimate
+    double fracture_strain = 0;  // elongation after fracture A
+    double E = 0.0;              // Young's modulus
+    double kappa = 0.0;  // torsion: 3/2 fully plastic (VDI 2230), 2 elastic (published stainless tables)
     bool stainless = false;
 };
 

@@ -20,7 +20,8 @@ double FlangePlate::deflection_per_force(double r) const {
 
 double kelvin_kei(double x) {
     if (x < 1e-9) return -0.25 * pi;
-    // K0(z) = ∫₀^∞ exp(−z cosh t) dt. The integrand is even and analytic: the trapezoidal rule converges exponentially.
+    // K0(z) = ∫₀^∞ exp(−z cosh t) dt. The integrand is even and analytic: the trapezoidal rule converges
+    // exponentially.
     const std::complex<double> z = std::polar(x, 0.25 * pi);
     constexpr double step = 1.0 / 64.0;
     double sum = 0.5 * std::exp(-z).imag();

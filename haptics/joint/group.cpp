@@ -42,7 +42,8 @@ void settle_published(const GroupParameters& group, JointState& joint, double an
 
 }  // namespace
 
-GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange, std::uint64_t seed) {
+GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange,
+                           std::uint64_t seed) {
     GroupParameters group;
     std::vector<Vec3> seats;
     for (std::size_t i = 0; i < designs.size(); ++i) {
@@ -75,7 +76,8 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
     const double degrees = to_degrees(state.nut.angle);
     const auto on = published_read(group.published, state.published, degrees, Direction::tighten);
     const auto off = published_read(group.published, state.published, degrees, Direction::loosen);
-    // The print gives the torques of the stages different signs; what is felt is their size, against the motion.
+    // The print gives the torques of the stages different signs; what is felt is their size, against the
+    // motion.
     Resistance r;
     r.tighten = std::abs(on.torque);
     r.loosen = -std::abs(off.torque);

@@ -20,29 +20,32 @@ struct GroupParameters {
 
 struct JointState {
     NutMotion nut;
-    double torque = 0.0;    // N·m that the wrench or the fingers give now, tightening positive
-    double clamp = 0.0;     // N
+    double torque = 0.0;  // N·m that the wrench or the fingers give now, tightening positive
+    double clamp = 0.0;   // N
     Stage stage = Stage::navigation;
     Condition condition = Condition::sound;
     MechanisticState mechanistic;
     PublishedState published;
 };
 
-// Derives the joints (seeded scatter: one stream a joint) and couples them through the flange if there is one.
-GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange, std::uint64_t seed);
+// Derives the joints (seeded scatter: one stream a joint) and couples them through the flange if there is
+// one.
+GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange,
+                           std::uint64_t seed);
 GroupParameters make_published_group(const PublishedParameters& parameters);
 
 std::vector<JointState> initial_state(const GroupParameters& group, std::size_t joints);
 
 Resistance resistance(const GroupParameters& group, std::size_t joint, const JointState& state);
 
-// One step of dt: the nut `driven` (or none: −1) under its handle, then every joint's clamp force. The group's forces
-// minimise a strictly convex energy; each step is one sweep of exact minimisation joint by joint from the last
-// solution, so it never diverges, and what it leaves open is closed by the next steps.
+// One step of dt: the nut `driven` (or none: −1) under its handle, then every joint's clamp force. The
+// group's forces minimise a strictly convex energy; each step is one sweep of exact minimisation joint by
+// joint from the last solution, so it never diverges, and what it leaves open is closed by the next steps.
 void step_group(const GroupParameters& group, std::span<JointState> joints, int driven, const Handle& handle,
                 double dt);
 
-// Turns one nut to an angle as a machine would, kinematically, `share` the friction's direction (+1 on, −1 off).
+// Turns one nut to an angle as a machine would, kinematically, `share` the friction's direction (+1 on, −1
+// off).
 void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::size_t joint, double angle,
               double share, double dt);
 

@@ -17,9 +17,7 @@ double embedding_amount(double Rz, int interfaces) {
     struct Row {
         double thread, bearing, interface;
     };
-    const Row row = Rz < 10e-6   ? Row{3.0, 3.0, 2.0}
-                    : Rz < 40e-6 ? Row{3.0, 4.5, 2.5}
-                                 : Row{3.0, 6.5, 3.5};
+    const Row row = Rz < 10e-6 ? Row{3.0, 3.0, 2.0} : Rz < 40e-6 ? Row{3.0, 4.5, 2.5} : Row{3.0, 6.5, 3.5};
     return 1e-6 * (row.thread + 2.0 * row.bearing + interfaces * row.interface);
 }
 
@@ -27,14 +25,19 @@ struct Wear {
     double early, early_uses, per_use;
 };
 
-// Friction over re-use. Signs and sizes after the M8 series of Acta Polytechnica Hungarica 21(2) (2024) 133–150:
-// oiled faces run in within two or three tightenings, dry ones gall at once and go on, MoS2 is used up steadily.
+// Friction over re-use. Signs and sizes after the M8 series of Acta Polytechnica Hungarica 21(2) (2024)
+// 133–150: oiled faces run in within two or three tightenings, dry ones gall at once and go on, MoS2 is used
+// up steadily.
 Wear wear_of(Lubrication lubrication) {
     switch (lubrication) {
-        case Lubrication::dry: return {0.12, 2.0, 0.009};
-        case Lubrication::oiled: return {-0.20, 1.5, 0.0};
-        case Lubrication::mos2: return {0.0, 1.0, 0.05};
-        case Lubrication::as_received: break;
+        case Lubrication::dry:
+            return {0.12, 2.0, 0.009};
+        case Lubrication::oiled:
+            return {-0.20, 1.5, 0.0};
+        case Lubrication::mos2:
+            return {0.0, 1.0, 0.05};
+        case Lubrication::as_received:
+            break;
     }
     return {-0.05, 2.0, 0.025};
 }
@@ -43,10 +46,12 @@ double wear_factor(const MechanisticParameters& p, double uses) {
     return 1.0 + p.wear_early * (1.0 - std::exp(-uses / p.wear_early_uses)) + p.wear_per_use * uses;
 }
 
-// Drag of the free thread: it rises from nothing as the nut starts and then wavers with the angle, as measured runs do.
+// Drag of the free thread: it rises from nothing as the nut starts and then wavers with the angle, as
+// measured runs do.
 double running_drag(const MechanisticParameters& p, double angle) {
     const double start = -std::expm1(-std::max(angle, 0.0) / 0.5);
-    const double ripple = 0.25 * std::sin(angle + p.ripple_phase[0]) + 0.15 * std::sin(2.3 * angle + p.ripple_phase[1]) +
+    const double ripple = 0.25 * std::sin(angle + p.ripple_phase[0]) +
+                          0.15 * std::sin(2.3 * angle + p.ripple_phase[1]) +
                           0.10 * std::sin(5.1 * angle + p.ripple_phase[2]);
     return p.running * start * (1.0 + ripple);
 }
@@ -57,8 +62,8 @@ double nut_mass(const FastenerSize& size, const Thread& thread) {
 }
 
 // The force at which the elastic joint and the load capacity meet, between `low` and `high`:
-// the root of balance(F), which increases with F. Newton kept inside a shrinking bracket; the count is fixed, so it
-// ends, and the bracket halves where Newton does not do better, so it is right when it ends.
+// the root of balance(F), which increases with F. Newton kept inside a shrinking bracket; the count is fixed,
+// so it ends, and the bracket halves where Newton does not do better, so it is right when it ends.
 template <class Balance>
 double meet(double low, double high, const Balance& balance) {
     double F = high;
@@ -73,10 +78,10 @@ double meet(double low, double high, const Balance& balance) {
     return F;
 }
 
-// Plastic flow of the bolt, or shearing of the nut's threads, whichever is weaker. Rate-independent plasticity would
-// kink the torque when a loaded joint starts to flow again, so the flow follows its rate-independent solution with a
-// short time constant (Duvaut and Lions 1972): the slope stays continuous on every path, and what is dissipated
-// stays positive because the set only grows while F > 0.
+// Plastic flow of the bolt, or shearing of the nut's threads, whichever is weaker. Rate-independent
+// plasticity would kink the torque when a loaded joint starts to flow again, so the flow follows its
+// rate-independent solution with a short time constant (Duvaut and Lions 1972): the slope stays continuous on
+// every path, and what is dissipated stays positive because the set only grows while F > 0.
 void flow(const MechanisticParameters& p, MechanisticState& s, double closure, double ratio, double dt) {
     const double progress = -std::expm1(-dt / p.flow_time);
     const double strip_capacity = p.strip_load * std::max(0.0, 1.0 - s.stripped / p.strip_length);
@@ -150,7 +155,7 @@ MechanisticParameters derive(const JointDesign& design, Random& random) {
     const double nut_stress = design.nut_strength > 0.0 ? design.nut_strength : 1.15 * design.bolt_class.R_m;
     p.strip_load = nut_stress * p.thread.A_s;
     p.strip_length = 0.75 * size.nut_height;
-    p.flow_time = 0.01;
+    p.flow_time = 0.005;
 
     const int layers = static_cast<int>(design.members.size()) + (design.washer_under_head ? 1 : 0) +
                        (design.washer_under_nut ? 1 : 0);

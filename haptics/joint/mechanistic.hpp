@@ -1,5 +1,5 @@
-// The mechanistic law: one continuous state per joint for tightening and loosening, re-use, yield, stripping and
-// breaking. Sources beside each part; what is ours says so. All SI.
+// The mechanistic law: one continuous state per joint for tightening and loosening, re-use, yield, stripping
+// and breaking. Sources beside each part; what is ours says so. All SI.
 //
 //   closure     x = P θ/2π − gap − plastic − stripped − embedding − what the neighbours press together
 //   clamp force F from x: seat_spring.hpp, δ from VDI 2230 (compliance.hpp)
@@ -21,22 +21,22 @@ namespace bolt::joint {
 
 struct MechanisticParameters {
     Thread thread;
-    TorqueLevers levers;         // of this bolt: scatter included, wear not
-    double mu_thread = 0.0;      // of this bolt
+    TorqueLevers levers;     // of this bolt: scatter included, wear not
+    double mu_thread = 0.0;  // of this bolt
     double kappa = 1.5;
-    double gap = 0.0;            // m, nut face to seat at angle 0
+    double gap = 0.0;  // m, nut face to seat at angle 0
     SeatSpring seat;
     PlasticCurve bolt;
-    double strip_load = 0.0;     // N, axial load at which the nut's threads shear
-    double strip_length = 0.0;   // m of travel until they are gone
-    double flow_time = 0.0;      // s, see flow() in mechanistic.cpp
-    double embedding = 0.0;      // m, f_Z at the reference load and above
-    double embedding_time = 0.0; // s
-    double reference_load = 0.0; // N, 90 % yield preload: scales embedding and wear
-    double static_ratio = 1.0;   // breakaway/running friction
-    double breakaway_angle = 0;  // rad of sliding over which breakaway wears off
-    double healing_time = 0.0;   // s of rest over which it comes back
-    double wear_early = 0.0;     // friction change that saturates with the first re-uses, relative
+    double strip_load = 0.0;      // N, axial load at which the nut's threads shear
+    double strip_length = 0.0;    // m of travel until they are gone
+    double flow_time = 0.0;       // s, see flow() in mechanistic.cpp
+    double embedding = 0.0;       // m, f_Z at the reference load and above
+    double embedding_time = 0.0;  // s
+    double reference_load = 0.0;  // N, 90 % yield preload: scales embedding and wear
+    double static_ratio = 1.0;    // breakaway/running friction
+    double breakaway_angle = 0;   // rad of sliding over which breakaway wears off
+    double healing_time = 0.0;    // s of rest over which it comes back
+    double wear_early = 0.0;      // friction change that saturates with the first re-uses, relative
     double wear_early_uses = 1;
     double wear_per_use = 0.0;   // and that goes on, relative per use
     double drag = 0.0;           // N·m, prevailing torque
@@ -70,13 +70,13 @@ struct Resistance {
     double loosen = 0.0;         // N·m, negative where the nut holds
     double tighten_slope = 0.0;  // N·m/rad, of the elastic joint
     double loosen_slope = 0.0;
-    double lead = 0.0;           // N·m, the part that is not friction
+    double lead = 0.0;  // N·m, the part that is not friction
 };
 
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s);
 
-// The joint after the nut has been turned to `angle` in a step of `dt` with the friction share `share`. Also call it
-// with an unchanged angle: embedding and yield go on at rest. Total work; no allocation; cannot fail.
+// The joint after the nut has been turned to `angle` in a step of `dt` with the friction share `share`. Also
+// call it with an unchanged angle: embedding and yield go on at rest. Total work; no allocation; cannot fail.
 void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double share, double dt);
 
 // Free closure of the seat spring at this state and angle, m (negative: gap).

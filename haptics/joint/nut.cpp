@@ -16,7 +16,8 @@ struct Drive {
 double next_speed(const Resistance& r, double inertia, NutMotion nut, const Drive& drive, double dt) {
     const double push = inertia * nut.speed / dt + drive.at_rest;
     const double mass = inertia / dt + dt * drive.stiffness;
-    const double floor = 0.1 * inertia / dt;  // a resistance that falls faster than this is caught, not followed
+    const double floor =
+        0.1 * inertia / dt;  // a resistance that falls faster than this is caught, not followed
     if (push > r.tighten) return (push - r.tighten) / std::max(mass + dt * r.tighten_slope, floor);
     if (push < r.loosen) return (push - r.loosen) / std::max(mass + dt * r.loosen_slope, floor);
     return 0.0;

@@ -1,8 +1,9 @@
-// The nut on its thread, driven by a hand through a wrench: it stands until the torque overcomes the resistance, then
-// follows, with no chatter at rest and no energy made.
+// The nut on its thread, driven by a hand through a wrench: it stands until the torque overcomes the
+// resistance, then follows, with no chatter at rest and no energy made.
 //
-// Coulomb friction is set-valued at rest. One implicit step of the velocity (Moreau's time stepping) resolves it in
-// closed form: stand, turn on, or turn off, whichever is consistent; there is nothing to iterate and nothing to tune.
+// Coulomb friction is set-valued at rest. One implicit step of the velocity (Moreau's time stepping) resolves
+// it in closed form: stand, turn on, or turn off, whichever is consistent; there is nothing to iterate and
+// nothing to tune.
 #pragma once
 
 #include "haptics/joint/mechanistic.hpp"
@@ -25,13 +26,13 @@ struct Handle {
 
 struct NutStep {
     NutMotion nut;
-    double torque = 0.0;    // N·m on the nut, tightening positive
-    double share = 0.0;     // friction share after the step, −1…1
-    bool slipped = false;   // the grip's torque limit was reached
+    double torque = 0.0;   // N·m on the nut, tightening positive
+    double share = 0.0;    // friction share after the step, −1…1
+    bool slipped = false;  // the grip's torque limit was reached
 };
 
-// `inertia` (kg·m²) of nut and wrench about the bolt must be at least dt² times the steepest fall of the loosening
-// torque; coupling_inertia() gives one that is.
+// `inertia` (kg·m²) of nut and wrench about the bolt must be at least dt² times the steepest fall of the
+// loosening torque; coupling_inertia() gives one that is.
 NutStep step_nut(const Resistance& r, double inertia, NutMotion nut, const Handle& handle, double dt);
 
 // The inertia that makes the coupling spring resolve within a step.

@@ -8,9 +8,11 @@ namespace bolt::joint {
 
 namespace {
 
-double rise(double u, double scale) { return 1.0 - std::exp(-std::sqrt(u / scale)); }
+double power(double x) { return std::sqrt(x * std::sqrt(x)); }  // x^¾
 
-// u_c with rise(u_p)/rise(u_u) = share. The ratio falls monotonically as u_c grows, from 1 to √(u_p/u_u).
+double rise(double u, double scale) { return -std::expm1(-power(u / scale)); }
+
+// u_c with rise(u_p)/rise(u_u) = share. The ratio falls monotonically as u_c grows, from 1 to (u_p/u_u)^¾.
 double fit_scale(double u_p, double u_u, double share) {
     double low = std::log(u_u * 1e-6), high = std::log(u_u * 1e6);
     for (int i = 0; i < 200; ++i) {
@@ -23,7 +25,8 @@ double fit_scale(double u_p, double u_u, double share) {
 
 }  // namespace
 
-PlasticCurve PlasticCurve::make(const Thread& thread, const PropertyClass& bolt, double length, double compliance) {
+PlasticCurve PlasticCurve::make(const Thread& thread, const PropertyClass& bolt, double length,
+                                double compliance) {
     PlasticCurve c;
     c.elastic_load = bolt.proof_ratio * bolt.R_p02 * thread.A_s;
     c.ultimate_load = bolt.R_m * thread.A_s;
@@ -47,8 +50,8 @@ double PlasticCurve::load(double u) const {
 double PlasticCurve::slope(double u) const {
     if (u <= 0.0) return std::numeric_limits<double>::infinity();
     if (u < uniform) {
-        const double root = std::sqrt(u / scale);
-        return (ultimate_load - elastic_load) * std::exp(-root) / (2.0 * root * scale) / rise(uniform, scale);
+        const double x = power(u / scale);
+        return (ultimate_load - elastic_load) * std::exp(-x) * 0.75 * x / u / rise(uniform, scale);
     }
     return u >= fracture ? 0.0 : -(ultimate_load - neck_load) / (fracture - uniform);
 }

@@ -28,7 +28,8 @@ double linear_width_deg(const PublishedParameters& p) {
 }  // namespace
 
 double published_navigation_torque(const PublishedParameters& p, Direction direction) {
-    return -weight(p) * (std::sin(p.alpha) - sign_of(direction) * p.mu * std::cos(p.alpha)) * 0.5 * p.d2_mm * Nmm;
+    return -weight(p) * (std::sin(p.alpha) - sign_of(direction) * p.mu * std::cos(p.alpha)) * 0.5 * p.d2_mm *
+           Nmm;
 }
 
 double published_thread_torque(const PublishedParameters& p, double area_slope_mm2, Direction direction) {
@@ -45,7 +46,8 @@ double published_bearing_torque(const PublishedParameters& p, double area_slope_
 
 double published_lever(const PublishedParameters& p, Direction direction) {
     const double lead = p.pitch_mm / (2.0 * pi);
-    return (sign_of(direction) * lead + p.mu2 * p.r_t_mm / (2.0 * std::cos(p.beta)) + p.mu1 * p.r_b_mm) * 1e-3;
+    return (sign_of(direction) * lead + p.mu2 * p.r_t_mm / (2.0 * std::cos(p.beta)) + p.mu1 * p.r_b_mm) *
+           1e-3;
 }
 
 double published_degrees_per_newton(const PublishedParameters& p) {
@@ -74,14 +76,16 @@ PublishedReading published_read(const PublishedParameters& p, const PublishedSta
                                 Direction direction) {
     const PublishedBoundaries b = published_boundaries(p);
     const bool virgin = theta_deg >= s.peak_deg;
-    const double theta = virgin ? theta_deg : theta_deg - s.set_deg;  // along the shifted elastic line once set
+    const double theta =
+        virgin ? theta_deg : theta_deg - s.set_deg;  // along the shifted elastic line once set
     PublishedReading reading;
 
     if (virgin && theta >= b.yield) {
         reading.stage = Stage::yield;
         const double torque = published_yield_torque(p, theta);
         reading.clamp = torque / published_lever(p, Direction::tighten);
-        reading.torque = direction == Direction::tighten ? torque : -reading.clamp * published_lever(p, direction);
+        reading.torque =
+            direction == Direction::tighten ? torque : -reading.clamp * published_lever(p, direction);
         return reading;
     }
     if (theta >= b.linearity) {

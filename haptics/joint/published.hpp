@@ -1,5 +1,6 @@
-// The four-stage law of "A staged haptic rendering approach for virtual assembly of bolted joints in mechanical
-// assembly" (Int. J. Adv. Manuf. Technol., 2018), exactly as printed, with its Table 1 as defaults.
+// The four-stage law of "A staged haptic rendering approach for virtual assembly of bolted joints in
+// mechanical assembly" (Int. J. Adv. Manuf. Technol., 2018), exactly as printed, with its Table 1 as
+// defaults.
 //
 // The paper's own units are kept in its parameters (mm, N, GPa, rad, N·m) because its printed figures are the
 // oracle; the functions return SI. What the paper leaves open is ours and marked so.
@@ -12,23 +13,24 @@ namespace bolt::joint {
 
 struct PublishedParameters {
     double nut_mass_g = 33.3;
-    double alpha = pi / 6, beta = pi / 6;  // rad; the paper calls α the helix angle and gives it the profile angle
+    double alpha = pi / 6,
+           beta = pi / 6;  // rad; the paper calls α the helix angle and gives it the profile angle
     double mu = 0.3, mu1 = 0.4, mu2 = 0.3;
-    double pitch_mm = 2.0;                 // ρ = P
+    double pitch_mm = 2.0;  // ρ = P
     double d2_mm = 14.7, D1_mm = 24.0, D2_mm = 14.7, r_t_mm = 14.7, r_b_mm = 24.0;
-    double E1_GPa = 117.0, E2_GPa = 117.0; // printed "Pa"
+    double E1_GPa = 117.0, E2_GPa = 117.0;  // printed "Pa"
     double nu1 = 0.25, nu2 = 0.25;
     double kappa = 2.0;
     double spring_rates_1e6[7] = {1.47, 1.46, 1.51, 1.53, 1.40, 1.38, 1.42};  // N/mm, in 10⁶
     double T_max_Nm = 72.126;
-    double kappa1 = 0.0015;                // N·m per square degree
-    double theta_max_deg = 7218.0;         // 40.1 π rad
+    double kappa1 = 0.0015;         // N·m per square degree
+    double theta_max_deg = 7218.0;  // 40.1 π rad
     double yield_width_deg = 90.0;
 
-    // Ours: the paper gives no A(θ). A·h' grows with the square of the angle over this width to this value, which
-    // makes a contact force of 0.3 kN at its end.
+    // Ours: the paper gives no A(θ). A·h' grows with the square of the angle over this width to this value,
+    // which makes a contact force of 0.3 kN at its end.
     double transition_width_deg = 30.0;
-    double contact_end_mm2 = 0.01;         // A·h' at the end of the transition
+    double contact_end_mm2 = 0.01;  // A·h' at the end of the transition
 };
 
 enum class Direction : std::uint8_t { tighten, loosen };
@@ -36,13 +38,13 @@ enum class Direction : std::uint8_t { tighten, loosen };
 // Stage 1, N·m: T = −G (sin α ∓ μ cos α) d2/2; upper sign tightening. −0.5761 N·mm with Table 1.
 double published_navigation_torque(const PublishedParameters& p, Direction direction);
 
-// Stage 2, N·m, at the product A·h' of real contact area and RMS slope (mm²), with F_c = A E* h'/κ (in kN, E in GPa):
-// T1 = −(G ∓ F_c)(sin α + μ2 cos α) d2 and T2 = −π p μ1 ∫ r² dr, p = (F_c ∓ G)/(π/4 (D1² − D2²)).
+// Stage 2, N·m, at the product A·h' of real contact area and RMS slope (mm²), with F_c = A E* h'/κ (in kN, E
+// in GPa): T1 = −(G ∓ F_c)(sin α + μ2 cos α) d2 and T2 = −π p μ1 ∫ r² dr, p = (F_c ∓ G)/(π/4 (D1² − D2²)).
 double published_thread_torque(const PublishedParameters& p, double area_slope_mm2, Direction direction);
 double published_bearing_torque(const PublishedParameters& p, double area_slope_mm2, Direction direction);
 
-// Stage 3: lever arm of eq. 3, m (12.464 mm tightening; −ρ/2π instead of +ρ/2π loosening, ours), angle per newton
-// (8.684·10⁻⁴ °/N) and the slope they make, N·m per degree (14.354).
+// Stage 3: lever arm of eq. 3, m (12.464 mm tightening; −ρ/2π instead of +ρ/2π loosening, ours), angle per
+// newton (8.684·10⁻⁴ °/N) and the slope they make, N·m per degree (14.354).
 double published_lever(const PublishedParameters& p, Direction direction);
 double published_degrees_per_newton(const PublishedParameters& p);
 double published_linear_slope(const PublishedParameters& p);
@@ -56,7 +58,8 @@ struct PublishedBoundaries {
 };
 PublishedBoundaries published_boundaries(const PublishedParameters& p);
 
-// A joint under this law. After the yield stage it unloads along the elastic line, `set_deg` further on (ours).
+// A joint under this law. After the yield stage it unloads along the elastic line, `set_deg` further on
+// (ours).
 struct PublishedState {
     double peak_deg = 0.0;  // furthest angle reached in the yield stage; 0 before
     double set_deg = 0.0;   // permanent shift of the elastic line

@@ -13,9 +13,9 @@ struct Thread {
     double d3 = 0.0;     // minor diameter of the bolt, d − 1.22687 P
     double A_s = 0.0;    // tensile stress area, π/4 ((d2 + d3)/2)², m² (ISO 898-1)
 
-    [[nodiscard]] double d0() const { return 0.5 * (d2 + d3); }             // diameter of the stress area
-    [[nodiscard]] double A_d3() const { return 0.25 * pi * d3 * d3; }       // core section
-    [[nodiscard]] double A_N() const { return 0.25 * pi * d * d; }          // nominal section
+    [[nodiscard]] double d0() const { return 0.5 * (d2 + d3); }        // diameter of the stress area
+    [[nodiscard]] double A_d3() const { return 0.25 * pi * d3 * d3; }  // core section
+    [[nodiscard]] double A_N() const { return 0.25 * pi * d * d; }     // nominal section
     [[nodiscard]] double lead_angle() const { return std::atan(pitch / (pi * d2)); }
 };
 

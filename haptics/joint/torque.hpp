@@ -17,17 +17,18 @@ struct TorqueLevers {
     [[nodiscard]] double loosen() const { return -lead + friction(); }  // torque against the nut's motion
 };
 
-TorqueLevers torque_levers(const Thread& thread, double mu_thread, double mu_bearing, double bearing_mean_diameter);
+TorqueLevers torque_levers(const Thread& thread, double mu_thread, double mu_bearing,
+                           double bearing_mean_diameter);
 
 // D_Km = (d_w + d_h)/2, VDI 2230: mean diameter of the bearing under the turned nut or head.
 inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w + d_h); }
 
-// M_A = F (0.16 P + 0.58 d2 μ_G + D_Km/2 μ_K), VDI 2230 (R13/…), N·m.
-double vdi_tightening_torque(double force, const Thread& thread, double mu_thread, double mu_bearing,
-                             double bearing_mean_diameter);
+// tan(φ + ρ'), the slope on which the nut slides: φ lead angle, tan ρ' = share · μ_G/cos β. share in [−1, 1]: +1
+// tightening, −1 loosening. VDI 2230's closed forms write it as P/(π d2) + 1.155 μ_G, the first order of this; the
+// published table A1 is reproduced to its rounding by the exact tangent (within 0.9 % by the closed form).
+double sliding_slope(const Thread& thread, double mu_thread, double share = 1.0);
 
-// Ratio of equivalent (von Mises) to tensile stress while the thread friction torque acts in full:
-// √(1 + 3 [κ (d2/d0) (P/(π d2) + share · 1.155 μ_G)]²), share in [−1, 1] (−1 loosening).
+// Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ + ρ')]²).
 double equivalent_stress_ratio(const Thread& thread, double mu_thread, double kappa, double share = 1.0);
 
 struct AssemblyPreload {
@@ -35,8 +36,9 @@ struct AssemblyPreload {
     double torque = 0.0;  // M_A, N·m
 };
 
-// VDI 2230 table A1: preload at which the equivalent stress is `utilisation` of R_p0.2, and its torque.
-AssemblyPreload assembly_preload(const Thread& thread, const PropertyClass& bolt, double mu_thread, double mu_bearing,
-                                 double bearing_mean_diameter, double utilisation = 0.9);
+// VDI 2230 table A1: preload at which the equivalent stress is `utilisation` of R_p0.2, and its torque
+// M_A = F_M (d2/2 tan(φ + ρ') + D_Km/2 μ_K).
+AssemblyPreload assembly_preload(const Thread& thread, const PropertyClass& bolt, double mu_thread,
+                                 double mu_bearing, double bearing_mean_diameter, double utilisation = 0.9);
 
 }  // namespace bolt::joint

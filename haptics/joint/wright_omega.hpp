@@ -5,8 +5,9 @@
 
 namespace bolt::joint {
 
-// Relative error below 1e-15 for every x; 0 where ω underflows. No loop: a starting value and two steps of the
-// fourth-order iteration of Lawrence, Corless and Jeffrey, ACM Trans. Math. Softw. 38(3) (2012), algorithm 917.
+// Relative error below 1e-15 for every x; 0 where ω underflows. No loop: a starting value and two steps of
+// the fourth-order iteration of Lawrence, Corless and Jeffrey, ACM Trans. Math. Softw. 38(3) (2012),
+// algorithm 917.
 inline double wright_omega(double x) {
     if (x < -36.0) return x < -700.0 ? 0.0 : std::exp(x);  // ω = e^x (1 − e^x + …)
     double w = 0.0;

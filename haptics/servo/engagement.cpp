@@ -61,11 +61,12 @@ double tool_azimuth(const Setup& setup, const NutPlace& nut, const ToolPose& too
     // Counter-clockwise about the axis loosens a right-hand thread: tightening is the negative azimuth.
     const double handle = -std::atan2(glm::dot(tool.handle, nut.e2), glm::dot(tool.handle, nut.e1));
     if (grip != Grip::wrench) return handle;
-    return handle + (glm::dot(tool.normal, nut.axis) < 0.0 ? setup.wrench.head_angle : -setup.wrench.head_angle);
+    return handle +
+           (glm::dot(tool.normal, nut.axis) < 0.0 ? setup.wrench.head_angle : -setup.wrench.head_angle);
 }
 
-void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool, Grip grip,
-                       Engagement& e) {
+void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool,
+                       Grip grip, Engagement& e) {
     if (e.joint >= 0) {
         const NutPlace& nut = setup.nuts[static_cast<std::size_t>(e.joint)];
         const double nut_angle = joints[static_cast<std::size_t>(e.joint)].nut.angle;

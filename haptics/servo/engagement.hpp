@@ -1,5 +1,6 @@
-// Which nut the hand holds, and with what. Until contact geometry answers this (jaw sliding onto the hexagon), it is
-// read off the poses: the jaw must be level with the nut, centred, square to the axis and aligned within its play.
+// Which nut the hand holds, and with what. Until contact geometry answers this (jaw sliding onto the
+// hexagon), it is read off the poses: the jaw must be level with the nut, centred, square to the axis and
+// aligned within its play.
 #pragma once
 
 #include "haptics/servo/io.hpp"
@@ -16,11 +17,11 @@ struct ToolPose {
 ToolPose pose_of(const DeviceSample& sample);
 
 struct Engagement {
-    int joint = -1;             // −1: nothing held
+    int joint = -1;  // −1: nothing held
     Grip grip = Grip::none;
-    double azimuth = 0.0;       // rad, the tool's last angle about the bolt, tightening positive, not unwrapped
-    double hand_angle = 0.0;    // rad, the same unwrapped, in the nut's count
-    Vec3 held_at{0.0};          // tool minus nut centre when it was engaged; relaxes to zero
+    double azimuth = 0.0;     // rad, the tool's last angle about the bolt, tightening positive, not unwrapped
+    double hand_angle = 0.0;  // rad, the same unwrapped, in the nut's count
+    Vec3 held_at{0.0};        // tool minus nut centre when it was engaged; relaxes to zero
 };
 
 // Centre of the nut, m: it comes down as it turns.
@@ -30,7 +31,7 @@ Vec3 nut_centre(const NutPlace& nut, double nut_angle);
 double tool_azimuth(const Setup& setup, const NutPlace& nut, const ToolPose& tool, Grip grip);
 
 // Lets go when the grip changes or the tool is pulled away; takes hold when it fits.
-void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool, Grip grip,
-                       Engagement& engagement);
+void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool,
+                       Grip grip, Engagement& engagement);
 
 }  // namespace bolt::servo

@@ -10,9 +10,9 @@ namespace bolt::servo {
 
 enum class Grip : std::uint8_t { none, fingers, wrench };
 
-// Pose of the tool as the device asks for it, in the assembly's frame. Single precision: devices give no more, and a
-// recorded sample is then exactly the sample that was used.
-// Tool frame: origin in the middle of the jaw (or between the fingertips), x along the handle, z the jaw's normal.
+// Pose of the tool as the device asks for it, in the assembly's frame. Single precision: devices give no
+// more, and a recorded sample is then exactly the sample that was used. Tool frame: origin in the middle of
+// the jaw (or between the fingertips), x along the handle, z the jaw's normal.
 struct DeviceSample {
     float position[3] = {0.0F, 0.0F, 0.0F};           // m
     float orientation[4] = {1.0F, 0.0F, 0.0F, 0.0F};  // unit quaternion w, x, y, z: tool to assembly
@@ -31,11 +31,11 @@ struct Output {
     Vec3 torque{0.0};
 
     // True values, unscaled.
-    std::int16_t joint = -1;    // engaged joint; −1: none
+    std::int16_t joint = -1;  // engaged joint; −1: none
     joint::Stage stage = joint::Stage::navigation;
-    double wrench_torque = 0.0; // N·m about the bolt's axis, tightening positive
-    double nut_angle = 0.0;     // rad from the hand-started nut, tightening positive
-    double clamp = 0.0;         // N
+    double wrench_torque = 0.0;  // N·m about the bolt's axis, tightening positive
+    double nut_angle = 0.0;      // rad from the hand-started nut, tightening positive
+    double clamp = 0.0;          // N
 };
 
 }  // namespace bolt::servo

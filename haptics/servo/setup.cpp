@@ -46,7 +46,8 @@ Setup make_setup(const Description& d) {
     setup.wrench.handle_length = d.handle_length;
     setup.wrench.half_play = jaw_half_play(d.jaw, across_flats);
     const double greatest = std::max(d.greatest_torque, 1.0);
-    setup.wrench.stiffness = greatest / to_radians(2.5);  // wrench and wrists give 2.5° at the greatest torque
+    setup.wrench.stiffness =
+        greatest / to_radians(2.5);  // wrench and wrists give 2.5° at the greatest torque
 
     setup.limits = d.limits;
     const double margin = 0.8;  // of the device's range at the greatest torque asked for

@@ -1,4 +1,5 @@
-// Everything a tick reads and never changes. Made once, when an assembly is loaded; all allocation happens here.
+// Everything a tick reads and never changes. Made once, when an assembly is loaded; all allocation happens
+// here.
 #pragma once
 
 #include <span>
@@ -11,7 +12,8 @@
 
 namespace bolt::servo {
 
-// A nut in the assembly's frame: right-handed thread, `axis` from the members towards the nut, e1 × e2 = axis.
+// A nut in the assembly's frame: right-handed thread, `axis` from the members towards the nut, e1 × e2 =
+// axis.
 struct NutPlace {
     Vec3 seat{0.0};
     Vec3 axis{0.0, 1.0, 0.0};
@@ -35,12 +37,12 @@ struct Setup {
     joint::GroupParameters group;
     std::vector<NutPlace> nuts;
     Wrench wrench;
-    double finger_stiffness = 5.0;     // N·m/rad
-    double finger_torque = 0.8;        // N·m at which fingertips slip on the nut
-    double hold_stiffness = 1000.0;    // N/m, engaged tool against the nut's centre
-    double hold_torsion = 5.0;         // N·m/rad, against tilting
-    double torque_scale = 1.0;         // device torque / true torque
-    double torque_as_force = 0.0;      // N at the grip per N·m, for devices without torque
+    double finger_stiffness = 5.0;   // N·m/rad
+    double finger_torque = 0.8;      // N·m at which fingertips slip on the nut
+    double hold_stiffness = 1000.0;  // N/m, engaged tool against the nut's centre
+    double hold_torsion = 5.0;       // N·m/rad, against tilting
+    double torque_scale = 1.0;       // device torque / true torque
+    double torque_as_force = 0.0;    // N at the grip per N·m, for devices without torque
     force::Guiding guiding;
     force::OutputLimits limits;
 };
@@ -61,8 +63,8 @@ struct Description {
 
 Setup make_setup(const Description& description);
 
-// Free rotation, to either side, of a jaw of width `jaw` on a hexagon of width s: the jaw's clearance over the half
-// length of a flat, 2 (jaw − s)/2 / (s/√3) rad to first order.
+// Free rotation, to either side, of a jaw of width `jaw` on a hexagon of width s: the jaw's clearance over
+// the half length of a flat, 2 (jaw − s)/2 / (s/√3) rad to first order.
 double jaw_half_play(double jaw, double across_flats);
 
 }  // namespace bolt::servo

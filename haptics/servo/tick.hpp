@@ -1,4 +1,5 @@
-// The servo tick: a pure step of fixed dt. No clock, lock, allocation or I/O; the same inputs give the same bits.
+// The servo tick: a pure step of fixed dt. No clock, lock, allocation or I/O; the same inputs give the same
+// bits.
 //
 //   1 hand pose → which nut is held        engagement.hpp
 //   2 nut and joint: angle, stage, torque   joint/group.hpp

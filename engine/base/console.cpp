@@ -1,0 +1,19 @@
+#include "engine/base/console.hpp"
+
+#include <cstdio>
+
+namespace bolt {
+
+int complain(const Error& error) {
+    // A message without a file would otherwise not look like one.
+    const char* prefix = error.file.empty() ? "error: " : "";
+    (void)std::fprintf(stderr, "%s%s\n", prefix, error.message().c_str());
+    return static_cast<int>(error.code);
+}
+
+int complain(std::span<const Error> errors) {
+    for (const Error& error : errors) (void)complain(error);
+    return errors.empty() ? 0 : static_cast<int>(errors.front().code);
+}
+
+}  // namespace bolt

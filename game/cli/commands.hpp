@@ -1,0 +1,16 @@
+// The subcommands of boltwright. Each adds itself to the command line and leaves its exit code where main
+// finds it.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace bolt::cli {
+
+void add_train(CLI::App& app, int& exit_code);
+void add_report(CLI::App& app, int& exit_code);
+void add_export(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
+
+}  // namespace bolt::cli

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <memory>
+
+#include "engine/base/console.hpp"
+#include "engine/base/file.hpp"
+#include "game/cli/commands.hpp"
+#include "game/record/export_csv.hpp"
+#include "game/record/session.hpp"
+#include "game/report/report.hpp"
+
+namespace bolt::cli {
+
+namespace {
+
+int run_report(const std::vector<std::string>& files, const std::string& html) {
+    std::vector<record::Reader> readers;
+    for (const std::string& file : files) {
+        Result<record::Reader> reader = record::Reader::open(file);
+        if (!reader) return complain(reader.error());
+        if (!reader->complete())
+            (void)std::fputs(
+                fmt::format("{}: this session was cut short; the report shows what was kept\n", file).c_str(),
+                stderr);
+        readers.push_back(std::move(*reader));
+    }
+    std::vector<const record::Reader*> sessions;
+    for (const record::Reader& reader : readers) sessions.push_back(&reader);
+    Result<std::string> page = report::make_report(sessions);
+    if (!page) return complain(page.error());
+    if (Status kept = write_file(html, *page); !kept) return complain(kept.error());
+    (void)std::fputs((html + "\n").c_str(), stdout);
+    return 0;
+}
+
+int run_export(const std::string& file, const std::string& csv, std::uint64_t every) {
+    Result<record::Reader> reader = record::Reader::open(file);
+    if (!reader) return complain(reader.error());
+    (void)std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error that we report
+    record::CsvOptions options;
+    options.every_n = every;
+    if (csv == "-") {
+        const Status kept = record::export_csv(*reader, stdout, options);
+        return kept ? 0 : complain(kept.error());
+    }
+    std::FILE* out = std::fopen(csv.c_str(), "wb");
+    Error error;
+    error.file = csv;
+    if (out == nullptr) {
+        error.what = std::string("cannot be written: ") + std::strerror(errno);
+        return complain(error);
+    }
+    options.out_name = csv;
+    const Status kept = record::export_csv(*reader, out, options);
+    const bool closed = std::fclose(out) == 0;
+    if (!kept) return complain(kept.error());
+    if (!closed) {
+        error.what = std::string("cannot be written: ") + std::strerror(errno);
+        return complain(error);
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, int& exit_code) {
+    struct Options {
+        std::vector<std::string> sessions;
+        std::string html;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* report =
+        app.add_subcommand("report", "A page that shows one session, or how several attempts compare");
+    report->add_option("session", options->sessions, "Session files, oldest first")->required();
+    report->add_option("--html", options->html, "Page to write")->required();
+    report->callback([options, &exit_code] { exit_code = run_report(options->sessions, options->html); });
+}
+
+void add_export(CLI::App& app, int& exit_code) {
+    struct Options {
+        std::string session;
+        std::string csv;
+        std::uint64_t every = 1;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* exporter = app.add_subcommand("export", "A session's ticks for other programs");
+    exporter->add_option("session", options->session, "Session file")->required();
+    exporter->add_option("--csv", options->csv, "CSV file to write, - for stdout")->required();
+    exporter->add_option("--every", options->every, "One row for so many ticks")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    exporter->callback(
+        [options, &exit_code] { exit_code = run_export(options->session, options->csv, options->every); });
+}
+
+}  // namespace bolt::cli

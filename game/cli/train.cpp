@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+
+#include "content/format/load.hpp"
+#include "engine/base/console.hpp"
+#include "engine/base/file.hpp"
+#include "game/cli/commands.hpp"
+#include "game/play/summary.hpp"
+#include "game/play/train.hpp"
+#include "game/report/report.hpp"
+
+namespace bolt::cli {
+
+namespace {
+
+struct Options {
+    std::string assembly = "zq350";
+    std::string variant;
+    std::string mode = "guided";
+    std::string task = "tighten";
+    std::string law;
+    std::string device = "auto";
+    std::string glove = "auto";
+    bool hmd = false;
+    bool headless = false;
+    bool quiet = false;
+    std::string trainee = "expert";
+    std::uint64_t seed = 1;
+    std::string out = "out";
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// One line that is rewritten on a terminal, one line a pass elsewhere (a log does not want thousands).
+class ProgressLine {
+  public:
+    explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+    bool show(const content::Assembly& assembly, const play::Progress& progress) {
+        if (quiet_) return interrupted == 0;
+        if (progress.event != nullptr) note(assembly, progress);
+        if (terminal_)
+            (void)std::fputs(fmt::format("\r\033[K{:6.1f} s  step {:>3} of {}  {}", progress.time,
+                                         progress.step, progress.steps, doing_)
+                                 .c_str(),
+                             stderr);
+        return interrupted == 0;
+    }
+    void end() const {
+        if (!quiet_ && terminal_) (void)std::fputs("\r\033[K", stderr);
+    }
+
+  private:
+    void note(const content::Assembly& assembly, const play::Progress& progress) {
+        const lesson::Event& event = *progress.event;
+        if (event.kind == "pass_begin") {
+            pass_ = event.text;
+            doing_ = pass_;
+            if (!terminal_) line(fmt::format("{:6.1f} s  {}", progress.time, pass_));
+        } else if (event.kind == "step_begin") {
+            doing_ = fmt::format("{}: {}", pass_,
+                                 assembly.joints[static_cast<std::size_t>(event.joint)].design.id);
+        } else if (event.kind == "mistake") {
+            line(fmt::format("{:6.1f} s  {}", progress.time, event.text));
+        }
+    }
+    void line(const std::string& text) const {
+        (void)std::fputs(fmt::format("{}{}\n", terminal_ ? "\r\033[K" : "", text).c_str(), stderr);
+    }
+
+    bool quiet_;
+    bool terminal_;
+    std::string pass_, doing_;
+};
+
+// What this build has no driver or window for, asked for by name, is an error and not a silent fallback.
+Status check_hardware(const Options& options) {
+    if (options.hmd) return fail(ErrorCode::no_device, "this build has no headset output", "leave out --hmd");
+    if (options.device != "auto" && options.device != "simulated")
+        return fail(ErrorCode::no_device,
+                    fmt::format("there is no driver for a device \"{}\"", options.device),
+                    "--device auto or --device simulated");
+    if (options.glove != "auto" && options.glove != "none")
+        return fail(ErrorCode::no_device,
+                    fmt::format("there is no driver for a glove at \"{}\"", options.glove),
+                    "--glove auto or --glove none");
+    return {};
+}
+
+Result<play::TrainOptions> play_options(const Options& options, const content::Assembly& assembly) {
+    play::TrainOptions play;
+    play.mode = options.mode == "guided"     ? lesson::Mode::guided
+                : options.mode == "practice" ? lesson::Mode::practice
+                                             : lesson::Mode::assessment;
+    play.task = options.task == "loosen" ? lesson::Task::loosen : lesson::Task::tighten;
+    play.law = options.law.empty()          ? assembly.law
+               : options.law == "published" ? joint::Law::published
+                                            : joint::Law::mechanistic;
+    play.seed = options.seed;
+    Result<operators::Profile> trainee = operators::find_profile(options.trainee);
+    if (!trainee) return fail(trainee.error());
+    play.trainee = *trainee;
+    return play;
+}
+
+Status write_report(const std::filesystem::path& session, const std::filesystem::path& page) {
+    Result<record::Reader> reader = record::Reader::open(session);
+    if (!reader) return fail(reader.error());
+    const record::Reader* sessions[] = {&*reader};
+    Result<std::string> html = report::make_report(sessions);
+    if (!html) return fail(html.error());
+    return write_file(page, *html);
+}
+
+int run(const Options& options) {
+    if (Status hardware = check_hardware(options); !hardware) return complain(hardware.error());
+    const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
+    if (!loaded.ok()) return complain(loaded.errors);
+    const content::Assembly& assembly = loaded.assembly;
+    Result<play::TrainOptions> play = play_options(options, assembly);
+    if (!play) return complain(play.error());
+
+    const std::filesystem::path out(options.out);
+    std::error_code made;
+    std::filesystem::create_directories(out, made);
+    if (made) {
+        Error error;
+        error.file = out.string();
+        error.what = "this folder cannot be made: " + made.message();
+        return complain(error);
+    }
+    if (!options.quiet) {
+        if (!options.headless)
+            (void)std::fputs("This build has no window yet and found no device: a simulated trainee plays.\n",
+                             stderr);
+        (void)std::fputs(
+            fmt::format("{} ({}), law {}, {}, trainee {}, seed {}\n", assembly.name, assembly.variant,
+                        joint::name(play->law), options.mode, options.trainee, options.seed)
+                .c_str(),
+            stderr);
+    }
+    (void)std::signal(SIGINT, [](int) { interrupted = 1; });
+    ProgressLine line(options.quiet);
+    const std::filesystem::path session = out / "session.boltwright";
+    Result<lesson::LessonResult> result =
+        play::train(assembly, *play, session,
+                    [&](const play::Progress& progress) { return line.show(assembly, progress); });
+    line.end();
+    if (!result) return complain(result.error());
+
+    if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, *play, *result)); !kept)
+        return complain(kept.error());
+    if (Status kept = write_report(session, out / "report.html"); !kept) return complain(kept.error());
+    (void)std::fputs(play::summary_table(assembly, *result).c_str(), stdout);
+    (void)std::fputs(fmt::format("{}, {}, {}\n", session.string(), (out / "summary.json").string(),
+                                 (out / "report.html").string())
+                         .c_str(),
+                     stdout);
+    return interrupted != 0 || !result->finished ? static_cast<int>(ErrorCode::failed) : 0;
+}
+
+}  // namespace
+
+void add_train(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<Options>();
+    CLI::App* train =
+        app.add_subcommand("train", "Play a lesson; without a window or device a simulated trainee does");
+    train->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
+        ->capture_default_str();
+    train->add_option("--variant", options->variant,
+                      "Material variant of the assembly; its default if not given");
+    train->add_option("--mode", options->mode)
+        ->check(CLI::IsMember({"guided", "practice", "assessment"}))
+        ->capture_default_str();
+    train->add_option("--task", options->task, "Tighten the joints, or loosen joints that are tight")
+        ->check(CLI::IsMember({"tighten", "loosen"}))
+        ->capture_default_str();
+    train->add_option("--law", options->law, "Torque law; the assembly's own if not given")
+        ->check(CLI::IsMember({"published", "mechanistic"}));
+    train->add_option("--device", options->device, "Haptic device")->capture_default_str();
+    train->add_option("--glove", options->glove, "Data glove")->capture_default_str();
+    train->add_flag("--hmd", options->hmd, "Show in a headset");
+    train->add_flag("--headless", options->headless, "No window: a simulated trainee in virtual time");
+    train->add_option("--operator", options->trainee, "Simulated trainee: expert, novice or clumsy")
+        ->capture_default_str();
+    train->add_option("--seed", options->seed, "Seed of the trainee and of the joints' scatter")
+        ->capture_default_str();
+    train->add_option("--out", options->out, "Folder for session, summary and report")->capture_default_str();
+    train->add_flag("--quiet", options->quiet, "No progress");
+    train->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace bolt::cli

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "game/lesson/lesson.hpp"
+
+namespace bolt::lesson {
+
+namespace {
+
+Verdict within(double value, const content::Window& window) {
+    return value < window.low ? Verdict::low : value > window.high ? Verdict::high : Verdict::ok;
+}
+
+Verdict worst(Verdict a, Verdict b) {
+    if (a == Verdict::none) return b;
+    if (b == Verdict::none || b == Verdict::ok) return a;
+    return b;
+}
+
+void take_points(LessonResult& result, double points, std::string text) {
+    result.score -= points;
+    result.reasons.push_back({-points, std::move(text)});
+}
+
+}  // namespace
+
+JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::State& state) {
+    const JointTrack& track = lesson.joints[joint];
+    const content::Specification& spec = lesson.assembly->joints[joint].spec;
+    JointResult result = track.result;
+    result.clamp = state.joints[joint].clamp;
+    result.condition = state.joints[joint].condition;
+    if (lesson.task == Task::loosen) {
+        result.torque_verdict = result.torque > 0.0 ? Verdict::ok : Verdict::none;
+        result.overall = result.torque_verdict;
+    } else {
+        // A joint that was never brought to its target in full is judged by what it has seen so far.
+        if (result.torque == 0.0) result.torque = track.peak_torque;
+        result.torque_verdict = within(result.torque, spec.torque);
+        if (spec.has_angle) result.angle_verdict = within(result.angle, spec.angle);
+        result.overall = worst(result.torque_verdict, result.angle_verdict);
+    }
+    if (result.condition != joint::Condition::sound) result.overall = Verdict::high;
+    return result;
+}
+
+LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
+    LessonResult result;
+    result.duration = static_cast<double>(state.tick) * dt;
+    result.finished = lesson.due() == nullptr;
+    result.score = 100.0;
+    const double share = 100.0 / static_cast<double>(std::max<std::size_t>(1, lesson.joints.size()));
+    int rehits = 0, order_errors = 0;
+    for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
+        JointResult joint = judge_joint(lesson, i, state);
+        if (joint.condition != joint::Condition::sound)
+            take_points(result, 1.5 * share, fmt::format("{} is {}", joint.id, joint::name(joint.condition)));
+        else if (joint.overall != Verdict::ok)
+            take_points(result, share,
+                        fmt::format("{}: torque {} ({:.1f} N·m), angle {}", joint.id,
+                                    name(joint.torque_verdict), joint.torque, name(joint.angle_verdict)));
+        rehits += joint.rehits;
+        order_errors += joint.order_errors;
+        result.joints.push_back(std::move(joint));
+    }
+    if (order_errors > 0)
+        take_points(result, 2.0 * order_errors, fmt::format("{} times a joint out of turn", order_errors));
+    if (rehits > 0)
+        take_points(result, rehits, fmt::format("{} times a joint that was done already", rehits));
+    if (!result.finished)
+        take_points(
+            result, 0.0,
+            fmt::format("the lesson was left at step {} of {}", lesson.current + 1, lesson.steps.size()));
+    result.score = std::clamp(result.score, 0.0, 100.0);
+    return result;
+}
+
+}  // namespace bolt::lesson

@@ -1,0 +1,191 @@
+#include "game/lesson/lesson.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::lesson {
+
+namespace {
+
+constexpr double moved = to_radians(0.2);  // of nut angle: the wrench has moved it
+constexpr double seated_torque = 0.4;      // N·m at the fingers: the nut sits
+constexpr double working_torque = 0.5;     // N·m: the wrench is used, not only touching
+
+const content::Specification& spec_of(const Lesson& lesson, std::size_t joint) {
+    return lesson.assembly->joints[joint].spec;
+}
+
+void say(Lesson& lesson, std::uint64_t tick, std::string_view kind, int joint, double value,
+         std::string text) {
+    lesson.events.push_back({tick, std::string(kind), joint, value, std::move(text)});
+}
+
+double low_edge(const Lesson& lesson, const Step& step) {
+    const content::Window& window = spec_of(lesson, step.joint).torque;
+    return window.target > 0.0 ? step.torque * window.low / window.target : step.torque;
+}
+
+bool reached(const Lesson& lesson, const Step& step, const servo::State& state) {
+    const JointTrack& track = lesson.joints[step.joint];
+    const joint::JointState& joint = state.joints[step.joint];
+    const double turned = joint.nut.angle - track.begin_angle;
+    switch (step.kind) {
+        case StepKind::run_down:
+            return joint.stage != joint::Stage::navigation && track.peak_torque >= seated_torque;
+        case StepKind::tighten:
+            return track.peak_torque >= low_edge(lesson, step);
+        case StepKind::recheck:
+            return turned > moved || track.peak_torque >= low_edge(lesson, step);
+        case StepKind::loosen:
+            return joint.stage == joint::Stage::navigation;
+    }
+    return false;
+}
+
+void begin_step(Lesson& lesson, const servo::State& state) {
+    const Step* step = lesson.due();
+    if (step == nullptr) return;
+    if (lesson.current == 0 || lesson.steps[lesson.current - 1].pass != step->pass) {
+        const std::string share =
+            step->kind == StepKind::tighten ? fmt::format(" to {:.0f} %", 100 * step->fraction) : "";
+        say(lesson, state.tick, "pass_begin", -1, step->pass, fmt::format("{}{}", name(step->kind), share));
+    }
+    JointTrack& track = lesson.joints[step->joint];
+    track.peak_torque = 0.0;
+    track.begin_angle = state.joints[step->joint].nut.angle;
+    say(lesson, state.tick, "step_begin", static_cast<int>(step->joint), step->torque,
+        std::string(name(step->kind)));
+}
+
+void end_step(Lesson& lesson, const servo::State& state) {
+    const Step step = *lesson.due();
+    JointTrack& track = lesson.joints[step.joint];
+    track.done_in_pass = step.pass;
+    const bool full = step.kind == StepKind::recheck || step.fraction > 0.999;
+    if (step.kind == StepKind::loosen) {
+        track.result.torque = track.peak_torque;
+        track.result.angle = track.begin_angle - state.joints[step.joint].nut.angle;
+    } else if (step.kind == StepKind::tighten && full) {
+        track.result.torque = track.peak_torque;
+    } else if (step.kind == StepKind::recheck) {
+        track.result.torque = std::max(track.result.torque, track.peak_torque);
+    }
+    say(lesson, state.tick, "step_end", static_cast<int>(step.joint), track.peak_torque,
+        std::string(name(step.kind)));
+    ++lesson.current;
+    begin_step(lesson, state);
+}
+
+// Work on another joint than the due one.
+void work_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& state) {
+    const Step& due = *lesson.due();
+    JointTrack& track = lesson.joints[joint];
+    const std::string& id = track.result.id;
+    if (track.done_in_pass == due.pass) {
+        ++track.result.rehits;
+        say(lesson, state.tick, "mistake", static_cast<int>(joint), 0.0,
+            fmt::format("{} was done already in this pass", id));
+        return;
+    }
+    ++track.result.order_errors;
+    say(lesson, state.tick, "mistake", static_cast<int>(joint), 0.0,
+        fmt::format("{} is not the next joint; {} is", id, lesson.joints[due.joint].result.id));
+}
+
+void take(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state) {
+    lesson.held = joint;
+    lesson.grip = grip;
+    lesson.joints[static_cast<std::size_t>(joint)].worked = false;
+    say(lesson, state.tick, "engage", joint, 0.0,
+        grip == servo::Grip::wrench ? "wrench on the nut" : "fingers on the nut");
+}
+
+void release(Lesson& lesson, const servo::State& state) {
+    const auto joint = static_cast<std::size_t>(lesson.held);
+    JointTrack& track = lesson.joints[joint];
+    say(lesson, state.tick, "release", lesson.held, track.peak_torque, {});
+    track.result.clamp_at_release = state.joints[joint].clamp;
+    if (track.worked && lesson.grip == servo::Grip::wrench) ++track.result.strokes;
+    lesson.held = -1;
+    const Step* due = lesson.due();
+    if (due != nullptr && due->joint == joint && reached(lesson, *due, state)) end_step(lesson, state);
+}
+
+// First work of a visit: is it this joint's turn?
+void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
+    lesson.joints[joint].worked = true;
+    const Step* due = lesson.due();
+    if (due == nullptr || due->joint == joint) return;
+    const bool left = lesson.mode == Mode::assessment && lesson.joints[due->joint].peak_torque > 0.0;
+    const bool next =
+        lesson.current + 1 < lesson.steps.size() && lesson.steps[lesson.current + 1].joint == joint;
+    if (left && next) {
+        end_step(lesson, state);  // left as it is: judged as it was left
+        return;
+    }
+    work_out_of_turn(lesson, joint, state);
+}
+
+void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const servo::Output& output) {
+    JointTrack& track = lesson.joints[joint];
+    const double torque = output.wrench_torque;
+    const double work = lesson.task == Task::loosen ? -torque : torque;
+    const bool fingers = lesson.grip == servo::Grip::fingers;
+    if (!track.worked && (work > working_torque || (fingers && work > 0.01)))
+        first_work(lesson, joint, state);
+    if (work > track.peak_torque) {
+        track.peak_torque = work;
+        track.peak_angle = output.nut_angle;
+        if (lesson.task == Task::tighten && track.snug)
+            track.result.angle = track.peak_angle - track.snug_angle;
+    }
+    if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
+        !fingers) {
+        track.snug = true;
+        track.snug_angle = output.nut_angle;
+    }
+    if (output.stage != track.stage) {
+        track.stage = output.stage;
+        say(lesson, state.tick, "stage", static_cast<int>(joint), static_cast<double>(output.stage),
+            std::string(joint::name(output.stage)));
+    }
+    const joint::Condition condition = state.joints[joint].condition;
+    if (condition != track.result.condition) {
+        track.result.condition = condition;
+        say(lesson, state.tick, "mistake", static_cast<int>(joint), torque,
+            fmt::format("{} is {}", track.result.id, joint::name(condition)));
+    }
+}
+
+}  // namespace
+
+Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
+    Lesson lesson;
+    lesson.assembly = &assembly;
+    lesson.mode = mode;
+    lesson.task = task;
+    lesson.steps = make_plan(assembly, task);
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        JointTrack track;
+        track.result.id = joint.design.id;
+        lesson.joints.push_back(std::move(track));
+    }
+    return lesson;
+}
+
+void observe(Lesson& lesson, const servo::State& state, const servo::Input& input,
+             const servo::Output& output) {
+    if (state.tick == 1) begin_step(lesson, state);
+    if (lesson.held >= 0 && output.joint != lesson.held) release(lesson, state);
+    if (output.joint >= 0 && lesson.held < 0) take(lesson, output.joint, input.grip, state);
+    if (lesson.held >= 0) watch(lesson, static_cast<std::size_t>(lesson.held), state, output);
+    // A broken bolt is never tight: its step cannot be done, and the lesson goes on to the next.
+    const Step* due = lesson.due();
+    if (due != nullptr && lesson.held < 0 &&
+        lesson.joints[due->joint].result.condition != joint::Condition::sound)
+        end_step(lesson, state);
+}
+
+}  // namespace bolt::lesson

@@ -1,0 +1,63 @@
+// The lesson as a small state machine beside the servo: it watches ticks, knows which step is due, and
+// judges.
+//
+// A step is due until it is done. The hand may come and go (an open-end wrench comes off for every stroke); a
+// step is done when the hand has let go of a nut on which it reached what the step asks for:
+//   run down    the fingers have turned the nut onto its seat
+//   tighten     the torque reached the low edge of the step's window
+//   re-check    the wrench moved the nut on, or reached the window without moving it
+//   loosen      the nut is free of clamp force
+// In assessment a joint that is left for the next one counts as done as it was left; in the other modes the
+// step stays.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "content/format/assembly.hpp"
+#include "game/lesson/plan.hpp"
+#include "game/lesson/result.hpp"
+#include "haptics/servo/setup.hpp"
+#include "haptics/servo/tick.hpp"
+
+namespace bolt::lesson {
+
+// What the lesson remembers of a joint between ticks.
+struct JointTrack {
+    JointResult result;
+    bool snug = false;         // the snug torque has been reached
+    double snug_angle = 0.0;   // rad, nut angle when it was reached first
+    double peak_torque = 0.0;  // N·m, of the step that is due
+    double peak_angle = 0.0;   // rad, nut angle at the last peak
+    double begin_angle = 0.0;  // rad, nut angle when the step began
+    bool worked = false;       // the hand has done something with the nut in this visit
+    int done_in_pass = -1;     // last pass in which a step of this joint was done
+    joint::Stage stage = joint::Stage::navigation;
+};
+
+struct Lesson {
+    const content::Assembly* assembly = nullptr;
+    Mode mode = Mode::guided;
+    Task task = Task::tighten;
+    std::vector<Step> steps;
+    std::size_t current = 0;
+    std::vector<JointTrack> joints;
+    int held = -1;  // joint in the hand at the last tick
+    servo::Grip grip = servo::Grip::none;
+    std::vector<Event> events;  // since they were last taken
+
+    [[nodiscard]] const Step* due() const { return current < steps.size() ? &steps[current] : nullptr; }
+};
+
+// `assembly` must outlive the lesson.
+Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
+
+// After each tick.
+void observe(Lesson& lesson, const servo::State& state, const servo::Input& input,
+             const servo::Output& output);
+
+// The state of one joint's result now, with verdicts; and of the whole, with the score and its reasons.
+JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::State& state);
+LessonResult judge(const Lesson& lesson, const servo::State& state, double dt);
+
+}  // namespace bolt::lesson

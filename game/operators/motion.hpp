@@ -1,0 +1,50 @@
+// How a hand moves: minimum-jerk reaches and physiological tremor.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/math.hpp"
+#include "engine/base/random.hpp"
+
+namespace bolt::operators {
+
+// Flash and Hogan, J. Neurosci. 5 (1985) 1688: 10τ³ − 15τ⁴ + 6τ⁵, at rest at both ends.
+inline double minimum_jerk(double tau) {
+    const double t = std::clamp(tau, 0.0, 1.0);
+    return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+}
+
+struct Pose {
+    Vec3 position{0.0};
+    Quat orientation{1.0, 0.0, 0.0, 0.0};
+};
+
+// From one pose to another at share s of the way, on an arc that rises by `lift` along `up`.
+inline Pose along(const Pose& from, const Pose& to, double s, const Vec3& up, double lift) {
+    return {glm::mix(from.position, to.position, s) + up * (lift * 4.0 * s * (1.0 - s)),
+            glm::slerp(from.orientation, to.orientation, s)};
+}
+
+// Two incommensurate sines per axis in the 8–12 Hz band, unit amplitude each axis, phases by seed.
+class Tremor {
+  public:
+    explicit Tremor(Random& random) {
+        for (int i = 0; i < count; ++i) {
+            rate_[i] = 2.0 * pi * random.uniform(8.0, 12.0);
+            phase_[i] = random.uniform(0.0, 2.0 * pi);
+        }
+    }
+    [[nodiscard]] Vec3 at(double time) const { return {pair(time, 0), pair(time, 2), pair(time, 4)}; }
+    [[nodiscard]] double torsion(double time) const { return pair(time, 6); }
+
+  private:
+    static constexpr int count = 8;
+    [[nodiscard]] double pair(double time, int i) const {
+        return 0.5 * (std::sin(rate_[i] * time + phase_[i]) + std::sin(rate_[i + 1] * time + phase_[i + 1]));
+    }
+    double rate_[count];
+    double phase_[count];
+};
+
+}  // namespace bolt::operators

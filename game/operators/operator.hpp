@@ -1,0 +1,30 @@
+// A simulated trainee: sees the assembly, feels the torque late, moves the tool as a hand does. It drives the
+// lesson through the same input as a person: a device pose and a grip, nothing else.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "game/lesson/lesson.hpp"
+#include "game/operators/profile.hpp"
+#include "haptics/servo/setup.hpp"
+#include "haptics/servo/tick.hpp"
+
+namespace bolt::operators {
+
+class Operator {
+  public:
+    Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup);
+    Operator(Operator&&) noexcept;
+    Operator& operator=(Operator&&) noexcept;
+    ~Operator();
+
+    // The input for the next tick, from what can be seen and felt after the last one. Same seed, same inputs.
+    servo::Input act(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson);
+
+  private:
+    struct Mind;
+    std::unique_ptr<Mind> mind_;
+};
+
+}  // namespace bolt::operators

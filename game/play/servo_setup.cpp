@@ -1,0 +1,67 @@
+#include "game/play/servo_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace bolt::play {
+
+Result<servo::Setup> make_setup(const content::Assembly& assembly, joint::Law law,
+                                const force::OutputLimits& limits, std::uint64_t seed, double dt) {
+    std::vector<joint::JointDesign> designs;
+    double greatest = 0.0;
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        designs.push_back(joint.design);
+        greatest = std::max(greatest, joint.spec.torque.high);
+        if (law == joint::Law::published && joint.spec.torque.low > assembly.published.T_max_Nm)
+            return fail(
+                ErrorCode::bad_content,
+                fmt::format("{}: joint {} asks for at least {:.1f} N·m", assembly.file, joint.design.id,
+                            joint.spec.torque.low),
+                fmt::format("the published law never gives more than {:.1f} N·m; use --law mechanistic or "
+                            "lower the target",
+                            assembly.published.T_max_Nm));
+    }
+    const content::FlangeDesign& f = assembly.flange;
+    joint::FlangePlate plate;
+    if (f.coupled) plate = joint::FlangePlate::make(f.thickness, f.E, f.poisson, f.interface_stiffness);
+
+    servo::Description description;
+    description.joints = designs;
+    description.law = law;
+    description.published = assembly.published;
+    description.flange = f.coupled ? &plate : nullptr;
+    description.jaw = assembly.wrench.jaw;
+    description.head_angle = assembly.wrench.head_angle;
+    description.handle_length = assembly.wrench.handle_length;
+    description.greatest_torque = greatest;
+    description.limits = limits;
+    description.seed = seed;
+    description.dt = dt;
+    return servo::make_setup(description);
+}
+
+Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, servo::State& state) {
+    constexpr double speed = to_radians(120.0);
+    constexpr int longest = 4'000'000;
+    for (const std::size_t i : assembly.passes.back().order) {
+        const double target = assembly.joints[i].spec.torque.target;
+        joint::JointState& joint = state.joints[i];
+        int steps = 0;
+        while (joint.torque < target && joint.condition == joint::Condition::sound && ++steps < longest) {
+            const bool near = joint.stage != joint::Stage::navigation;
+            const double step = (near ? 0.1 : 1.0) * speed * setup.dt;
+            joint::turn_nut(setup.group, state.joints, i, joint.nut.angle + step, 1.0, setup.dt);
+        }
+        if (joint.torque < target)
+            return fail(ErrorCode::bad_content,
+                        fmt::format("joint {} cannot be tightened to {:.1f} N·m: it is {}",
+                                    assembly.joints[i].design.id, target, joint::name(joint.condition)));
+        joint.nut.speed = 0.0;
+    }
+    for (double rest = 0.0; rest < 10.0; rest += setup.dt)
+        joint::step_group(setup.group, state.joints, -1, joint::Handle{}, setup.dt);
+    return {};
+}
+
+}  // namespace bolt::play

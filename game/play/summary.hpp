@@ -1,0 +1,20 @@
+// summary.json and the closing table of a lesson.
+#pragma once
+
+#include <string>
+
+#include "content/format/assembly.hpp"
+#include "game/lesson/result.hpp"
+#include "game/play/train.hpp"
+
+namespace bolt::play {
+
+// {assembly, variant, law, mode, task, operator, seed, duration_s, score, finished,
+//  joints: [{id, torque_Nm, angle_deg, clamp_N, verdict}]}
+std::string summary_json(const content::Assembly& assembly, const TrainOptions& options,
+                         const lesson::LessonResult& result);
+
+// Joint, torque, clamp force, angle, verdict, in columns for a terminal.
+std::string summary_table(const content::Assembly& assembly, const lesson::LessonResult& result);
+
+}  // namespace bolt::play

@@ -1,0 +1,89 @@
+#include "game/play/train.hpp"
+
+#include <cmath>
+
+#include "game/operators/operator.hpp"
+#include "game/play/servo_setup.hpp"
+#include "game/record/session.hpp"
+
+namespace bolt::play {
+
+namespace {
+
+record::Header header_of(const content::Assembly& assembly, const TrainOptions& options) {
+    record::Header header;
+    header.assembly = assembly.name;
+    header.assembly_file = assembly.file;
+    header.assembly_text = assembly.text;
+    header.variant = assembly.variant;
+    header.law = joint::name(options.law);
+    header.mode = lesson::name(options.mode);
+    header.task = lesson::name(options.task);
+    header.operator_name = options.trainee.name;
+    header.seed = options.seed;
+    header.dt = options.dt;
+    header.program = "boltwright " BOLTWRIGHT_VERSION;
+    return header;
+}
+
+// What the lesson said in this tick goes to the file and to whoever watches.
+Status pass_on_events(lesson::Lesson& lesson, const servo::State& state, record::Writer& writer,
+                      Progress& progress, const std::function<bool(const Progress&)>& watch, bool& go_on) {
+    for (const lesson::Event& event : lesson.events) {
+        if (Status added = writer.add(event); !added) return added;
+        if (event.kind == "step_end" || event.kind == "release") {
+            const auto joint = static_cast<std::size_t>(event.joint);
+            if (Status kept = writer.update(lesson::judge_joint(lesson, joint, state)); !kept) return kept;
+        }
+        progress.event = &event;
+        go_on = watch(progress) && go_on;
+        progress.event = nullptr;
+    }
+    lesson.events.clear();
+    return {};
+}
+
+}  // namespace
+
+Result<lesson::LessonResult> train(const content::Assembly& assembly, const TrainOptions& options,
+                                   const std::filesystem::path& file,
+                                   const std::function<bool(const Progress&)>& watch) {
+    const force::OutputLimits device;  // the simulated device: what a 6-DoF arm of the Virtuose class renders
+    Result<servo::Setup> made = make_setup(assembly, options.law, device, options.seed, options.dt);
+    if (!made) return fail(made.error());
+    const servo::Setup& setup = *made;
+    servo::State state = servo::initial_state(setup);
+    if (options.task == lesson::Task::loosen)
+        if (Status tight = pretighten(assembly, setup, state); !tight) return fail(tight.error());
+
+    Result<record::Writer> created = record::Writer::create(file, header_of(assembly, options));
+    if (!created) return fail(created.error());
+    record::Writer& writer = *created;
+
+    lesson::Lesson lesson = lesson::begin(assembly, options.mode, options.task);
+    for (std::size_t i = 0; i < lesson.joints.size(); ++i)
+        if (Status kept = writer.update(lesson::judge_joint(lesson, i, state)); !kept)
+            return fail(kept.error());
+
+    operators::Operator trainee(options.trainee, options.seed, setup);
+    const auto second = static_cast<std::uint64_t>(std::lround(1.0 / options.dt));
+    const auto last = static_cast<std::uint64_t>(options.longest / options.dt);
+    bool go_on = true;
+    while (go_on && lesson.due() != nullptr && state.tick < last) {
+        const servo::Input input = trainee.act(setup, state, lesson);
+        const servo::Output output = servo::tick(setup, state, input);
+        lesson::observe(lesson, state, input, output);
+        if (Status kept = writer.append(record::make_record(input, output)); !kept) return fail(kept.error());
+        Progress progress{static_cast<double>(state.tick) * options.dt, lesson.current, lesson.steps.size(),
+                          nullptr};
+        if (!lesson.events.empty())
+            if (Status kept = pass_on_events(lesson, state, writer, progress, watch, go_on); !kept)
+                return fail(kept.error());
+        if (state.tick % second == 0) go_on = watch(progress) && go_on;
+    }
+    lesson::LessonResult result = lesson::judge(lesson, state, options.dt);
+    if (Status finished = writer.finish(result); !finished) return fail(finished.error());
+    return result;
+}
+
+}  // namespace bolt::play

@@ -1,0 +1,39 @@
+// A whole lesson played by a simulated trainee in virtual time, through the same tick and the same input as a
+// person.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "engine/base/result.hpp"
+#include "game/lesson/lesson.hpp"
+#include "game/operators/profile.hpp"
+
+namespace bolt::play {
+
+struct TrainOptions {
+    lesson::Mode mode = lesson::Mode::guided;
+    lesson::Task task = lesson::Task::tighten;
+    joint::Law law = joint::Law::mechanistic;
+    operators::Profile trainee;
+    std::uint64_t seed = 1;
+    double dt = 0.001;
+    double longest = 7200.0;  // s of virtual time after which the lesson is given up
+};
+
+struct Progress {
+    double time = 0.0;  // s, virtual
+    std::size_t step = 0;
+    std::size_t steps = 0;
+    const lesson::Event* event = nullptr;  // what just happened; null: a second has passed
+};
+
+// Writes the session to `file` as it goes. `progress` may return false to stop: the session is then closed as
+// it is.
+Result<lesson::LessonResult> train(const content::Assembly& assembly, const TrainOptions& options,
+                                   const std::filesystem::path& file,
+                                   const std::function<bool(const Progress&)>& progress);
+
+}  // namespace bolt::play

@@ -1,0 +1,156 @@
+#include "haptics/joint/nut.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/joint/support.hpp"
+
+using namespace bolt;
+using namespace bolt::joint;
+
+namespace {
+
+Handle spring(double angle, double half_play = 0.0) {
+    Handle handle;
+    handle.engaged = true;
+    handle.angle = angle;
+    handle.stiffness = 2000.0;
+    handle.half_play = half_play;
+    return handle;
+}
+
+// A nut tight at about 40 kN.
+struct Tight {
+    GroupParameters group = test::single([] {
+        JointDesign d = test::m16_flange_joint();
+        d.running_torque = 0.0;
+        d.embedding_time = 1e9;
+        return d;
+    }());
+    std::vector<JointState> joints = initial_state(group, 1);
+    Tight() {
+        while (joints[0].clamp < 40e3) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
+        joints[0].nut.speed = 0.0;
+        for (int i = 0; i < 3000; ++i) step_group(group, joints, -1, Handle{}, 1e-3);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the nut stands, to the bit, until the torque overcomes the resistance") {
+    Tight tight;
+    const double stands_at = tight.joints[0].nut.angle;
+    const Resistance r = resistance(tight.group, 0, tight.joints[0]);
+    double last = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+        step_group(tight.group, tight.joints, 0, spring(stands_at + 1e-5 * i), 1e-3);
+        if (tight.joints[0].nut.angle != stands_at) break;
+        last = tight.joints[0].torque;
+    }
+    CHECK(last == doctest::Approx(r.tighten).epsilon(1e-3));
+    CHECK(last <= r.tighten);
+}
+
+TEST_CASE("at rest there is no chatter: a held torque below the resistance moves nothing, ever") {
+    Tight tight;
+    const double stands_at = tight.joints[0].nut.angle;
+    const Resistance r = resistance(tight.group, 0, tight.joints[0]);
+    for (const double share : {0.99, 0.5, -0.5, -0.99}) {
+        const double torque = share > 0 ? share * r.tighten : -share * r.loosen;
+        for (int i = 0; i < 2000; ++i) {
+            step_group(tight.group, tight.joints, 0, spring(stands_at + torque / 2000.0), 1e-3);
+            REQUIRE(tight.joints[0].nut.angle == stands_at);
+            REQUIRE(tight.joints[0].nut.speed == 0.0);
+        }
+        CHECK(tight.joints[0].torque == doctest::Approx(torque));
+    }
+}
+
+TEST_CASE("turned on slowly it follows the hand and carries exactly the running torque") {
+    Tight tight;
+    double hand = tight.joints[0].nut.angle;
+    for (int i = 0; i < 3000; ++i) {
+        hand += 1e-4;
+        step_group(tight.group, tight.joints, 0, spring(hand), 1e-3);
+    }
+    const Resistance r = resistance(tight.group, 0, tight.joints[0]);
+    CHECK(tight.joints[0].torque == doctest::Approx(r.tighten).epsilon(0.005));
+    CHECK(tight.joints[0].nut.speed == doctest::Approx(0.1).epsilon(0.1));
+    CHECK(tight.joints[0].mechanistic.share == 1.0);
+}
+
+TEST_CASE("a hand that lets go leaves the nut where it is: tension does not unscrew it") {
+    Tight tight;
+    const double stands_at = tight.joints[0].nut.angle;
+    for (int i = 0; i < 10'000; ++i) step_group(tight.group, tight.joints, 0, Handle{}, 1e-3);
+    CHECK(tight.joints[0].nut.angle == stands_at);
+    CHECK(tight.joints[0].torque == 0.0);
+}
+
+TEST_CASE("backlash: inside the play there is no torque, at its edge the torque begins from nothing") {
+    Tight tight;
+    const double nut = tight.joints[0].nut.angle, play = 0.015;
+    double last = 0.0;
+    for (int i = -200; i <= 400; ++i) {
+        const double hand = nut + 1e-4 * i;
+        step_group(tight.group, tight.joints, 0, spring(hand, play), 1e-3);
+        if (tight.joints[0].nut.angle != nut) break;
+        if (std::abs(hand - nut) <= play) CHECK(tight.joints[0].torque == 0.0);
+        CHECK(std::abs(tight.joints[0].torque - last) <= 2000.0 * 1.01e-4 + 2000.0 * (i == -200 ? 0.005 : 0.0) + 1e-9);
+        last = tight.joints[0].torque;
+    }
+}
+
+TEST_CASE("fingers slip at their limit and give no more") {
+    Tight tight;
+    Handle fingers = spring(tight.joints[0].nut.angle + 1.0);
+    fingers.stiffness = 5.0;
+    fingers.torque_limit = 0.8;
+    step_group(tight.group, tight.joints, 0, fingers, 1e-3);
+    CHECK(tight.joints[0].torque == doctest::Approx(0.8));
+    CHECK(tight.joints[0].nut.speed == 0.0);
+}
+
+TEST_CASE("a jaw pushes and never pulls, whatever the nut does") {
+    Random random(9);
+    Tight tight;
+    double hand = tight.joints[0].nut.angle;
+    for (int i = 0; i < 50'000; ++i) {
+        hand += random.normal() * 2e-3;
+        const double before = tight.joints[0].nut.angle;
+        step_group(tight.group, tight.joints, 0, spring(hand, 0.01), 1e-3);
+        const double torque = tight.joints[0].torque;
+        REQUIRE(torque * (hand - before) >= 0.0);
+    }
+}
+
+TEST_CASE("the wrench makes no energy: over any wandering of the hand the nut takes what the hand gives") {
+    // Work of the coupling on the nut minus what the joint can store stays positive.
+    Random random(10);
+    for (int trial = 0; trial < 20; ++trial) {
+        Tight tight;
+        const double elastic = 0.5 * 40e3 * 40e3 * tight.group.joints[0].seat.compliance + 10.0;
+        double hand = tight.joints[0].nut.angle, work = 0.0, drift = 0.0;
+        for (int i = 0; i < 5000; ++i) {
+            drift = 0.99 * drift + random.normal() * 2e-4;
+            hand += drift;
+            const double before = tight.joints[0].nut.angle;
+            step_group(tight.group, tight.joints, 0, spring(hand, 0.01), 1e-3);
+            work += tight.joints[0].torque * (tight.joints[0].nut.angle - before);
+            REQUIRE(work > -elastic);
+        }
+    }
+}
+
+TEST_CASE("step size does not change what is felt: the same pull at 1 and at 4 kHz") {
+    const auto peak = [](double dt) {
+        Tight tight;
+        double hand = tight.joints[0].nut.angle, highest = 0.0;
+        for (double t = 0.0; t < 2.0; t += dt) {
+            hand += 0.2 * dt;
+            step_group(tight.group, tight.joints, 0, spring(hand, 0.01), dt);
+            highest = std::max(highest, tight.joints[0].torque);
+        }
+        return highest;
+    };
+    CHECK(peak(1e-3) == doctest::Approx(peak(2.5e-4)).epsilon(0.005));
+}

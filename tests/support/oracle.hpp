@@ -1,0 +1,17 @@
+// Reads the tables in tests/oracles and tests/data.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bolt::test {
+
+using Row = std::map<std::string, std::string>;  // by column name
+
+// Lines that begin with # are comments. Throws if the file is not there: a missing oracle fails the test.
+std::vector<Row> read_table(const std::string& path_in_tests);
+
+inline double number(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
+
+}  // namespace bolt::test

@@ -1,0 +1,16 @@
+// The subcommands of bolt-author. Each adds itself to the command line and leaves its exit code where main
+// finds it.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace bolt::author {
+
+void add_new(CLI::App& app, int& exit_code);
+void add_validate(CLI::App& app, int& exit_code);
+void add_curve(CLI::App& app, int& exit_code);
+void add_torque(CLI::App& app, int& exit_code);
+
+}  // namespace bolt::author
