@@ -26,57 +26,76 @@ struct Window {
 
 struct Specification {
     Strategy strategy = Strategy::torque;
-    Window torque;               // N·m, at the wrench
-    double snug_torque = 0.0;    // N·m, from which the tightening angle is counted
+    Window torque;             // N·m, at the wrench
+    double snug_torque = 0.0;  // N·m, from which the tightening angle is counted
     bool has_angle = false;
-    Window angle;                // rad, from snug; judged when has_angle
-    double target_clamp = 0.0;   // N; 0: derived from the target torque and the nominal friction
+    Window angle;               // rad, from snug; judged when has_angle
+    double target_clamp = 0.0;  // N; 0: derived from the target torque and the nominal friction
     RiskClass risk = RiskClass::C;
 };
 
 struct AssemblyJoint {
+    std::string type;  // name of its joint type
     joint::JointDesign design;
     Specification spec;
-    std::string node;            // unique name in the .glb; may be empty while there is none
+    std::string node;  // unique name in the .glb; may be empty while there is none
 };
 
 enum class StepKind : std::uint8_t { run_down, tighten, recheck };
 
-// One round over joints: run the nuts down by hand, tighten to a share of the target, or check at full target.
+// One round over joints: run the nuts down by hand, tighten to a share of the target, or check at full
+// target.
 struct Pass {
     StepKind kind = StepKind::tighten;
-    double fraction = 1.0;               // of the target torque; tighten only
-    std::vector<std::size_t> order;      // indices into joints
+    double fraction = 1.0;           // of the target torque; tighten only
+    std::vector<std::size_t> order;  // indices into joints
 };
 
 struct WrenchDesign {
-    double jaw = 0.0;           // m, opening
-    double head_angle = 0.0;    // rad, between jaw and handle
-    double handle_length = 0.0; // m, jaw centre to the grip
+    double jaw = 0.0;            // m, opening
+    double head_angle = 0.0;     // rad, between jaw and handle
+    double handle_length = 0.0;  // m, jaw centre to the grip
 };
 
 // Flange that couples the joints: a plate on an elastic foundation (see haptics/joint/group.hpp). Ours.
 struct FlangeDesign {
     bool coupled = false;
-    double thickness = 0.0;            // m
-    double E = 0.0;                    // Pa
+    double thickness = 0.0;  // m
+    double E = 0.0;          // Pa
     double poisson = 0.25;
     double interface_stiffness = 0.0;  // Pa/m, of the parting faces
 };
 
+// A named point of view.
+struct View {
+    std::string name;
+    Vec3 eye{0.0};               // m
+    Vec3 target{0.0};            // m
+    double field_of_view = 0.0;  // rad, vertical
+};
+
+// Another material or fastener of the same assembly.
+struct Variant {
+    std::string name;
+    std::map<std::string, std::string> title;  // by language; may be empty
+};
+
 struct Assembly {
-    std::string name;                              // folder name
-    std::string file;                              // path of assembly.json
-    std::string text;                              // the file's exact bytes: stored in every session
-    std::map<std::string, std::string> title;      // by language ("en", "de", "zh")
-    std::map<std::string, std::string> lesson;     // text by language
+    std::string name;                           // folder name
+    std::string file;                           // path of assembly.json
+    std::string text;                           // the file's exact bytes: stored in every session
+    std::map<std::string, std::string> title;   // by language ("en", "de", "zh")
+    std::map<std::string, std::string> lesson;  // text by language
+    std::string sources;                        // where the file's numbers come from; may be empty
     joint::Law law = joint::Law::mechanistic;
-    joint::PublishedParameters published;          // pitch etc. of the paper; used by that law only
-    std::string variant;                           // which material variant was chosen
+    joint::PublishedParameters published;  // pitch etc. of the paper; used by that law only
+    std::string variant;                   // which material variant was chosen; empty: none
+    std::vector<Variant> variants;         // all that the file has
     std::vector<AssemblyJoint> joints;
     std::vector<Pass> passes;
     WrenchDesign wrench;
     FlangeDesign flange;
+    std::vector<View> views;
 };
 
 }  // namespace bolt::content

@@ -10,7 +10,8 @@
 
 namespace bolt::content {
 
-// Either an assembly and no errors, or errors. Each error has ErrorCode::bad_content, file, line, column, pointer.
+// Either an assembly and no errors, or errors. Each error has ErrorCode::bad_content, file, line, column,
+// pointer.
 struct Loaded {
     Assembly assembly;
     std::vector<Error> errors;

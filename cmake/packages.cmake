@@ -1,0 +1,10 @@
+# Every outside library, found once for the whole house. Where each comes from: packages.txt.
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(zstd REQUIRED)
+find_package(doctest REQUIRED)
+find_package(benchmark REQUIRED)

@@ -1,0 +1,323 @@
+#include "content/format/json_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "content/format/json_syntax.hpp"
+
+namespace bolt::content {
+
+using nlohmann::json;
+
+namespace {
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t json_repeat_limit = 100;  // repeated names before we give up
+}  // namespace
+
+// One value of the text, linked to its first child and its next sibling in the order of the file. A table of
+// pointers would be simpler, but its size grows with depth times length of the keys.
+struct JsonDocument::Entry {
+    std::uint32_t key_offset = 0;
+    std::uint32_t value_offset = 0;
+    std::uint32_t first_child = none;
+    std::uint32_t next_sibling = none;
+    std::string key;  // of an object's member
+};
+
+struct JsonDocument::Content {
+    json root;
+    std::string file;
+    std::vector<Entry> entries;
+    std::vector<std::size_t> line_starts{0};
+    std::size_t size = 0;
+};
+
+// Builds values and places as nlohmann's parser reads. The parser does not say where a token starts; it
+// starts at the first byte behind the previous token that is no white space, comma or colon.
+class JsonBuilder {
+  public:
+    JsonBuilder(std::string_view text, JsonDocument& document, std::vector<Error>& errors)
+        : text_(text), document_(document), errors_(errors), end_(byte_order_mark(text)) {}
+
+    bool null() { return add(json(nullptr)); }
+    bool boolean(bool value) { return add(json(value)); }
+    bool number_integer(json::number_integer_t value) { return add(number(value)); }
+    bool number_unsigned(json::number_unsigned_t value) { return add(number(value)); }
+    bool number_float(json::number_float_t value, const std::string&) { return add(json(value)); }
+    bool string(std::string& value) { return add(json(std::move(value))); }
+    bool binary(json::binary_t&) { return false; }
+    bool start_object(std::size_t) { return open(json::object()); }
+    bool start_array(std::size_t) { return open(json::array()); }
+    bool end_object() { return close(); }
+    bool end_array() { return close(); }
+
+    bool key(std::string& value) {
+        key_offset_ = next_token();
+        before_ = Before::key;
+        if (value.empty())
+            return stop(key_offset_, "an empty name", "expected a name of at least one letter");
+        if (value.size() > json_key_limit)
+            return stop(key_offset_, "a name of more than 128 bytes", "expected a shorter name");
+        if (std::any_of(value.begin(), value.end(),
+                        [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
+            return stop(key_offset_, "a name with a control character in it", "expected plain text");
+        Open& object = stack_.back();
+        if (object.value->contains(value)) {
+            // Where it stood first: the value that counts.
+            std::uint32_t first = document_.content_->entries[object.entry].first_child;
+            while (document_.content_->entries[first].key != value)
+                first = document_.content_->entries[first].next_sibling;
+            const Error place = document_.error_at(document_.content_->entries[first].key_offset, {}, {});
+            Error error = document_.error_at(key_offset_, fmt::format("{} is given twice", in_quotes(value)),
+                                             fmt::format("it is given first in line {}", place.line));
+            error.pointer = pointer_of(value);
+            errors_.push_back(std::move(error));
+            if (errors_.size() > json_repeat_limit) return false;
+            slot_ = &discarded_.emplace_back();
+        } else {
+            slot_ = &(*object.value)[value];
+        }
+        key_ = std::move(value);
+        return true;
+    }
+
+    bool parse_error(std::size_t, const std::string&, const json::exception&) {
+        const SyntaxMistake mistake = explain_syntax(text_, end_, before_);
+        return stop(mistake.offset, mistake.what, mistake.expected);
+    }
+
+  private:
+    struct Open {
+        json* value;
+        std::uint32_t entry;
+        std::uint32_t last_child;
+        std::string key;
+    };
+
+    // Whole numbers that a double cannot hold are kept as doubles: nothing in a content file counts that far.
+    template <class Integer>
+    static json number(Integer value) {
+        constexpr double exact = 9007199254740992.0;  // 2⁵³
+        const auto real = static_cast<double>(value);
+        return real > exact || real < -exact ? json(real) : json(static_cast<std::int64_t>(value));
+    }
+
+    std::size_t next_token() {
+        std::size_t start = skip_space(text_, end_);
+        while (start < text_.size() && (text_[start] == ',' || text_[start] == ':'))
+            start = skip_space(text_, start + 1);
+        end_ = token_end(text_, start);
+        return start;
+    }
+
+    bool stop(std::size_t offset, std::string what, std::string expected) {
+        errors_.push_back(document_.error_at(offset, std::move(what), std::move(expected)));
+        return false;
+    }
+
+    [[nodiscard]] std::string pointer_of(std::string_view last) const {
+        std::string pointer;
+        for (std::size_t i = 1; i < stack_.size(); ++i) pointer += "/" + pointer_token(stack_[i].key);
+        return pointer + "/" + pointer_token(last);
+    }
+
+    void value_read() {
+        if (stack_.empty())
+            before_ = Before::end;
+        else
+            before_ = stack_.back().value->is_object() ? Before::object_value : Before::array_value;
+    }
+
+    json* store(json value) {
+        const std::size_t offset = next_token();
+        auto& entries = document_.content_->entries;
+        if (entries.size() >= json_value_limit) {
+            stop(offset, fmt::format("the file holds more than {} values", json_value_limit), {});
+            return nullptr;
+        }
+        const auto index = static_cast<std::uint32_t>(entries.size());
+        JsonDocument::Entry entry;
+        entry.value_offset = entry.key_offset = static_cast<std::uint32_t>(offset);
+        json* slot = &document_.content_->root;
+        if (!stack_.empty()) {
+            Open& parent = stack_.back();
+            if (parent.value->is_object()) {
+                entry.key_offset = static_cast<std::uint32_t>(key_offset_);
+                entry.key = key_;
+                slot = slot_;
+            } else {
+                key_ = std::to_string(parent.value->size());
+                parent.value->push_back(json());
+                slot = &parent.value->back();
+            }
+            (parent.last_child == none ? entries[parent.entry].first_child
+                                       : entries[parent.last_child].next_sibling) = index;
+            parent.last_child = index;
+        }
+        entries.push_back(std::move(entry));
+        *slot = std::move(value);
+        return slot;
+    }
+
+    bool add(json value) {
+        if (store(std::move(value)) == nullptr) return false;
+        value_read();
+        return true;
+    }
+
+    bool open(json value) {
+        const bool object = value.is_object();
+        json* slot = store(std::move(value));
+        if (slot == nullptr) return false;
+        const auto index = static_cast<std::uint32_t>(document_.content_->entries.size() - 1);
+        if (stack_.size() >= json_depth_limit)
+            return stop(document_.content_->entries[index].value_offset,
+                        fmt::format("nested more than {} levels deep", json_depth_limit), {});
+        stack_.push_back({slot, index, none, key_});
+        before_ = object ? Before::object_open : Before::array_open;
+        return true;
+    }
+
+    bool close() {
+        next_token();
+        stack_.pop_back();
+        value_read();
+        return true;
+    }
+
+    std::string_view text_;
+    JsonDocument& document_;
+    std::vector<Error>& errors_;
+    std::size_t end_;  // byte behind the last token read
+    Before before_ = Before::start;
+    std::vector<Open> stack_;
+    std::size_t key_offset_ = 0;
+    std::string key_;
+    json* slot_ = nullptr;        // where the value of the key goes
+    std::deque<json> discarded_;  // the values of repeated keys; they stay in place while they are filled
+};
+
+JsonDocument::JsonDocument(std::string_view text, std::string_view file)
+    : content_(std::make_unique<Content>()) {
+    content_->file = file;
+    content_->size = text.size();
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '\n') content_->line_starts.push_back(i + 1);
+    content_->line_starts[0] = byte_order_mark(text);  // invisible in every editor
+}
+
+JsonDocument::~JsonDocument() = default;
+
+std::unique_ptr<JsonDocument> JsonDocument::parse(std::string_view text, std::string_view file,
+                                                  std::vector<Error>& errors) {
+    std::unique_ptr<JsonDocument> document(new JsonDocument(text.substr(0, json_size_limit), file));
+    if (text.size() > json_size_limit) {
+        errors.push_back(document->error_at(0, "the file is larger than 4 MiB", {}));
+        return nullptr;
+    }
+    if (const auto mistake = explain_encoding(text)) {
+        errors.push_back(document->error_at(mistake->offset, mistake->what, mistake->expected));
+        return nullptr;
+    }
+    JsonBuilder builder(text, *document, errors);
+    if (!json::sax_parse(text.begin(), text.end(), &builder)) return nullptr;
+    return document;
+}
+
+const json& JsonDocument::root() const { return content_->root; }
+
+std::size_t JsonDocument::offset(std::string_view pointer, Part part) const {
+    const auto& entries = content_->entries;
+    if (entries.empty()) return 0;
+    std::uint32_t at = 0;
+    const std::vector<std::string> tokens = pointer_tokens(pointer);
+    std::size_t found = 0;
+    for (const std::string& token : tokens) {
+        std::uint32_t child = entries[at].first_child;
+        std::size_t index = 0;
+        const auto is_it = [&](const Entry& e) {
+            return e.key.empty() ? token == std::to_string(index) : token == e.key;
+        };
+        while (child != none && !is_it(entries[child])) {
+            child = entries[child].next_sibling;
+            ++index;
+        }
+        if (child == none) break;
+        at = child;
+        ++found;
+    }
+    return part == Part::key && found == tokens.size() ? entries[at].key_offset : entries[at].value_offset;
+}
+
+Error JsonDocument::error_at(std::size_t offset, std::string what, std::string expected) const {
+    const auto& starts = content_->line_starts;
+    const auto next = std::upper_bound(starts.begin(), starts.end(), offset);
+    const auto line = next == starts.begin() ? next : next - 1;
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    error.file = content_->file;
+    error.line = static_cast<int>(line - starts.begin()) + 1;
+    error.column = static_cast<int>(offset - std::min(*line, offset)) + 1;
+    return error;
+}
+
+Error JsonDocument::error(std::string_view pointer, Part part, std::string what, std::string expected) const {
+    Error error = error_at(offset(pointer, part), std::move(what), std::move(expected));
+    error.pointer = pointer;
+    return error;
+}
+
+int JsonDocument::line(std::string_view pointer, Part part) const {
+    return error_at(offset(pointer, part), {}, {}).line;
+}
+
+std::string pointer_token(std::string_view key) {
+    std::string token;
+    for (const char c : key) {
+        if (c == '~')
+            token += "~0";
+        else if (c == '/')
+            token += "~1";
+        else
+            token += c;
+    }
+    return token;
+}
+
+std::vector<std::string> pointer_tokens(std::string_view pointer) {
+    std::vector<std::string> tokens;
+    for (std::size_t i = 0; i < pointer.size(); ++i) {
+        if (pointer[i] == '/') {
+            tokens.emplace_back();
+        } else if (pointer[i] == '~' && i + 1 < pointer.size()) {
+            tokens.back() += pointer[++i] == '1' ? '/' : '~';
+        } else {
+            tokens.back() += pointer[i];
+        }
+    }
+    return tokens;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t longest = 60;
+    std::string shown = "\"";
+    std::size_t end = text.size();
+    if (end > longest) {
+        end = longest;
+        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+            --end;  // not inside a character
+    }
+    for (const char c : text.substr(0, end)) {
+        const auto byte = static_cast<unsigned char>(c);
+        shown += byte < 0x20 || byte == 0x7F ? '?' : c;
+    }
+    return shown + (end < text.size() ? "\"..." : "\"");
+}
+
+}  // namespace bolt::content

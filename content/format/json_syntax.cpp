@@ -1,0 +1,265 @@
+#include "content/format/json_syntax.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+
+#include "content/format/json_document.hpp"
+#include "engine/base/nearest.hpp"
+
+namespace bolt::content {
+
+namespace {
+
+constexpr std::string_view number_rules =
+    "expected as in 1.5, -2 or 3e-6: digits on both sides of the point, no leading zero or plus, no unit";
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_hex(char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; }
+
+std::string shown(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7F) return fmt::format("'{}'", c);
+    return fmt::format("byte 0x{:02X}", byte);
+}
+
+// The word of letters, digits and signs that starts at `p`: a number or literal, well-formed or not.
+std::string_view word_at(std::string_view text, std::size_t p) {
+    std::size_t end = p;
+    while (end < text.size() &&
+           (is_word(text[end]) || text[end] == '.' || text[end] == '-' || text[end] == '+'))
+        ++end;
+    return text.substr(p, end - p);
+}
+
+// Bytes of the number, as JSON writes one, that `s` starts with.
+std::size_t number_length(std::string_view s) {
+    std::size_t i = 0;
+    const auto digits = [&] {
+        const std::size_t first = i;
+        while (i < s.size() && is_digit(s[i])) ++i;
+        return i - first;
+    };
+    if (i < s.size() && s[i] == '-') ++i;
+    if (i < s.size() && s[i] == '0')
+        ++i;  // and no digit behind it
+    else if (digits() == 0)
+        return 0;
+    std::size_t whole = i;
+    if (i < s.size() && s[i] == '.') {
+        ++i;
+        if (digits() == 0) return whole;
+        whole = i;
+    }
+    if (i < s.size() && (s[i] == 'e' || s[i] == 'E')) {
+        ++i;
+        if (i < s.size() && (s[i] == '-' || s[i] == '+')) ++i;
+        if (digits() == 0) return whole;
+        whole = i;
+    }
+    return whole;
+}
+
+// The mistake inside the text that opens at `p`, if there is one.
+std::optional<SyntaxMistake> string_mistake(std::string_view text, std::size_t p) {
+    for (std::size_t i = p + 1; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        if (text[i] == '"') return std::nullopt;
+        if (text[i] == '\n' || text[i] == '\r')
+            return SyntaxMistake{p, "this text is not closed on its line", "expected a '\"' at its end"};
+        if (byte < 0x20)
+            return SyntaxMistake{i, fmt::format("control character 0x{:02X} in a text", byte),
+                                 fmt::format("write it as \\u{:04X}", byte)};
+        if (text[i] != '\\') continue;
+        const char escape = i + 1 < text.size() ? text[i + 1] : '\0';
+        const auto hex4 = [&](std::size_t at) {
+            if (at + 4 > text.size()) return false;
+            for (std::size_t k = at; k < at + 4; ++k)
+                if (!is_hex(text[k])) return false;
+            return true;
+        };
+        if (escape == 'u') {
+            if (!hex4(i + 2))
+                return SyntaxMistake{i, "\\u without four hexadecimal digits", "expected as in \\u00B5"};
+            const unsigned unit =
+                static_cast<unsigned>(std::stoul(std::string(text.substr(i + 2, 4)), nullptr, 16));
+            const bool high = unit >= 0xD800 && unit < 0xDC00;
+            const bool low_follows =
+                text.substr(i + 6, 2) == "\\u" && hex4(i + 8) &&
+                (std::stoul(std::string(text.substr(i + 8, 4)), nullptr, 16) & 0xFC00U) == 0xDC00U;
+            if ((high && !low_follows) || (unit >= 0xDC00 && unit < 0xE000))
+                return SyntaxMistake{i, "half of a surrogate pair",
+                                     "expected both halves, or the character itself"};
+            i += high ? 11 : 5;
+        } else if (std::string_view("\"\\/bfnrt").find(escape) != std::string_view::npos && escape != '\0') {
+            ++i;
+        } else {
+            return SyntaxMistake{
+                i, "a backslash that escapes nothing",
+                "write \\\\ for a backslash, or one of \\\" \\/ \\b \\f \\n \\r \\t \\uXXXX"};
+        }
+    }
+    return SyntaxMistake{p, "this text is not closed", "expected a '\"' at its end"};
+}
+
+// A number that goes on where JSON's ends: 013, 1.2.3, 5mm, 13,2.
+std::optional<SyntaxMistake> number_mistake(std::string_view text, std::size_t end) {
+    if (end == 0 || end >= text.size() || !is_digit(text[end - 1])) return std::nullopt;
+    std::size_t start = end;
+    while (start > 0 && (is_digit(text[start - 1]) ||
+                         std::string_view("+-.eE").find(text[start - 1]) != std::string_view::npos))
+        --start;
+    if (text[end] == ',' && end + 1 < text.size() && is_digit(text[end + 1])) {
+        const std::string_view rest = word_at(text, end + 1);
+        return SyntaxMistake{
+            start,
+            fmt::format("{} with a comma", in_quotes(text.substr(start, end + 1 + rest.size() - start))),
+            "expected a decimal point"};
+    }
+    const std::string_view word = word_at(text, start);
+    if (start + word.size() <= end) return std::nullopt;
+    return SyntaxMistake{start, fmt::format("{} is not a number as JSON writes it", in_quotes(word)),
+                         std::string(number_rules)};
+}
+
+struct Wanted {
+    bool key = false, value = false;
+    std::string words;  // what may stand here
+};
+
+Wanted wanted_after(Before before) {
+    switch (before) {
+        case Before::start:
+            return {false, true, "expected '{'"};
+        case Before::object_open:
+            return {true, false, "expected a name in double quotes or '}'"};
+        case Before::array_open:
+            return {false, true, "expected a value or ']'"};
+        case Before::key:
+            return {false, false, "expected ':' and a value"};
+        case Before::object_value:
+            return {false, false, "expected ',' or '}'"};
+        case Before::array_value:
+            return {false, false, "expected ',' or ']'"};
+        case Before::end:
+            return {false, false, "expected the end of the file"};
+    }
+    return {};
+}
+
+SyntaxMistake token_mistake(std::string_view text, std::size_t p, const Wanted& wanted) {
+    const char c = text[p];
+    if (c == '/' || c == '#')
+        return {p, "JSON has no comments", "move it into \"sources\" or the lesson, or remove it"};
+    if (c == '\'') return {p, "single quotes", "expected double quotes (\")"};
+    if (c == '"') {
+        if (!wanted.key && !wanted.value) return {p, "something is missing before this text", wanted.words};
+        if (auto mistake = string_mistake(text, p)) return *mistake;
+        return {p, "this text cannot stand here", wanted.words};
+    }
+    const std::string_view word = word_at(text, p);
+    if (word.empty()) return {p, fmt::format("{} cannot stand here", shown(c)), wanted.words};
+    if (wanted.key)
+        return {p, fmt::format("{} without quotes", in_quotes(word)), "expected a name in double quotes"};
+    if (!wanted.value)
+        return {p, fmt::format("something is missing before {}", in_quotes(word)), wanted.words};
+    if (number_length(word) == word.size())
+        return {p, fmt::format("the number {} is too large", word.substr(0, 40)), "expected less than 1e308"};
+    static const std::array<std::string, 3> literals = {"true", "false", "null"};
+    const std::string best = nearest(word, literals);
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0 && !best.empty())
+        return {p, fmt::format("unknown word {}", in_quotes(word)), fmt::format("did you mean {}?", best)};
+    if (is_digit(c) || c == '-' || c == '+' || c == '.')
+        return {p, fmt::format("{} is not a number as JSON writes it", in_quotes(word)),
+                std::string(number_rules)};
+    return {p, fmt::format("unknown word {}", in_quotes(word)),
+            "expected a number, a text in double quotes, true or false"};
+}
+
+}  // namespace
+
+std::size_t byte_order_mark(std::string_view text) { return text.starts_with("\xEF\xBB\xBF") ? 3 : 0; }
+
+std::size_t skip_space(std::string_view text, std::size_t from) {
+    while (from < text.size() && std::string_view(" \t\r\n").find(text[from]) != std::string_view::npos)
+        ++from;
+    return from;
+}
+
+std::size_t token_end(std::string_view text, std::size_t start) {
+    if (start >= text.size()) return text.size();
+    if (text[start] == '"') {
+        std::size_t i = start + 1;
+        while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2U : 1U;
+        return std::min(i + 1, text.size());
+    }
+    const std::string_view word = word_at(text, start);
+    const std::size_t number = number_length(word);
+    return start + std::max<std::size_t>(number > 0 ? number : word.size(), 1);
+}
+
+SyntaxMistake explain_syntax(std::string_view text, std::size_t end, Before before) {
+    Wanted wanted = wanted_after(before);
+    std::size_t p = skip_space(text, end);
+    // In a list a comma between digits may be meant.
+    if (before == Before::object_value ||
+        (before == Before::array_value && p < text.size() && text[p] != ','))
+        if (auto mistake = number_mistake(text, end)) return *mistake;
+    const auto too_early = [&] {
+        std::size_t last = text.size();
+        while (last > 0 && std::string_view(" \t\r\n").find(text[last - 1]) != std::string_view::npos) --last;
+        if (last <= byte_order_mark(text)) return SyntaxMistake{last, "the file is empty", wanted.words};
+        return SyntaxMistake{last, "the file ends too early", wanted.words};
+    };
+    if (p >= text.size()) return too_early();
+    // The separator is read over; what is wrong then stands behind it.
+    if (before == Before::key && text[p] == ':') {
+        wanted = {false, true, "expected a value"};
+        p = skip_space(text, p + 1);
+    } else if (text[p] == ',' && (before == Before::object_value || before == Before::array_value)) {
+        const std::size_t comma = p;
+        const bool object = before == Before::object_value;
+        wanted = {object, !object, object ? "expected a name in double quotes" : "expected a value"};
+        p = skip_space(text, p + 1);
+        if (p < text.size() && text[p] == (object ? '}' : ']'))
+            return {comma, fmt::format("nothing follows this comma but '{}'", text[p]), "remove the comma"};
+    }
+    if (p >= text.size()) return too_early();
+    return token_mistake(text, p, wanted);
+}
+
+std::optional<SyntaxMistake> explain_encoding(std::string_view text) {
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+        return SyntaxMistake{0, "the file is UTF-16", "save it as UTF-8"};
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+    };
+    const auto bad = [&](std::size_t i) {
+        return SyntaxMistake{i, fmt::format("byte 0x{:02X} is not UTF-8", byte(i)), "save the file as UTF-8"};
+    };
+    for (std::size_t i = 0; i < text.size();) {
+        const unsigned lead = byte(i);
+        if (lead == 0) return SyntaxMistake{i, "byte 0x00", "expected text"};
+        if (lead < 0x80) {
+            ++i;
+            continue;
+        }
+        const std::size_t more = lead >= 0xC2 && lead < 0xE0   ? 1
+                                 : lead >= 0xE0 && lead < 0xF0 ? 2
+                                 : lead >= 0xF0 && lead < 0xF5 ? 3
+                                                               : 0;
+        if (more == 0) return bad(i);
+        for (std::size_t k = 1; k <= more; ++k)
+            if ((byte(i + k) & 0xC0U) != 0x80U) return bad(i);
+        const unsigned next = byte(i + 1);  // overlong forms, surrogates and what lies above U+10FFFF
+        if ((lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) || (lead == 0xF0 && next < 0x90) ||
+            (lead == 0xF4 && next > 0x8F))
+            return bad(i);
+        i += more + 1;
+    }
+    return std::nullopt;
+}
+
+}  // namespace bolt::content

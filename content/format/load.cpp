@@ -1,0 +1,133 @@
+#include "content/format/load.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "content/format/json_document.hpp"
+#include "content/format/read_assembly.hpp"
+#include "engine/base/file.hpp"
+#include "engine/base/nearest.hpp"
+
+namespace bolt::content {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_errors = 200;  // a file with more is not the file that was meant
+
+bool holds_content(const fs::path& folder) {
+    std::error_code ignored;
+    return fs::is_regular_file(folder / "schema" / "assembly.schema.json", ignored);
+}
+
+std::vector<std::string> assembly_names(const fs::path& content) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(content / "assemblies", ignored))
+        if (fs::exists(entry.path() / "assembly.json", ignored))
+            names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Loaded failed(std::string file, std::string what, std::string expected) {
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.file = std::move(file);
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    Loaded loaded;
+    loaded.errors.push_back(std::move(error));
+    return loaded;
+}
+
+std::string folder_name(const fs::path& file) {
+    std::error_code ignored;
+    const fs::path whole = fs::absolute(file, ignored).lexically_normal();
+    return whole.parent_path().filename().string();
+}
+
+}  // namespace
+
+Loaded parse_assembly(std::string_view text, std::string_view file, std::string_view variant) {
+    Loaded loaded;
+    loaded.assembly.file = file;
+    loaded.assembly.text = text;
+    const auto document = JsonDocument::parse(text, file, loaded.errors);
+    if (!document) return loaded;
+    const std::vector<Error> repeated = std::move(loaded.errors);
+    Reader reader(*document);
+    Assembly assembly = read_assembly(reader, variant);
+    assembly.name = folder_name(fs::path(file));
+    assembly.file = std::move(loaded.assembly.file);
+    assembly.text = std::move(loaded.assembly.text);
+    loaded.assembly = std::move(assembly);
+    loaded.errors = reader.take_errors();
+    loaded.errors.insert(loaded.errors.begin(), repeated.begin(), repeated.end());
+    std::stable_sort(loaded.errors.begin(), loaded.errors.end(), [](const Error& a, const Error& b) {
+        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+    });
+    if (loaded.errors.size() > most_errors) {
+        const std::size_t more = loaded.errors.size() - most_errors;
+        loaded.errors.resize(most_errors);
+        Error last = loaded.errors.back();
+        last.pointer.clear();
+        last.what = fmt::format("{} more mistakes follow", more);
+        last.expected = "mend these first";
+        loaded.errors.push_back(std::move(last));
+    }
+    return loaded;
+}
+
+Loaded load_assembly(const fs::path& where, std::string_view variant) {
+    std::error_code ignored;
+    fs::path file = where;
+    if (fs::is_directory(where, ignored)) {
+        file = where / "assembly.json";
+        if (!fs::exists(file, ignored))
+            return failed(where.string(), "this folder has no assembly.json",
+                          "expected a folder of an assembly");
+    } else if (!fs::exists(where, ignored)) {
+        const fs::path content = content_folder();
+        const std::vector<std::string> names = assembly_names(content);
+        const std::string name = where.string();
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            const std::string best = nearest(name, names);
+            return failed(name, "there is no such folder, file or assembly",
+                          fmt::format("{}there are: {}",
+                                      best.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(best)),
+                                      names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+        }
+        file = content / "assemblies" / name / "assembly.json";
+    }
+    const auto text = read_file(file, json_size_limit, ErrorCode::bad_content);
+    if (!text) {
+        Loaded loaded;
+        loaded.errors.push_back(text.error());
+        return loaded;
+    }
+    return parse_assembly(*text, file.string(), variant);
+}
+
+fs::path content_folder() {
+    if (const char* given =
+            std::getenv("BOLTWRIGHT_CONTENT")) {  // NOLINT(concurrency-mt-unsafe): nothing sets it
+        if (*given != '\0') return holds_content(given) ? fs::path(given) : fs::path{};
+    }
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    for (fs::path folder = program.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+        if (holds_content(folder / "content")) return folder / "content";
+        if (holds_content(folder / "share" / "boltwright" / "content"))
+            return folder / "share" / "boltwright" / "content";
+        if (folder == folder.root_path()) break;
+    }
+    const fs::path source = BOLT_SOURCE_CONTENT;
+    return holds_content(source) ? source : fs::path{};
+}
+
+}  // namespace bolt::content

@@ -1,0 +1,74 @@
+#include "content/format/new_assembly.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "content/format/embedded.hpp"
+#include "content/format/json_document.hpp"
+#include "content/format/json_syntax.hpp"
+#include "content/format/load.hpp"
+#include "engine/base/file.hpp"
+
+namespace bolt::content {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view schema_name = "assembly.schema.json";
+
+tl::unexpected<Error> refused(const fs::path& path, ErrorCode code, std::string what, std::string expected) {
+    Error error;
+    error.code = code;
+    error.file = path.string();
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    return fail(std::move(error));
+}
+
+// Replaces the value at a pointer in the text itself, so that the author finds the file as a person wrote it.
+void replace_value(std::string& text, const char* pointer, std::string_view value) {
+    std::vector<Error> errors;
+    const auto document = JsonDocument::parse(text, {}, errors);
+    if (!document) return;
+    const std::size_t start = document->offset(pointer);
+    // The name comes from outside: what is not UTF-8 in it must not make a file that cannot be read.
+    const nlohmann::json json = std::string(value);
+    text.replace(start, token_end(text, start) - start,
+                 json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+bool is_among_assemblies(const fs::path& folder) {
+    const fs::path content = content_folder();
+    std::error_code problem;
+    return !content.empty() && fs::equivalent(fs::absolute(folder).lexically_normal().parent_path(),
+                                              content / "assemblies", problem);
+}
+
+}  // namespace
+
+Status create_assembly(const fs::path& folder, std::string_view name) {
+    if (folder.empty() || name.empty())
+        return fail(ErrorCode::usage, "no name for the assembly", "expected a folder and a name");
+    std::error_code problem;
+    if (fs::exists(folder, problem) && !fs::is_directory(folder, problem))
+        return refused(folder, ErrorCode::usage, "this is a file", "expected a folder that is new or empty");
+    if (fs::is_directory(folder, problem) && !fs::is_empty(folder, problem))
+        return refused(folder, ErrorCode::usage, "this folder is not empty",
+                       "expected a folder that is new or empty");
+    // A trailing slash would hide the folder's own name.
+    const fs::path target = folder.has_filename() ? folder : folder.parent_path();
+    fs::create_directories(target, problem);
+    if (problem) return refused(target, ErrorCode::failed, "cannot be made: " + problem.message(), {});
+
+    const bool inside = is_among_assemblies(target);
+    std::string text(template_text());
+    replace_value(text, "/$schema",
+                  inside ? "../../schema/" + std::string(schema_name) : std::string(schema_name));
+    for (const char* title : {"/title/en", "/title/de", "/title/zh"}) replace_value(text, title, name);
+    if (auto written = write_file(target / "assembly.json", text); !written) return written;
+    if (!inside) return write_file(target / schema_name, schema_text());
+    return {};
+}
+
+}  // namespace bolt::content

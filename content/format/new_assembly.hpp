@@ -1,0 +1,15 @@
+// Starts a new assembly: a folder whose assembly.json loads without a mistake and is there to be changed.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "engine/base/result.hpp"
+
+namespace bolt::content {
+
+// Makes `folder` (refused if it is there and not empty) and writes assembly.json into it, titled `name`.
+// Outside of content/assemblies the schema is written beside it, so that an editor finds it.
+Status create_assembly(const std::filesystem::path& folder, std::string_view name);
+
+}  // namespace bolt::content

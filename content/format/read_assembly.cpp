@@ -1,0 +1,139 @@
+#include "content/format/read_assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "content/format/suggest.hpp"
+
+namespace bolt::content {
+
+namespace {
+
+constexpr double mm = 1e-3;
+constexpr double largest_play = 0.6e-3;  // m, of a jaw on its nut
+constexpr double default_head_angle = to_radians(15.0);
+constexpr double default_field_of_view = to_radians(40.0);
+
+std::map<std::string, std::string> read_texts(Reader& reader, const Node& node) {
+    std::map<std::string, std::string> texts;
+    for (const Node& item : reader.items(node))
+        if (const auto text = reader.text(item)) texts[last_token(item.pointer)] = *text;
+    for (const char* language : {"en", "de", "zh"}) reader.member(node, language);  // named in the schema
+    return texts;
+}
+
+WrenchDesign read_tool(Reader& reader, const std::vector<AssemblyJoint>& joints) {
+    const Node node = reader.member(reader.root(), "tool");
+    const Layers tool(reader, {node});
+    WrenchDesign wrench;
+    tool.text("kind");  // only one kind is known, and the schema has checked it
+    wrench.head_angle = default_head_angle;
+    if (const auto angle = tool.number("head_angle_deg")) wrench.head_angle = to_radians(*angle);
+    wrench.handle_length = tool.number("handle_length_mm").value_or(0.0) * mm;
+    const auto jaw = tool.number("jaw_mm");
+    wrench.jaw = jaw.value_or(0.0) * mm;
+    if (!jaw) return wrench;
+    for (const AssemblyJoint& joint : joints) {
+        const joint::FastenerSize& size = joint.design.thread.size;
+        const double s = size.across_flats;
+        if (s <= 0.0 || (wrench.jaw > s - 1e-9 && wrench.jaw < s + largest_play + 1e-9)) continue;
+        reader.report(
+            jaw.pointer,
+            fmt::format("a jaw of {:g} mm does not fit {}, {:g} mm across flats", *jaw, size.name, s / mm),
+            fmt::format("expected {:g} to {:g} mm", s / mm, (s + largest_play) / mm));
+        break;
+    }
+    return wrench;
+}
+
+FlangeDesign read_flange(Reader& reader) {
+    const Layers file(reader, {reader.member(reader.root(), "flange")});
+    FlangeDesign flange;
+    flange.coupled = !file.objects().empty();
+    flange.thickness = file.number("thickness_mm").value_or(0.0) * mm;
+    flange.E = file.number("E_GPa").value_or(0.0) * 1e9;
+    flange.poisson = file.number("poisson").value_or(flange.poisson);
+    flange.interface_stiffness = file.number("interface_stiffness_GPa_per_m").value_or(0.0) * 1e9;
+    return flange;
+}
+
+std::vector<View> read_views(Reader& reader) {
+    std::vector<View> views;
+    for (const Node& node : reader.items(reader.member(reader.root(), "views"))) {
+        View view;
+        const Node name = reader.member(node, "name");
+        view.name = reader.text(name).value_or("");
+        view.eye = reader.vector(reader.member(node, "eye_mm")).value_or(Vec3{0.0}) * mm;
+        view.target = reader.vector(reader.member(node, "target_mm")).value_or(Vec3{0.0}) * mm;
+        view.field_of_view = default_field_of_view;
+        if (const auto angle = reader.number(reader.member(node, "field_of_view_deg")))
+            view.field_of_view = to_radians(*angle);
+        if (name &&
+            std::any_of(views.begin(), views.end(), [&](const View& v) { return v.name == view.name; }))
+            reader.report(name.pointer, fmt::format("there are two views {}", in_quotes(view.name)),
+                          "expected a name of its own");
+        const Vec3 look = view.target - view.eye;
+        if (reader.sound(node.pointer) && glm::dot(look, look) < 1e-12)
+            reader.report(reader.member(node, "target_mm").pointer, "the view looks at its own eye",
+                          "expected another point");
+        views.push_back(std::move(view));
+    }
+    return views;
+}
+
+std::string suggest_variant(std::string_view name, const std::vector<std::string>& known) {
+    return known.empty() ? "expected none: the file has no variants" : suggest(name, known);
+}
+
+// The variant to use: what is asked for, else the file's default, else none.
+std::string choose_variant(Reader& reader, std::string_view asked, const std::vector<Variant>& variants) {
+    std::vector<std::string> names;
+    for (const Variant& v : variants) names.push_back(v.name);
+    const auto known = [&](std::string_view name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const Node all = reader.member(reader.root(), "variants");
+    const Node node = reader.member(reader.root(), "default_variant");
+    const std::string fallback = reader.text(node).value_or("");
+    if (node && !known(fallback) && reader.sound(all.pointer))
+        reader.report(node.pointer, fmt::format("{} is no variant of this file", in_quotes(fallback)),
+                      suggest_variant(fallback, names));
+    if (asked.empty()) return known(fallback) ? fallback : std::string{};
+    if (!known(asked) && reader.sound(all.pointer))
+        reader.report(all.pointer,
+                      fmt::format("the variant {} that was asked for is not in this file", in_quotes(asked)),
+                      suggest_variant(asked, names));
+    return known(asked) ? std::string(asked) : std::string{};
+}
+
+}  // namespace
+
+Assembly read_assembly(Reader& reader, std::string_view variant) {
+    Assembly assembly;
+    const Node root = reader.root();
+    reader.member(root, "$schema");  // for editors only
+    assembly.title = read_texts(reader, reader.member(root, "title"));
+    assembly.lesson = read_texts(reader, reader.member(root, "lesson"));
+    assembly.sources = reader.text(reader.member(root, "sources")).value_or("");
+    const bool published = reader.text(reader.member(root, "law")) == "published";
+    assembly.law = published ? joint::Law::published : joint::Law::mechanistic;
+    assembly.published = read_published(reader);
+    assembly.flange = read_flange(reader);
+    assembly.views = read_views(reader);
+
+    for (const Node& node : reader.items(reader.member(root, "variants")))
+        assembly.variants.push_back(
+            {last_token(node.pointer), read_texts(reader, reader.member(node, "title"))});
+    assembly.variant = choose_variant(reader, variant, assembly.variants);
+    // The others are only read for their mistakes. Without a default the plain file can be chosen too.
+    for (const Variant& other : assembly.variants)
+        if (other.name != assembly.variant) read_tool(reader, read_joints(reader, other.name));
+    assembly.joints = read_joints(reader, assembly.variant);
+    assembly.wrench = read_tool(reader, assembly.joints);
+    assembly.passes = read_passes(reader, assembly.joints);
+    return assembly;
+}
+
+}  // namespace bolt::content

@@ -1,0 +1,32 @@
+// A joint type of the file, under its patches, as design and specification.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "content/format/assembly.hpp"
+#include "content/format/reader.hpp"
+
+namespace bolt::content {
+
+// Young's moduli by name, Pa: the built-in materials and the file's own.
+struct Materials {
+    std::map<std::string, double> E;
+    bool complete = true;  // false: the file's own could not be read
+};
+
+Materials read_materials(Reader& reader);
+
+struct JointType {
+    joint::JointDesign design;
+    Specification spec;
+};
+
+// Reports what is wrong with it, also how its values fit together. Where something is, the result is only
+// good for looking further.
+JointType read_joint_type(const Layers& layers, const Materials& materials);
+
+// How the values of a complete joint type fit together: lengths, torques, windows.
+void check_joint_type(const Layers& layers, const JointType& type);
+
+}  // namespace bolt::content

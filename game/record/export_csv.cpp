@@ -1,0 +1,106 @@
+#include "game/record/export_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/math.hpp"
+
+namespace bolt::record {
+
+namespace {
+
+constexpr std::string_view header_row =
+    "time_s,position_x_m,position_y_m,position_z_m,orientation_w,orientation_x,orientation_y,orientation_z,"
+    "grip,enabled,guide,joint,stage,wrench_torque_Nm,nut_angle_deg,clamp_N,"
+    "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm\r\n";
+
+constexpr std::string_view name(servo::Grip grip) {
+    constexpr std::string_view names[] = {"none", "fingers", "wrench"};
+    return names[static_cast<int>(grip)];
+}
+
+std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string field = "\"";
+    for (const char c : text) {
+        if (c == '"') field += '"';
+        field += c;
+    }
+    return field += '"';
+}
+
+// The fields for joint numbers, from −1 on: empty for none. A number that has no result row stands as
+// "#number".
+class JointFields {
+  public:
+    explicit JointFields(const std::vector<lesson::JointResult>& joints) {
+        for (const lesson::JointResult& joint : joints) ids_.push_back(quoted(joint.id));
+    }
+
+    [[nodiscard]] std::string_view operator[](std::int16_t joint) {
+        if (joint < 0) return {};
+        const auto index = static_cast<std::size_t>(joint);
+        if (index < ids_.size()) return ids_[index];
+        return unknown_ = fmt::format("#{}", joint);
+    }
+
+  private:
+    std::vector<std::string> ids_;
+    std::string unknown_;
+};
+
+void append_row(std::string& text, double time, const TickRecord& tick, JointFields& joints) {
+    const auto out = std::back_inserter(text);
+    const auto& [p, q] = tick.device;
+    fmt::format_to(out, "{:.6f},{},{},{},{},{},{},{},{},{},", time, p[0], p[1], p[2], q[0], q[1], q[2], q[3],
+                   name(static_cast<servo::Grip>(tick.grip)), tick.enabled);
+    text.append(joints[tick.guide]).append(",").append(joints[tick.joint]);
+    fmt::format_to(
+        out, ",{},{},{},{},{},{},{},{},{},{}\r\n", joint::name(static_cast<joint::Stage>(tick.stage)),
+        tick.wrench_torque, static_cast<float>(to_degrees(static_cast<double>(tick.nut_angle))), tick.clamp,
+        tick.force[0], tick.force[1], tick.force[2], tick.torque[0], tick.torque[1], tick.torque[2]);
+}
+
+tl::unexpected<Error> write_error(const std::string& out_name, int reason) {
+    Error error;
+    error.file = out_name;
+    error.what = std::string("cannot be written: ") + std::strerror(reason);
+    return fail(std::move(error));
+}
+
+}  // namespace
+
+Status export_csv(const Reader& session, std::FILE* out, const CsvOptions& options) {
+    if (options.every_n == 0) return fail(ErrorCode::usage, "every 0th tick was asked for", "1 or more");
+    const auto result = session.result();
+    if (!result) return fail(result.error());
+    JointFields joints(result->joints);
+    const double dt = session.header().dt;
+
+    std::string text(header_row);
+    std::optional<int> failure;  // errno of the first write that failed: the rest is not even formatted
+    const auto write_out = [&] {
+        if (!failure && std::fwrite(text.data(), 1, text.size(), out) != text.size()) failure = errno;
+        text.clear();
+    };
+    Status read = session.for_each_chunk([&](std::uint64_t first, std::span<const TickRecord> ticks) {
+        if (failure) return;
+        const std::uint64_t past = first % options.every_n;
+        for (std::uint64_t i = past == 0 ? 0 : options.every_n - past; i < ticks.size(); i += options.every_n)
+            append_row(text, static_cast<double>(first + i) * dt, ticks[i], joints);
+        write_out();
+    });
+    write_out();
+    if (!failure && std::fflush(out) != 0) failure = errno;
+    if (failure) return write_error(options.out_name, *failure);
+    return read;
+}
+
+}  // namespace bolt::record

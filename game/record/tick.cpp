@@ -1,0 +1,38 @@
+#include "game/record/tick.hpp"
+
+namespace bolt::record {
+
+TickRecord make_record(const servo::Input& input, const servo::Output& output) {
+    TickRecord record;
+    record.device = input.device;
+    record.grip = static_cast<std::uint8_t>(input.grip);
+    record.enabled = input.enabled ? 1 : 0;
+    record.guide = input.guide;
+    for (int i = 0; i < 3; ++i) {
+        record.force[i] = static_cast<float>(output.force[i]);
+        record.torque[i] = static_cast<float>(output.torque[i]);
+    }
+    record.joint = output.joint;
+    record.stage = static_cast<std::uint8_t>(output.stage);
+    record.wrench_torque = static_cast<float>(output.wrench_torque);
+    record.nut_angle = static_cast<float>(output.nut_angle);
+    record.clamp = static_cast<float>(output.clamp);
+    return record;
+}
+
+servo::Input input_of(const TickRecord& record) {
+    servo::Input input;
+    input.device = record.device;
+    input.grip = static_cast<servo::Grip>(record.grip);
+    input.enabled = record.enabled != 0;
+    input.guide = record.guide;
+    return input;
+}
+
+bool is_valid(const TickRecord& record) {
+    constexpr auto last_grip = static_cast<std::uint8_t>(servo::Grip::wrench);
+    return record.grip <= last_grip && record.enabled <= 1 && record.stage < joint::stage_count &&
+           record.guide >= -1 && record.joint >= -1;
+}
+
+}  // namespace bolt::record

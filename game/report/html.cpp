@@ -1,0 +1,35 @@
+#include "game/report/html.hpp"
+
+#include <fmt/format.h>
+
+#include "game/report/style.hpp"
+#include "game/report/text.hpp"
+
+namespace bolt::report {
+
+std::string page(std::string_view title, std::string_view body) {
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+        "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
+        escape(title), style_sheet(), body);
+}
+
+std::string figure(std::string_view heading, std::string_view svg, std::string_view caption) {
+    std::string out = "<figure>";
+    if (!heading.empty()) out += fmt::format("<div class=\"fh\">{}</div>", heading);
+    out += svg;
+    if (!caption.empty()) out += fmt::format("<figcaption>{}</figcaption>", caption);
+    return out + "</figure>\n";
+}
+
+std::string verdict_mark(lesson::Verdict verdict, joint::Condition condition) {
+    if (condition != joint::Condition::sound)
+        return fmt::format("<span class=\"v vh\">✕ {}</span>", joint::name(condition));
+    constexpr std::string_view styles[] = {"vn", "vl", "vo", "vh"};
+    constexpr std::string_view shapes[] = {"–", "▼ LOW", "✓ OK", "▲ HIGH"};
+    const auto i = static_cast<std::size_t>(verdict);
+    return fmt::format("<span class=\"v {}\">{}</span>", styles[i], shapes[i]);
+}
+
+}  // namespace bolt::report

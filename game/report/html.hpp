@@ -1,0 +1,20 @@
+// The frame of a page, and the few pieces that all pages use.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "game/lesson/result.hpp"
+
+namespace bolt::report {
+
+// A whole document, with nothing from outside and no script. `body` is HTML already.
+std::string page(std::string_view title, std::string_view body);
+
+// A drawing with its heading and caption; both are HTML already and may be empty.
+std::string figure(std::string_view heading, std::string_view svg, std::string_view caption);
+
+// "✓ OK", "▲ HIGH", "▼ LOW": shape, word and colour. A joint that is not sound says that instead.
+std::string verdict_mark(lesson::Verdict verdict, joint::Condition condition = joint::Condition::sound);
+
+}  // namespace bolt::report

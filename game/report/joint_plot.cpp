@@ -1,0 +1,253 @@
+#include "game/report/joint_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/math.hpp"
+#include "game/report/decimate.hpp"
+#include "game/report/order.hpp"
+#include "game/report/text.hpp"
+
+namespace bolt::report {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double lead_in = 12.0;    // degrees drawn before the first contact, at least
+constexpr double longest = 540.0;   // degrees drawn before the end, at most
+
+constexpr std::string_view stage_styles[] = {"s0", "s1", "s2", "s3"};
+// The last pass stands out, those before step back.
+constexpr std::string_view pass_styles[] = {"ln p0", "ln p1", "ln p2"};
+
+std::string_view pass_style(int passes_after) {
+    return pass_styles[static_cast<std::size_t>(std::clamp(2 - passes_after, 0, 2))];
+}
+
+bool is_loosening(const SessionData& session) { return session.direction() == joint::Direction::loosen; }
+
+// Degrees from the view's zero, growing in the direction of work.
+double drawn_angle(const JointView& view, double nut_angle, bool loosening) {
+    return to_degrees(loosening ? view.zero - nut_angle : nut_angle - view.zero);
+}
+
+using Value = double (*)(const CurvePoint&);
+
+std::vector<Point> line_of(const Visit& visit, const JointView& view, bool loosening, Value value) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < visit.points.size(); ++i) {
+        const CurvePoint& p = visit.points[i];
+        if (i > 0 && p.stroke != visit.points[i - 1].stroke) points.push_back({nan, nan});
+        points.push_back({drawn_angle(view, p.angle, loosening), value(p)});
+    }
+    return points;
+}
+
+// Loading and unloading the wrench while the nut stands still is part of the record, but not what is looked at: the
+// line is parted into what turned the nut and the rest, each with gaps where the other is.
+struct Parted {
+    std::vector<Point> turning, resting;
+};
+
+Parted parted(const std::vector<Point>& line) {
+    constexpr double still = 0.02;  // degrees
+    Parted parts;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const Point& a = line[i - 1];
+        const Point& b = line[i];
+        if (!std::isfinite(a.x) || !std::isfinite(b.x)) continue;
+        std::vector<Point>& part = std::abs(b.x - a.x) > still ? parts.turning : parts.resting;
+        const bool goes_on = !part.empty() && part.back().x == a.x && part.back().y == a.y;
+        if (!goes_on) {
+            if (!part.empty()) part.push_back({nan, nan});
+            part.push_back(a);
+        }
+        part.push_back(b);
+    }
+    return parts;
+}
+
+double torque_of(const CurvePoint& p) { return p.torque; }
+double clamp_kN(const CurvePoint& p) { return p.clamp * 1e-3; }
+
+bool is_in_view(const JointView& view, double nut_angle, bool loosening) {
+    const double at = drawn_angle(view, nut_angle, loosening);
+    return at >= view.shown.low - 1e-6 && at <= view.shown.high + 1e-6;
+}
+
+// Highest and lowest of what is drawn.
+Range extent(const JointCurve& curve, const JointView& view, bool loosening, Value value) {
+    Range range{0.0, 0.0};
+    for (const Visit& visit : curve.visits) {
+        for (const CurvePoint& p : visit.points) {
+            if (!is_in_view(view, p.angle, loosening)) continue;
+            range.low = std::min(range.low, value(p));
+            range.high = std::max(range.high, value(p));
+        }
+    }
+    return range;
+}
+
+Axis value_axis(Range range, std::string label) {
+    // Noise around zero (the weight of the nut) does not ask for a tick below it.
+    if (range.low > -0.03 * range.high) range.low = 0.0;
+    if (range.high < -0.03 * range.low) range.high = 0.0;
+    return {covering_ticks(range.low, range.high + 0.04 * range.span(), 5), std::move(label)};
+}
+
+void add_targets(Plot& plot, const content::Specification& spec) {
+    plot.bands.push_back({{spec.torque.low, spec.torque.high}, "win", "", true});
+    plot.rules.push_back({spec.torque.target, "tgt", "", true});
+    if (!spec.has_angle) return;
+    plot.bands.push_back({{to_degrees(spec.angle.low), to_degrees(spec.angle.high)}, "win", "", false});
+}
+
+int last_pass_of(const SessionData& session) {
+    int last = 0;
+    for (const JointCurve& curve : session.curves)
+        for (const Visit& visit : curve.visits)
+            if (visit.worked) last = std::max(last, visit.pass);
+    return last;
+}
+
+void add_visits(Plot& plot, const JointCurve& curve, const JointView& view, bool loosening, int last_pass) {
+    for (const Visit& visit : curve.visits)
+        if (visit.worked) plot.lines.push_back({line_of(visit, view, loosening, clamp_kN), "ln cl", true});
+    for (const Visit& visit : curve.visits) {
+        if (!visit.worked) continue;
+        Parted parts = parted(line_of(visit, view, loosening, torque_of));
+        plot.lines.push_back({std::move(parts.resting), "ln rest", false});
+        plot.lines.push_back({std::move(parts.turning), pass_style(last_pass - visit.pass), false});
+    }
+}
+
+void add_marks(Plot& plot, const SessionData& session, const JointCurve& curve, const JointView& view) {
+    const bool loosening = is_loosening(session);
+    const std::vector<content::Pass>& passes = session.assembly.passes;
+    const Visit* highest = nullptr;
+    for (const Visit& visit : curve.visits) {
+        if (!visit.worked) continue;
+        if (highest == nullptr || std::abs(visit.peak.torque) >= std::abs(highest->peak.torque)) highest = &visit;
+        const double at = visit.release.angle;
+        if (!is_in_view(view, at, loosening)) continue;
+        const auto pass = static_cast<std::size_t>(visit.pass);
+        const bool named = !session.pass_texts.empty() && pass + 1 < passes.size() &&
+                           passes[pass].kind == content::StepKind::tighten;
+        plot.marks.push_back({{drawn_angle(view, at, loosening), clamp_kN(visit.release)}, Shape::square, "mclamp",
+                              named ? pass_label(passes[pass]) : "", true, true});
+    }
+    if (highest == nullptr || !is_in_view(view, highest->peak.angle, loosening)) return;
+    plot.marks.push_back({{drawn_angle(view, highest->peak.angle, loosening), torque_of(highest->peak)},
+                          Shape::dot, "mpeak", number(torque_of(highest->peak), 1), false, false});
+}
+
+// The whole run, small, under the target window where the curve leaves room.
+void draw_inset(Svg& svg, const Plot& plot, const JointCurve& curve, const JointView& view, double below,
+                bool loosening) {
+    const Box area = plot_area(plot);
+    const Scale torque{plot.y.ticks.range, area.height, true};
+    const Box box{area.x + 8.0, area.y + std::min(torque(below) + 12.0, 0.5 * area.height), 96.0, 34.0};
+    const Scale x{{curve.start_angle, curve.end_angle}, box.width, false};
+    const Scale y{plot.y.ticks.range, box.height - 2.0, true};
+    svg.rect(box, "inset");
+    svg.enter(box);
+    for (const Visit& visit : curve.visits) {
+        std::vector<Point> points = line_of(visit, view, loosening, torque_of);
+        for (Point& p : points) p = {x(view.zero + to_radians(p.x)), y(p.y)};
+        svg.path(decimate(points, 1.0), "ln in");
+    }
+    svg.leave();
+    const double turns = (curve.end_angle - curve.start_angle) / (2.0 * pi);
+    svg.text({box.x, box.y + box.height + 12.0}, "sm", fmt::format("whole run, {} turns", number(turns, 1)));
+}
+
+}  // namespace
+
+JointView joint_view(const SessionData& session, std::size_t joint) {
+    const JointCurve& curve = session.curves[joint];
+    const bool loosening = is_loosening(session);
+    const auto contact = std::find_if(curve.stages.begin(), curve.stages.end(),
+                                      [](const StageSpan& s) { return s.stage != joint::Stage::navigation; });
+    const bool met = contact != curve.stages.end();
+    JointView view;
+    view.zero = loosening || !met ? curve.start_angle : contact->from;
+    view.zero_name = loosening || !met ? "start" : "first contact";
+    if (!loosening && std::isfinite(curve.snug_angle)) {
+        view.zero = curve.snug_angle;
+        view.zero_name = "snug";
+    }
+    const double start = drawn_angle(view, curve.start_angle, loosening);
+    double end = drawn_angle(view, curve.end_angle, loosening);
+    double from = start;
+    if (!loosening && met) {
+        const double touch = drawn_angle(view, contact->from, loosening);
+        from = std::max({start, touch - std::max(lead_in, 0.12 * (end - touch)), end - longest});
+    }
+    if (loosening) {  // once the nut is free nothing more happens
+        const auto free = std::find_if(curve.stages.begin(), curve.stages.end(),
+                                       [](const StageSpan& s) { return s.stage == joint::Stage::navigation; });
+        if (free != curve.stages.end()) {
+            const double loose = drawn_angle(view, free->from, loosening);
+            end = std::min(end, loose + std::max(lead_in, 0.12 * loose));
+        }
+    }
+    view.cut = from > start + 1.0;
+    const double margin = std::max(0.5, 0.04 * (end - from));
+    view.shown = {view.cut ? from : from - margin, end + margin};
+    return view;
+}
+
+Plot joint_plot(const SessionData& session, std::size_t joint) {
+    const JointCurve& curve = session.curves[joint];
+    const content::Specification& spec = session.assembly.joints[joint].spec;
+    const bool loosening = is_loosening(session);
+    const JointView view = joint_view(session, joint);
+
+    Plot plot;
+    plot.title = fmt::format("{}: torque and clamp force over the nut angle", session.joints[joint].id);
+    plot.x = {degree_ticks(view.shown, 7), ""};
+    plot.x.ticks.range = view.shown;
+    plot.x.label = loosening ? "angle turned back, °" : fmt::format("nut angle from {}, °", view.zero_name);
+    if (view.cut) plot.x.label += fmt::format(" (drawn from {}°)", number(view.shown.low, 0));
+    Range torque = extent(curve, view, loosening, torque_of);
+    if (!loosening) torque.high = std::max(torque.high, spec.torque.high);
+    plot.y = value_axis(torque, "torque, N·m");
+    Range clamp = extent(curve, view, loosening, clamp_kN);
+    if (!loosening) clamp.high = std::max(clamp.high, target_clamp(session.assembly, joint) * 1e-3);
+    clamp.high *= 1.3;  // the forces follow the torque: apart they can be told from each other
+    plot.y2 = value_axis(clamp, "clamp, kN");
+
+    for (const StageSpan& span : curve.stages) {
+        const auto stage = static_cast<std::size_t>(span.stage);
+        const double from = drawn_angle(view, span.from, loosening), to = drawn_angle(view, span.to, loosening);
+        // Beyond the last sample the stage goes on; a plain margin would look like a change.
+        const bool last = &span == &curve.stages.back();
+        plot.bands.push_back({{from, last ? view.shown.high : to}, stage_styles[stage], std::string(name(span.stage))});
+    }
+    if (!loosening) add_targets(plot, spec);
+    add_visits(plot, curve, view, loosening, last_pass_of(session));
+    add_marks(plot, session, curve, view);
+    return plot;
+}
+
+std::string joint_figure(const SessionData& session, std::size_t joint) {
+    const Plot plot = joint_plot(session, joint);
+    Svg svg(plot.width, plot.height, plot.title);
+    draw_into(svg, plot);
+    const JointView view = joint_view(session, joint);
+    const double below = session.assembly.joints[joint].spec.torque.low;
+    if (view.cut) draw_inset(svg, plot, session.curves[joint], view, below, is_loosening(session));
+    return svg.finish();
+}
+
+std::string run_down_text(const RunDown& run) {
+    if (run.angle < to_radians(15.0)) return {};
+    const std::string low = number(run.torque_low, 2), high = number(run.torque_high, 2);
+    return fmt::format("Run-down of {} turns in {}, {} N·m.", number(run.angle / (2.0 * pi), 1),
+                       duration_text(run.time), low == high ? high : low + "…" + high);
+}
+
+}  // namespace bolt::report

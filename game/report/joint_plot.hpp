@@ -1,0 +1,27 @@
+// Torque and clamp force over the nut angle for one joint, from a little before the first contact.
+#pragma once
+
+#include <string>
+
+#include "game/report/plot.hpp"
+#include "game/report/session_data.hpp"
+
+namespace bolt::report {
+
+// What the plot leaves out and where it counts from, in words for its caption.
+struct JointView {
+    double zero = 0.0;          // rad, nut angle that is drawn as 0
+    Range shown;                // degrees from zero
+    std::string zero_name;      // "snug", "first contact", "start"
+    bool cut = false;           // the run-down is left out
+};
+JointView joint_view(const SessionData& session, std::size_t joint);
+
+Plot joint_plot(const SessionData& session, std::size_t joint);
+
+// The plot with the whole run, from the hand-started nut on, as a small inset.
+std::string joint_figure(const SessionData& session, std::size_t joint);
+
+std::string run_down_text(const RunDown& run);
+
+}  // namespace bolt::report

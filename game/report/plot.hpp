@@ -1,0 +1,71 @@
+// An x–y plot, stated as data and drawn in one go.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "game/report/axis.hpp"
+#include "game/report/svg.hpp"
+
+namespace bolt::report {
+
+// Styles are names of CSS classes (game/report/style.cpp).
+struct Axis {
+    Ticks ticks;
+    std::string label;
+};
+
+struct Line {
+    std::vector<Point> points;  // a NaN breaks the line
+    std::string_view style;
+    bool second_axis = false;
+};
+
+// A stretch of x (over the full height) or of y (over the full width).
+struct Band {
+    Range range;
+    std::string_view style;
+    std::string label;          // left out where it does not fit
+    bool of_y = false;
+};
+
+// A thin line at one x or y.
+struct Rule {
+    double at = 0.0;
+    std::string_view style;
+    std::string label;
+    bool of_y = false;
+};
+
+enum class Shape { dot, ring, square, triangle };
+
+struct Mark {
+    Point at;
+    Shape shape = Shape::dot;
+    std::string_view style;
+    std::string label;
+    bool second_axis = false;
+    bool quiet = false;         // small print to the lower right; else bold, above, on the side with more room
+};
+
+struct Plot {
+    double width = 480.0, height = 300.0;
+    std::string title;
+    Axis x, y;
+    std::optional<Axis> y2;
+    std::vector<Band> bands;    // first drawn lies lowest
+    std::vector<Rule> rules;
+    std::vector<Line> lines;
+    std::vector<Mark> marks;
+};
+
+// Where the axes enclose the curves.
+Box plot_area(const Plot& plot);
+
+// Draws into `svg`, whose size is the plot's.
+void draw_into(Svg& svg, const Plot& plot);
+std::string draw(const Plot& plot);
+
+}  // namespace bolt::report

@@ -1,0 +1,47 @@
+#include "game/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include "game/report/attempts.hpp"
+#include "game/report/html.hpp"
+#include "game/report/section.hpp"
+
+namespace bolt::report {
+
+namespace {
+
+struct Pages {
+    std::vector<Attempt> attempts;
+    std::string sections;
+
+    void add(const SessionData& session, bool alone) {
+        attempts.push_back(attempt_of(session));
+        sections += session_section(session, alone ? 0 : attempts.size());
+    }
+
+    [[nodiscard]] std::string finish() const {
+        if (attempts.size() == 1) return page(attempts.front().title + " – training report", sections);
+        return page(fmt::format("{} attempts – training report", attempts.size()), attempts_section(attempts) + sections);
+    }
+};
+
+}  // namespace
+
+Result<std::string> make_report(std::span<const record::Reader* const> sessions) {
+    if (sessions.empty()) return fail(ErrorCode::usage, "no session was given to report", "one or more session files");
+    Pages pages;
+    for (const record::Reader* session : sessions) {
+        const Result<SessionData> data = read_session(*session);
+        if (!data) return fail(data.error());
+        pages.add(*data, sessions.size() == 1);
+    }
+    return pages.finish();
+}
+
+std::string make_report(std::span<const SessionData> sessions) {
+    Pages pages;
+    for (const SessionData& session : sessions) pages.add(session, sessions.size() == 1);
+    return pages.finish();
+}
+
+}  // namespace bolt::report

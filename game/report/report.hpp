@@ -1,0 +1,19 @@
+// report.html: what was done in one session, or how several attempts compare. One file that needs nothing else.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/base/result.hpp"
+#include "game/record/session.hpp"
+#include "game/report/session_data.hpp"
+
+namespace bolt::report {
+
+// Sessions in the order given; at least one. Holds one session's curves at a time.
+Result<std::string> make_report(std::span<const record::Reader* const> sessions);
+
+// The same from data that was read already.
+std::string make_report(std::span<const SessionData> sessions);
+
+}  // namespace bolt::report

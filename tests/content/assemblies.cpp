@@ -1,0 +1,226 @@
+// The assemblies that are shipped: what is in them, against the standards and against each other.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/joint/published.hpp"
+#include "haptics/joint/torque.hpp"
+#include "support.hpp"
+
+using namespace bolt;
+using content::Assembly;
+using content::AssemblyJoint;
+
+namespace {
+
+Assembly load(const char* name, const char* variant = "") {
+    auto loaded = content::load_assembly(name, variant);
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    return std::move(loaded.assembly);
+}
+
+joint::AssemblyPreload yield_90(const joint::JointDesign& d) {
+    return joint::assembly_preload(
+        d.thread.thread, d.bolt_class, d.friction.thread, d.friction.bearing,
+        joint::bearing_mean_diameter(d.thread.size.nut_bearing, d.thread.size.hole));
+}
+
+std::vector<std::string> ids(const Assembly& assembly, const std::vector<std::size_t>& order) {
+    std::vector<std::string> result;
+    for (const std::size_t i : order) result.push_back(assembly.joints[i].design.id);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("every shipped assembly loads in every variant, in three languages") {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(content::content_folder() / "assemblies")) {
+        const std::string name = entry.path().filename().string();
+        CAPTURE(name);
+        const Assembly assembly = load(name.c_str());
+        CHECK(assembly.name == name);
+        CHECK(assembly.text == content_test::shipped(name));
+        for (const char* language : {"en", "de", "zh"}) {
+            CHECK(assembly.title.contains(language));
+            CHECK(assembly.lesson.contains(language));
+        }
+        for (const content::Variant& variant : assembly.variants)
+            CHECK(load(name.c_str(), variant.name.c_str()).variant == variant.name);
+        ++count;
+    }
+    CHECK(count >= 2);
+}
+
+TEST_CASE("ZQ350: twelve bolts where the paper's casing has them") {
+    const Assembly a = load("zq350");
+    CHECK(a.variant == "carbon_steel");
+    CHECK(a.law == joint::Law::mechanistic);
+    REQUIRE(a.joints.size() == 12);
+    CHECK(std::count_if(a.joints.begin(), a.joints.end(),
+                        [](const AssemblyJoint& j) { return j.type == "M16x180"; }) == 8);
+    const joint::JointDesign& through = a.joints[0].design;
+    CHECK(through.bolt_length == doctest::Approx(0.180));
+    CHECK(through.grip_length() == doctest::Approx(0.156));
+    CHECK(through.seat.x == doctest::Approx(-0.075));
+    CHECK(through.seat.y == doctest::Approx(0.078));  // the washer's top
+    CHECK(through.seat.z == doctest::Approx(-0.125));
+    CHECK(through.axis == Vec3{0.0, 1.0, 0.0});
+    CHECK(through.start_gap == doctest::Approx(0.021));  // 180 − 156 − 1.5 pitches
+    CHECK(through.members[0].E == doctest::Approx(110e9));
+    CHECK(a.joints[11].design.grip_length() == doctest::Approx(0.054));
+    CHECK(a.wrench.jaw == doctest::Approx(0.0242));
+    CHECK(a.wrench.head_angle == doctest::Approx(pi / 12));
+    CHECK(a.flange.coupled);
+    CHECK(a.flange.interface_stiffness == doctest::Approx(3e11));
+    CHECK(a.views.size() == 5);
+}
+
+TEST_CASE("ZQ350: from the middle outward and from side to side, in three rounds") {
+    const Assembly a = load("zq350");
+    REQUIRE(a.passes.size() == 5);
+    CHECK(a.passes.front().kind == content::StepKind::run_down);
+    CHECK(a.passes[1].fraction == doctest::Approx(0.3));
+    CHECK(a.passes[2].fraction == doctest::Approx(0.7));
+    CHECK(a.passes[3].fraction == doctest::Approx(1.0));
+    CHECK(a.passes.back().kind == content::StepKind::recheck);
+    const auto& order = a.passes[1].order;
+    CHECK(ids(a, order) ==
+          std::vector<std::string>{"B2", "B6", "B7", "B3", "B1", "B5", "B8", "B4", "F1", "F3", "F4", "F2"});
+    for (std::size_t i = 0; i + 1 < order.size(); i += 2) {
+        const Vec3 first = a.joints[order[i]].design.seat, second = a.joints[order[i + 1]].design.seat;
+        CHECK(first.z * second.z < 0.0);  // each pair stands on both sides
+    }
+    // Each next group of four is further out.
+    const auto reach = [&](std::size_t group) {
+        double furthest = 0.0;
+        for (std::size_t i = 4 * group; i < 4 * group + 4; ++i)
+            furthest = std::max(furthest, std::abs(a.joints[order[i]].design.seat.x - 0.175));
+        return furthest;
+    };
+    CHECK(reach(0) < reach(1));
+    CHECK(reach(1) < reach(2));
+}
+
+TEST_CASE("ZQ350 in carbon steel: the paper's 72 N·m is the onset of yield") {
+    for (const AssemblyJoint& j : load("zq350").joints) {
+        CHECK(j.spec.strategy == content::Strategy::yield);
+        CHECK(yield_90(j.design).force == doctest::Approx(30.7e3).epsilon(0.005));
+        CHECK(yield_90(j.design).torque == doctest::Approx(j.spec.torque.target).epsilon(0.01));
+        // The law `published` ends at 72.126 N·m: it must be able to reach the target too.
+        CHECK(j.spec.torque.target < joint::PublishedParameters{}.T_max_Nm);
+        // Beyond full yield (100 % of R_p0.2) is HIGH.
+        CHECK(j.spec.torque.high <= yield_90(j.design).torque / 0.9);
+        CHECK(j.spec.has_angle);
+        CHECK(j.spec.angle.high == doctest::Approx(pi / 2));
+    }
+}
+
+TEST_CASE("ZQ350 in stainless steel: the same torque stays elastic") {
+    const Assembly a = load("zq350", "stainless");
+    CHECK(a.variant == "stainless");
+    for (const AssemblyJoint& j : a.joints) {
+        CHECK(j.design.bolt_class.name == "A2-70");
+        CHECK(j.design.bolt_class.kappa == 2.0);
+        CHECK(j.design.friction.thread == 0.2);
+        CHECK(j.spec.strategy == content::Strategy::torque);
+        CHECK(j.spec.torque.target == 72.0);
+        CHECK(j.spec.torque.high < 0.5 * yield_90(j.design).torque);
+        CHECK(j.spec.angle.high == doctest::Approx(pi / 2));  // from under the patch
+    }
+    CHECK(a.joints[0].spec.angle.low == doctest::Approx(to_radians(4.0)));
+    CHECK(a.joints[11].spec.angle.low == doctest::Approx(to_radians(2.0)));
+}
+
+TEST_CASE("the cover is far from yield and within what hand tools hold") {
+    const Assembly a = load("cover-m8");
+    REQUIRE(a.joints.size() == 4);
+    for (const AssemblyJoint& j : a.joints) {
+        CHECK(yield_90(j.design).torque == doctest::Approx(24.6).epsilon(0.01));  // VDI 2230 table A1
+        CHECK(j.spec.torque.high < yield_90(j.design).torque);
+        CHECK_FALSE(j.spec.has_angle);
+    }
+    CHECK_FALSE(a.flange.coupled);
+    CHECK(a.variant.empty());
+}
+
+TEST_CASE("every value of a file arrives in SI") {
+    const auto loaded = content::parse_assembly(content_test::everything(), "there/f.json", "weak");
+    REQUIRE(loaded.ok());
+    const Assembly& a = loaded.assembly;
+    CHECK(a.name == "there");
+    CHECK(a.title.at("fr") == "Console");
+    CHECK(a.sources == "Made up.");
+    CHECK(a.law == joint::Law::published);
+    CHECK(a.published.theta_max_deg == doctest::Approx(7218.0));
+    CHECK(a.published.spring_rates_1e6[6] == 1.42);
+    CHECK(a.wrench.handle_length == doctest::Approx(0.18));
+    CHECK(a.flange.thickness == doctest::Approx(0.02));
+    CHECK(a.flange.E == doctest::Approx(70e9));
+    CHECK(a.flange.poisson == 0.33);
+    CHECK(a.variants.size() == 2);
+    CHECK(a.variants[1].title.at("en") == "Weak");
+    CHECK(a.views[0].eye.z == doctest::Approx(0.5));
+    CHECK(a.views[0].field_of_view == doctest::Approx(to_radians(50.0)));
+    CHECK(ids(a, a.passes[0].order) == std::vector<std::string>{"A", "B"});
+    CHECK(ids(a, a.passes[1].order) == std::vector<std::string>{"B", "A"});
+
+    const joint::JointDesign& first = a.joints[0].design;
+    CHECK(first.id == "A");
+    CHECK(first.thread.thread.pitch == doctest::Approx(1.25e-3));
+    CHECK(first.bolt_class.name == "8.8");  // of the variant
+    CHECK(first.nut_strength == doctest::Approx(1050e6));
+    CHECK(first.bolt_thread_length == doctest::Approx(0.032));
+    CHECK(first.members[0].E == doctest::Approx(105e9));
+    CHECK(first.members[1].E == doctest::Approx(205e9));
+    CHECK(first.member_diameter == doctest::Approx(0.04));
+    CHECK(first.friction.thread == 0.11);  // of the variant
+    CHECK(first.friction.bearing == 0.13);
+    CHECK(first.friction.static_ratio == 1.2);
+    CHECK(first.friction.scatter == doctest::Approx(0.05));
+    CHECK(first.friction.lubrication == joint::Lubrication::mos2);
+    CHECK(first.roughness_Rz == doctest::Approx(25e-6));
+    CHECK(first.misfit == doctest::Approx(8e-6));
+    CHECK(first.embedding_time == 3.0);
+    CHECK(first.prevailing_torque == 9.0);
+    CHECK(first.running_torque == 0.05);
+    CHECK(first.start_gap == doctest::Approx(0.02));
+    CHECK(first.nut_mass == doctest::Approx(0.017));
+    CHECK(first.seat.z == doctest::Approx(0.0025));  // the washer of M12 on the face
+    CHECK(a.joints[0].node == "joint_A");
+    CHECK(a.joints[0].spec.strategy == content::Strategy::torque_angle);
+    CHECK(a.joints[0].spec.torque.low == 78.0);
+    CHECK(a.joints[0].spec.torque.high == 100.0);
+    CHECK(a.joints[0].spec.angle.target == doctest::Approx(to_radians(40.0)));
+    CHECK(a.joints[0].spec.target_clamp == doctest::Approx(50e3));
+    CHECK(a.joints[0].spec.risk == content::RiskClass::A);
+
+    const AssemblyJoint& second = a.joints[1];
+    CHECK(second.design.thread.thread.pitch == doctest::Approx(1.75e-3));
+    CHECK(second.design.axis.y == doctest::Approx(0.6));
+    CHECK(second.design.seat.x == doctest::Approx(0.08));
+    CHECK(second.spec.torque.low ==
+          doctest::Approx(66.5));  // the tolerance of its override, over limits below it
+    CHECK(second.spec.torque.high == doctest::Approx(73.5));
+    CHECK(second.spec.snug_torque == 20.0);
+}
+
+TEST_CASE("what a file leaves out has the stated default") {
+    std::string text = content_test::shipped("cover-m8");
+    for (const char* line :
+         {"        \"torque_tolerance_percent\": 10,\n", "        \"snug_torque_Nm\": 5,\n",
+          "    \"head_angle_deg\": 15,\n", "      \"lubrication\": \"oiled\",\n",
+          "  \"order\": [\"B1\", \"B3\", \"B2\", \"B4\"],\n"})
+        text = content_test::edited(std::move(text), line, "");
+    const auto loaded = content::parse_assembly(text, "f");
+    REQUIRE(loaded.ok());
+    const AssemblyJoint& j = loaded.assembly.joints[0];
+    CHECK(j.spec.torque.low == doctest::Approx(18.0));
+    CHECK(j.spec.torque.high == doctest::Approx(22.0));
+    CHECK(j.spec.snug_torque == doctest::Approx(5.0));
+    CHECK(j.design.friction.lubrication == joint::Lubrication::as_received);
+    CHECK(j.design.friction.static_ratio == doctest::Approx(1.15));
+    CHECK(loaded.assembly.wrench.head_angle == doctest::Approx(to_radians(15.0)));
+    CHECK(loaded.assembly.passes[0].order == std::vector<std::size_t>{0, 1, 2, 3});
+}

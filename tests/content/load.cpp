@@ -1,0 +1,139 @@
+#include "content/format/load.hpp"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "content/format/new_assembly.hpp"
+#include "engine/base/file.hpp"
+#include "support.hpp"
+
+using namespace bolt;
+namespace fs = std::filesystem;
+
+namespace {
+
+// An empty folder that goes with the test.
+struct Folder {
+    fs::path path = fs::temp_directory_path() / ("boltwright-content-" + std::to_string(::getpid()));
+    Folder() {
+        fs::remove_all(path);
+        fs::create_directories(path);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+};
+
+Error only_error(const fs::path& where, std::string_view variant = {}) {
+    const auto loaded = content::load_assembly(where, variant);
+    REQUIRE(loaded.errors.size() == 1);
+    CHECK(loaded.errors[0].code == ErrorCode::bad_content);
+    return loaded.errors[0];
+}
+
+}  // namespace
+
+TEST_CASE("an assembly is loaded by its name, its folder or its file") {
+    const fs::path folder = content::content_folder() / "assemblies" / "cover-m8";
+    for (const fs::path& where : {fs::path("cover-m8"), folder, folder / "", folder / "assembly.json"}) {
+        CAPTURE(where.string());
+        const auto loaded = content::load_assembly(where);
+        CHECK(loaded.ok());
+        CHECK(loaded.assembly.name == "cover-m8");
+        CHECK(loaded.assembly.joints.size() == 4);
+        CHECK(fs::equivalent(loaded.assembly.file, folder / "assembly.json"));
+    }
+}
+
+TEST_CASE("an assembly that is not there: the nearest, and all that are") {
+    const std::string near = only_error("zq530").message(), far = only_error("gearbox").message();
+    CHECK(near.starts_with(
+        "zq530: there is no such folder, file or assembly; did you mean \"zq350\"? there are: "));
+    CHECK(far.starts_with("gearbox: there is no such folder, file or assembly; there are: "));
+    CHECK(far.find("cover-m8, ") != std::string::npos);
+    CHECK(far.find("zq350") != std::string::npos);
+    CHECK(only_error("").what == "there is no such folder, file or assembly");
+}
+
+TEST_CASE("a folder without the file, a file that cannot be read") {
+    const Folder folder;
+    CHECK(only_error(folder.path).message() ==
+          folder.path.string() + ": this folder has no assembly.json; expected a folder of an assembly");
+    fs::create_directories(folder.path / "sub" / "assembly.json");
+    CHECK(only_error(folder.path / "sub").what == "this is a folder, not a file");
+    fs::create_symlink("nowhere", folder.path / "assembly.json");
+    CHECK(content::load_assembly(folder.path).errors.size() == 1);
+}
+
+TEST_CASE("a variant that is not there") {
+    CHECK(only_error("zq350", "stainles").expected == "did you mean \"stainless\"?");
+    CHECK(only_error("zq350", "wood").expected == "expected one of carbon_steel, stainless");
+    CHECK(only_error("cover-m8", "wood").expected == "expected none: the file has no variants");
+}
+
+TEST_CASE("BOLTWRIGHT_CONTENT says where content/ is") {
+    const fs::path found = content::content_folder();
+    REQUIRE_FALSE(found.empty());
+    ::setenv("BOLTWRIGHT_CONTENT", found.c_str(), 1);
+    CHECK(content::content_folder() == found);
+    ::setenv("BOLTWRIGHT_CONTENT", "/nowhere", 1);
+    CHECK(content::content_folder().empty());
+    CHECK(only_error("zq350").expected == "there are: none");
+    ::unsetenv("BOLTWRIGHT_CONTENT");
+    CHECK(content::content_folder() == found);
+}
+
+TEST_CASE("a new assembly loads without a mistake and carries its name") {
+    const Folder folder;
+    for (const char* name : {"pump", "a \"quoted\" pump", "Pumpe für Öl", "broken \xFF name"}) {
+        CAPTURE(name);
+        const fs::path made = folder.path / "new";
+        fs::remove_all(made);
+        REQUIRE(content::create_assembly(made, name));
+        const auto loaded = content::load_assembly(made);
+        for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+        if (std::string_view(name).find('\xFF') == std::string_view::npos)
+            CHECK(loaded.assembly.title.at("en") == name);
+        CHECK(loaded.assembly.joints.size() == 4);
+        CHECK(fs::exists(made / "assembly.schema.json"));  // what "$schema" names
+        CHECK(loaded.assembly.text.find("\"$schema\": \"assembly.schema.json\"") != std::string::npos);
+    }
+}
+
+TEST_CASE("a new assembly never overwrites anything") {
+    const Folder folder;
+    REQUIRE(write_file(folder.path / "kept", "x"));
+    const Status over_folder = content::create_assembly(folder.path, "pump");
+    REQUIRE_FALSE(over_folder);
+    CHECK(over_folder.error().message() ==
+          folder.path.string() + ": this folder is not empty; expected a folder that is new or empty");
+    const Status over_file = content::create_assembly(folder.path / "kept", "pump");
+    REQUIRE_FALSE(over_file);
+    CHECK(over_file.error().what == "this is a file");
+    CHECK_FALSE(content::create_assembly({}, "pump"));
+    CHECK_FALSE(content::create_assembly(folder.path / "new", ""));
+    CHECK_FALSE(content::create_assembly(folder.path / "kept" / "below", "pump"));
+    fs::create_directories(folder.path / "empty");
+    CHECK(content::create_assembly(folder.path / "empty" / "", "pump"));
+    CHECK(fs::exists(folder.path / "empty" / "assembly.json"));
+}
+
+TEST_CASE("beside the other assemblies the common schema is used") {
+    const Folder folder;
+    fs::create_directories(folder.path / "schema");
+    fs::create_directories(folder.path / "assemblies");
+    fs::copy_file(content::content_folder() / "schema" / "assembly.schema.json",
+                  folder.path / "schema" / "assembly.schema.json");
+    ::setenv("BOLTWRIGHT_CONTENT", folder.path.c_str(), 1);
+    REQUIRE(content::create_assembly(folder.path / "assemblies" / "pump", "pump"));
+    const auto loaded = content::load_assembly("pump");
+    CHECK(loaded.ok());
+    CHECK(loaded.assembly.text.find("\"../../schema/assembly.schema.json\"") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder.path / "assemblies" / "pump" / "assembly.schema.json"));
+    ::unsetenv("BOLTWRIGHT_CONTENT");
+}

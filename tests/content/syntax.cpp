@@ -1,0 +1,162 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "support.hpp"
+
+using namespace content_test;
+
+namespace {
+
+// One edit of a file without mistakes, and all that an author then reads: no more and no less.
+struct Slip {
+    const char* from;
+    const char* to;
+    std::vector<std::string> messages;
+};
+
+// clang-format off
+const Slip slips[] = {
+    {R"(,
+  "views")", R"(
+  "views")",
+     {R"(58:3: something is missing before this text; expected ',' or '}')"}},
+    {R"("top")", R"(top)",
+     {R"(60:15: unknown word "top"; expected a number, a text in double quotes, true or false)"}},
+    {R"(true)", R"(True)",
+     {R"(30:28: unknown word "True"; did you mean true?)"}},
+    {R"(13.2)", R"(13,2)",
+     {R"(16:15: "13,2" with a comma; expected a decimal point)"}},
+    {R"(13.2)", R"(1e999)",
+     {R"(16:15: the number 1e999 is too large; expected less than 1e308)"}},
+    {R"(13.2)", R"(NaN)",
+     {R"(16:15: unknown word "NaN"; expected a number, a text in double quotes, true or false)"}},
+    {R"(13.2)", R"(013.2)",
+     {R"(16:15: "013.2" is not a number as JSON writes it; expected as in 1.5, -2 or 3e-6: digits on both sides of the point, no leading zero or plus, no unit)"}},
+    {R"(13.2)", R"(13 .2)",
+     {R"(16:18: something is missing before ".2"; expected ',' or '}')"}},
+    {R"(140
+  },)", R"(140,
+  },)",
+     {R"(18:28: nothing follows this comma but '}'; remove the comma)"}},
+    {R"(140
+  },)", R"(140 // long
+  },)",
+     {R"(18:29: JSON has no comments; move it into "sources" or the lesson, or remove it)"}},
+    {R"("tool")", R"('tool')",
+     {R"(14:3: single quotes; expected double quotes ("))"}},
+    {R"("tool")", R"(tool)",
+     {R"(14:3: "tool" without quotes; expected a name in double quotes)"}},
+    {R"("tool":)", R"("tool")",
+     {R"(14:10: '{' cannot stand here; expected ':' and a value)"}},
+    {R"("tool":)", R"("tool" =)",
+     {R"(14:10: '=' cannot stand here; expected ':' and a value)"}},
+    {R"(Fasten the)", "Fasten\nthe",
+     {R"(9:11: this text is not closed on its line; expected a '"' at its end)"}},
+    {R"(Fasten the)", "Fasten\tthe",
+     {R"(9:18: control character 0x09 in a text; write it as \u0009)"}},
+    {R"(Fasten the)", R"(Fasten \the \d)",
+     {R"(9:24: a backslash that escapes nothing; write \\ for a backslash, or one of \" \/ \b \f \n \r \t \uXXXX)"}},
+    {R"(Fasten the)", R"(Fasten \ud800 the)",
+     {R"(9:19: half of a surrogate pair; expected both halves, or the character itself)"}},
+    {R"(Fasten the)", "Fasten \xFF the",
+     {R"(9:19: byte 0xFF is not UTF-8; save the file as UTF-8)"}},
+    {R"([0, 500, 1])", R"([0, 500, 1)",
+     {R"(60:55: ':' cannot stand here; expected ',' or ']')"}},
+    {R"([0, 500, 1])", R"([0, 500 1])",
+     {R"(60:40: something is missing before "1"; expected ',' or ']')"}},
+    {R"([0, 500, 1])", R"([0, 500, ])",
+     {R"(60:39: nothing follows this comma but ']'; remove the comma)"}},
+};
+// clang-format on
+
+}  // namespace
+
+TEST_CASE("a syntax error is told in plain words where it stands") {
+    const std::string good = shipped("cover-m8");
+    for (const Slip& c : slips) {
+        CAPTURE(c.from);
+        CAPTURE(c.to);
+        const std::vector<std::string> given = messages(edited(good, c.from, c.to));
+        REQUIRE(given.size() == c.messages.size());
+        for (std::size_t i = 0; i < given.size(); ++i) CHECK(given[i] == c.messages[i]);
+    }
+}
+
+namespace {
+
+std::string only_message(std::string_view text) {
+    const std::vector<std::string> all = messages(text);
+    return all.size() == 1 ? all[0] : "messages: " + std::to_string(all.size());
+}
+
+}  // namespace
+
+TEST_CASE("what is no JSON at all gives one error with a line") {
+    CHECK(only_message("") == "1:1: the file is empty; expected '{'");
+    CHECK(only_message(" \n\t\n") == "1:1: the file is empty; expected '{'");
+    CHECK(only_message("hello") ==
+          "1:1: unknown word \"hello\"; expected a number, a text in double quotes, true or false");
+    CHECK(only_message("{") == "1:2: the file ends too early; expected a name in double quotes or '}'");
+    CHECK(only_message("{\"a\": [1,\n") == "1:10: the file ends too early; expected a value");
+    CHECK(only_message("{} {}") == "1:4: '{' cannot stand here; expected the end of the file");
+    CHECK(only_message("<xml/>") == "1:1: '<' cannot stand here; expected '{'");
+    CHECK(only_message("[1.5.2]") ==
+          "1:2: \"1.5.2\" is not a number as JSON writes it; expected as in 1.5, -2 or 3e-6: "
+          "digits on both sides of the point, no leading zero or plus, no unit");
+    CHECK(only_message("[5mm]") ==
+          "1:2: \"5mm\" is not a number as JSON writes it; expected as in 1.5, -2 or 3e-6: "
+          "digits on both sides of the point, no leading zero or plus, no unit");
+    CHECK(only_message("\"abc") == "1:1: this text is not closed; expected a '\"' at its end");
+    CHECK(only_message(std::string_view("{}\0", 3)) == "1:3: byte 0x00; expected text");
+    CHECK(only_message(std::string_view("\xFF\xFE{\0}\0", 6)) == "1:1: the file is UTF-16; save it as UTF-8");
+    CHECK(only_message("{\"\xE4\": 1}") == "1:3: byte 0xE4 is not UTF-8; save the file as UTF-8");
+    CHECK(only_message("{\"\": 1}") == "1:2: an empty name; expected a name of at least one letter");
+    CHECK(only_message("{\"a\\u0001\": 1}") ==
+          "1:2: a name with a control character in it; expected plain text");
+    CHECK(only_message("{\"" + std::string(200, 'k') + "\": 1}") ==
+          "1:2: a name of more than 128 bytes; expected a shorter name");
+}
+
+TEST_CASE("what is JSON but no object is refused as a whole") {
+    CHECK(only_message("[]") == "1:1: a list [...] cannot stand here; expected an object {...}");
+    CHECK(only_message("null") == "1:1: null cannot stand here; expected an object {...}");
+    CHECK(only_message("  3") == "1:3: the number 3 cannot stand here; expected an object {...}");
+}
+
+TEST_CASE("a byte order mark is no mistake and does not move the columns") {
+    CHECK(messages("\xEF\xBB\xBF" + shipped("cover-m8")).empty());
+    CHECK(only_message("\xEF\xBB\xBF[]") == "1:1: a list [...] cannot stand here; expected an object {...}");
+    CHECK(only_message("\xEF\xBB\xBF") == "1:1: the file is empty; expected '{'");
+}
+
+TEST_CASE("Windows line ends are lines too") {
+    std::string text = edited(shipped("cover-m8"), "\"M8x30\"", "\"M8x30 \"");
+    for (std::size_t i = 0; (i = text.find('\n', i)) != std::string::npos; i += 2) text.insert(i, "\r");
+    const auto loaded = bolt::content::parse_assembly(text, "f");
+    REQUIRE_FALSE(loaded.ok());
+    CHECK(loaded.errors.back().line == 49);
+}
+
+TEST_CASE("files that would cost too much are refused at once") {
+    CHECK(only_message(std::string((4U << 20U) + 1, ' ')) == "1:1: the file is larger than 4 MiB");
+    CHECK(only_message(std::string(100'000, '[')) == "1:65: nested more than 64 levels deep");
+    std::string many = "[0";
+    for (int i = 0; i < 200'000; ++i) many += ",0";
+    CHECK(only_message(many + "]") == "1:200000: the file holds more than 100000 values");
+    std::string repeated = "{\"a\":0";
+    for (int i = 0; i < 50'000; ++i) repeated += ",\"a\":0";
+    const std::vector<std::string> all = messages(repeated + "}");
+    CHECK(all.size() == 101);
+    CHECK(all[0] == "1:8: /a: \"a\" is given twice; it is given first in line 1");
+}
+
+TEST_CASE("a repeated name inside a repeated name") {
+    const std::vector<std::string> all =
+        messages("{\"a\": 1,\n\"a\": {\"b\": 1, \"b\": {\"c\": 2}, \"d\": 3}}");
+    REQUIRE(all.size() > 2);
+    CHECK(std::count(all.begin(), all.end(), "2:1: /a: \"a\" is given twice; it is given first in line 1") ==
+          1);
+    CHECK(std::count(all.begin(), all.end(),
+                     "2:15: /a/b: \"b\" is given twice; it is given first in line 2") == 1);
+}

@@ -1,0 +1,232 @@
+#include "game/lesson/lesson.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+#include "content/format/load.hpp"
+#include "game/operators/operator.hpp"
+#include "game/play/servo_setup.hpp"
+#include "game/play/summary.hpp"
+#include "game/play/train.hpp"
+#include "game/record/session.hpp"
+
+using namespace bolt;
+using namespace bolt::lesson;
+
+namespace {
+
+const content::Assembly& zq350() {
+    static const content::Loaded loaded = content::load_assembly("zq350");
+    REQUIRE(loaded.ok());
+    return loaded.assembly;
+}
+
+struct Played {
+    LessonResult result;
+    std::vector<Event> events;
+    std::uint64_t hash = 14695981039346656037ULL;
+    servo::State state;
+};
+
+Played play_through(const content::Assembly& assembly, const char* trainee, std::uint64_t seed, Mode mode = Mode::guided,
+                    Task task = Task::tighten, joint::Law law = joint::Law::mechanistic) {
+    const auto setup = play::make_setup(assembly, law, {}, seed, 1e-3);
+    REQUIRE(setup.has_value());
+    Played played;
+    played.state = servo::initial_state(*setup);
+    if (task == Task::loosen) REQUIRE(play::pretighten(assembly, *setup, played.state).has_value());
+    Lesson lesson = begin(assembly, mode, task);
+    operators::Operator hand(operators::find_profile(trainee).value(), seed, *setup);
+    while (lesson.due() != nullptr && played.state.tick < 3'600'000) {
+        const servo::Input input = hand.act(*setup, played.state, lesson);
+        const servo::Output output = servo::tick(*setup, played.state, input);
+        observe(lesson, played.state, input, output);
+        const double values[] = {output.force.x, output.force.y, output.force.z, output.torque.y,
+                                 output.wrench_torque, output.nut_angle, output.clamp};
+        const auto* bytes = reinterpret_cast<const unsigned char*>(values);
+        for (std::size_t k = 0; k < sizeof values; ++k) played.hash = (played.hash ^ bytes[k]) * 1099511628211ULL;
+        for (Event& event : lesson.events) played.events.push_back(std::move(event));
+        lesson.events.clear();
+    }
+    played.result = judge(lesson, played.state, 1e-3);
+    return played;
+}
+
+}  // namespace
+
+TEST_CASE("the plan has every joint in every pass, in the assembly's order") {
+    const content::Assembly& assembly = zq350();
+    const std::vector<Step> steps = make_plan(assembly, Task::tighten);
+    REQUIRE(steps.size() == assembly.passes.size() * 12);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const content::Pass& pass = assembly.passes[i / 12];
+        CHECK(steps[i].joint == pass.order[i % 12]);
+        CHECK(steps[i].pass == static_cast<int>(i / 12));
+    }
+    const std::vector<Step> off = make_plan(assembly, Task::loosen);
+    REQUIRE(off.size() == 12);
+    CHECK(off.front().joint == assembly.passes.back().order.back());
+}
+
+TEST_CASE("the expert tightens all twelve joints within their windows, feels every stage, and is alike over seeds") {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const Played played = play_through(zq350(), "expert", seed);
+        CAPTURE(seed);
+        CHECK(played.result.finished);
+        CHECK(played.result.score > 90.0);
+        bool felt[joint::stage_count] = {true, false, false, false};  // navigation is where it starts
+        for (const Event& event : played.events)
+            if (event.kind == "stage") felt[static_cast<int>(event.value)] = true;
+        for (const bool stage : felt) CHECK(stage);
+        for (const JointResult& joint : played.result.joints) {
+            CHECK(joint.torque_verdict == Verdict::ok);
+            CHECK(joint.order_errors == 0);
+        }
+    }
+}
+
+TEST_CASE("trainees differ as they should: expert above novice above clumsy, over seeds") {
+    double score[3] = {0.0, 0.0, 0.0};
+    const char* names[] = {"expert", "novice", "clumsy"};
+    for (int who = 0; who < 3; ++who)
+        for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+            const Played played = play_through(zq350(), names[who], seed);
+            CHECK(played.result.finished);
+            score[who] += played.result.score / 4.0;
+        }
+    MESSAGE("scores ", score[0], " ", score[1], " ", score[2]);
+    CHECK(score[0] > score[1]);
+    CHECK(score[1] > score[2]);
+    CHECK(score[2] > 0.0);
+}
+
+TEST_CASE("the same seed gives the same bits, another seed others") {
+    CHECK(play_through(zq350(), "novice", 5).hash == play_through(zq350(), "novice", 5).hash);
+    CHECK(play_through(zq350(), "novice", 5).hash != play_through(zq350(), "novice", 6).hash);
+}
+
+TEST_CASE("every variant, law, mode and task of the reducer can be played to its end") {
+    for (const char* variant : {"carbon_steel", "stainless"}) {
+        const content::Loaded loaded = content::load_assembly("zq350", variant);
+        REQUIRE(loaded.ok());
+        for (const joint::Law law : {joint::Law::published, joint::Law::mechanistic})
+            for (const Task task : {Task::tighten, Task::loosen}) {
+                CAPTURE(variant);
+                CAPTURE(joint::name(law));
+                CAPTURE(name(task));
+                const Played played = play_through(loaded.assembly, "expert", 1, Mode::guided, task, law);
+                CHECK(played.result.finished);
+                for (const JointResult& joint : played.result.joints) CHECK(joint.torque > 30.0);
+                if (task == Task::loosen)
+                    for (const joint::JointState& joint : played.state.joints)
+                        CHECK(joint.stage == joint::Stage::navigation);
+            }
+    }
+    for (const Mode mode : {Mode::practice, Mode::assessment})
+        CHECK(play_through(zq350(), "novice", 2, mode).result.finished);
+}
+
+TEST_CASE("loosening feels different: breakaway is below the tightening torque") {
+    const Played off = play_through(zq350(), "expert", 1, Mode::guided, Task::loosen);
+    for (std::size_t i = 0; i < off.result.joints.size(); ++i)
+        CHECK(off.result.joints[i].torque < zq350().joints[i].spec.torque.target);
+}
+
+TEST_CASE("events come in order and tell a whole story: engage and release alternate, every step begins and ends") {
+    const Played played = play_through(zq350(), "clumsy", 3);
+    std::uint64_t tick = 0;
+    int held = -1, begun = 0, ended = 0;
+    for (const Event& event : played.events) {
+        CHECK(event.tick >= tick);
+        tick = event.tick;
+        if (event.kind == "engage") {
+            CHECK(held == -1);
+            held = event.joint;
+        } else if (event.kind == "release") {
+            CHECK(held == event.joint);
+            held = -1;
+        } else if (event.kind == "step_begin") {
+            ++begun;
+        } else if (event.kind == "step_end") {
+            ++ended;
+        }
+    }
+    CHECK(begun == 60);
+    CHECK(ended == 60);
+}
+
+TEST_CASE("the published law refuses a target that it can never reach, and says what to do") {
+    content::Assembly assembly = zq350();
+    assembly.joints[3].spec.torque = {100.0, 95.0, 105.0};
+    const auto setup = play::make_setup(assembly, joint::Law::published, {}, 1, 1e-3);
+    REQUIRE_FALSE(setup.has_value());
+    CHECK(setup.error().code == ErrorCode::bad_content);
+    CHECK(setup.error().message().find("--law mechanistic") != std::string::npos);
+}
+
+TEST_CASE("a recorded lesson replays from its inputs to the same bits") {
+    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-replay.boltwright";
+    play::TrainOptions options;
+    options.trainee = operators::find_profile("expert").value();
+    options.seed = 9;
+    const auto result = play::train(zq350(), options, file, [](const play::Progress&) { return true; });
+    REQUIRE(result.has_value());
+    const auto reader = record::Reader::open(file);
+    REQUIRE(reader.has_value());
+    CHECK(reader->complete());
+    // From nothing but the file: the assembly's text, the seed and the inputs.
+    const content::Loaded loaded = content::parse_assembly(reader->header().assembly_text, "session");
+    REQUIRE(loaded.ok());
+    const auto setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, {}, reader->header().seed,
+                                        reader->header().dt);
+    servo::State state = servo::initial_state(*setup);
+    std::uint64_t ticks = 0, wrong = 0;
+    REQUIRE(reader->for_each_chunk([&](std::uint64_t, std::span<const record::TickRecord> chunk) {
+        for (const record::TickRecord& tick : chunk) {
+            const servo::Output output = servo::tick(*setup, state, record::input_of(tick));
+            const record::TickRecord again = record::make_record(record::input_of(tick), output);
+            ++ticks;
+            if (again.wrench_torque != tick.wrench_torque || again.clamp != tick.clamp ||
+                again.nut_angle != tick.nut_angle || again.force[1] != tick.force[1] || again.joint != tick.joint)
+                ++wrong;
+        }
+    }));
+    CHECK(ticks == reader->tick_count());
+    CHECK(ticks > 100'000);
+    CHECK(wrong == 0);
+    std::filesystem::remove(file);
+}
+
+TEST_CASE("summary: the fields that were promised, and the table names every joint") {
+    LessonResult result;
+    result.score = 87.5;
+    for (const content::AssemblyJoint& joint : zq350().joints) {
+        JointResult r;
+        r.id = joint.design.id;
+        r.torque = 71.25;
+        r.angle = to_radians(33.5);
+        r.clamp = 28123.4;
+        r.overall = Verdict::ok;
+        result.joints.push_back(r);
+    }
+    play::TrainOptions options;
+    options.trainee = operators::find_profile("expert").value();
+    const std::string json = play::summary_json(zq350(), options, result);
+    for (const char* field : {"\"assembly\": \"zq350\"", "\"law\": \"mechanistic\"", "\"operator\": \"expert\"",
+                              "\"seed\": 1", "\"duration_s\"", "\"score\": 87.5", "\"torque_Nm\": 71.25",
+                              "\"angle_deg\": 33.5", "\"clamp_N\": 28123.0", "\"verdict\": \"OK\""}) {
+        CAPTURE(field);
+        CHECK(json.find(field) != std::string::npos);
+    }
+    const std::string table = play::summary_table(zq350(), result);
+    for (const content::AssemblyJoint& joint : zq350().joints)
+        CHECK(table.find(joint.design.id) != std::string::npos);
+}
+
+TEST_CASE("a name that is no trainee is answered with the nearest") {
+    const auto slip = operators::find_profile("exprt");
+    REQUIRE_FALSE(slip.has_value());
+    CHECK(slip.error().expected == "did you mean expert?");
+    CHECK(slip.error().code == ErrorCode::usage);
+}

@@ -1,0 +1,104 @@
+// The process dies: at every single file operation, and at random moments.
+#include <doctest/doctest.h>
+
+#include "game/record/session.hpp"
+#include "tests/record/child.hpp"
+#include "tests/record/faulty_disk.hpp"
+#include "tests/record/support.hpp"
+
+using namespace bolt;
+using namespace bolt::record;
+using namespace bolt::record::test;
+
+namespace {
+
+constexpr std::size_t script_ticks = 55;
+constexpr std::size_t old_ticks = 5;
+
+// Records the script to its end over what is at `path` and reports: 1 when the file was made, then 1 + ticks.
+int record_script(const std::filesystem::path& path, const std::function<void(std::uint64_t)>& report) {
+    auto writer = create_script(path);
+    if (!writer) return 1;
+    report(1);
+    if (!play_script(*writer, script_ticks, [&](std::size_t ticks) { report(1 + ticks); })) return 2;
+    return writer->finish({}) ? 0 : 3;
+}
+
+// What has to be true of the file, whenever its writer died after `reported`.
+void check_left(const std::filesystem::path& path, std::uint64_t reported) {
+    const auto reader = Reader::open(path);
+    if (!reader) FAIL_CHECK(reader.error().message());
+    if (!reader) return;
+    const std::string mismatch = script_mismatch(*reader);
+    CHECK_MESSAGE(mismatch.empty(), mismatch);
+    if (reported == 0 && reader->complete()) {
+        CHECK(reader->tick_count() == old_ticks);  // the session that was to be replaced
+        return;
+    }
+    const std::uint64_t appended = reported == 0 ? 0 : reported - 1;
+    CHECK(reader->tick_count() <= script_ticks);
+    CHECK(reader->tick_count() + script_second >= appended);
+    if (reader->complete()) CHECK(reader->tick_count() == script_ticks);
+    if (appended < script_ticks) CHECK_FALSE(reader->complete());
+}
+
+}  // namespace
+
+TEST_CASE("a process killed at any file operation leaves a session that opens") {
+    const TempFolder folder;
+    const auto path = folder / "a.session";
+    int survived = -1;
+    int cut_short = 0;
+    for (int at = 0; survived < 0; ++at) {
+        REQUIRE(at < 2000);
+        CAPTURE(at);
+        for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(path.string() + suffix);
+        script_session(path, old_ticks);
+        const ChildEnd end = run_child([&](const auto& report) {
+            const FaultyDisk disk(Fault::kill, at);
+            return record_script(path, report);
+        });
+        if (!end.killed) {
+            CHECK(end.code == 0);
+            survived = at;
+        }
+        check_left(path, end.last_report);
+        const auto reader = Reader::open(path);
+        if (reader && !reader->complete()) ++cut_short;
+    }
+    // The operations really were in the way: several a second of the script, and more to begin and to end
+    // with.
+    CHECK(survived > 40);
+    CHECK(cut_short > 20);
+}
+
+TEST_CASE("a process killed at a random moment loses at most the last second") {
+    const TempFolder folder;
+    const auto path = folder / "a.session";
+    Random random(2024);
+    for (int round = 0; round < 25; ++round) {
+        CAPTURE(round);
+        std::filesystem::remove(path);
+        for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(path.string() + suffix);
+        const std::uint64_t kill_at = 1 + random.bits() % 400;
+        const ChildEnd end = run_child(
+            [&](const auto& report) {
+                auto writer = create_script(path);
+                if (!writer) return 1;
+                report(1);
+                constexpr std::size_t forever = 1'000'000;
+                const bool played =
+                    play_script(*writer, forever, [&](std::size_t t) { report(1 + t); }).has_value();
+                return played ? 0 : 2;
+            },
+            kill_at, random.bits() % 3000);
+        REQUIRE(end.killed);
+        const auto reader = Reader::open(path);
+        REQUIRE(reader);
+        CHECK_FALSE(reader->complete());
+        CHECK(reader->tick_count() + script_second >= end.last_report - 1);
+        CHECK(reader->tick_count() % script_second == 0);
+        const std::string mismatch = script_mismatch(*reader);
+        CHECK_MESSAGE(mismatch.empty(), mismatch);
+    }
+}

@@ -1,0 +1,47 @@
+#include "game/record/tick.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/record/support.hpp"
+
+using namespace bolt;
+using namespace bolt::record;
+
+TEST_CASE("a tick's input comes back as it went in") {
+    Random random(11);
+    for (int i = 0; i < 200; ++i) {
+        servo::Input input;
+        input.device = test::random_tick(random).device;
+        input.grip = static_cast<servo::Grip>(random.bits() % 3);
+        input.enabled = random.chance(0.5);
+        input.guide = static_cast<std::int16_t>(static_cast<int>(random.bits() % 20) - 1);
+        const TickRecord record = make_record(input, {});
+        CHECK(is_valid(record));
+        CHECK(test::same(make_record(input_of(record), {}), record));
+        CHECK(input_of(record).grip == input.grip);
+        CHECK(input_of(record).enabled == input.enabled);
+        CHECK(input_of(record).guide == input.guide);
+    }
+}
+
+TEST_CASE("a tick's output is kept in single precision") {
+    servo::Output output;
+    output.force = {0.1, -2.0, 3.0e-8};
+    output.torque = {1.0 / 3.0, 0.0, -0.25};
+    output.joint = 11;
+    output.stage = joint::Stage::yield;
+    output.wrench_torque = 48.7;
+    output.nut_angle = 6.283185307179586;
+    output.clamp = 23456.789;
+    const TickRecord record = make_record({}, output);
+    CHECK(record.force[0] == 0.1F);
+    CHECK(record.force[1] == -2.0F);
+    CHECK(record.force[2] == 3.0e-8F);
+    CHECK(record.torque[0] == 1.0F / 3.0F);
+    CHECK(record.torque[2] == -0.25F);
+    CHECK(record.joint == 11);
+    CHECK(record.stage == 3);
+    CHECK(record.wrench_torque == 48.7F);
+    CHECK(record.nut_angle == 6.283185307179586F);
+    CHECK(record.clamp == 23456.789F);
+}

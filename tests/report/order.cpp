@@ -1,0 +1,90 @@
+#include "game/report/order.hpp"
+
+#include <doctest/doctest.h>
+
+#include "game/report/plan.hpp"
+#include "tests/report/synthetic.hpp"
+#include "tests/report/well_formed.hpp"
+
+using namespace bolt;
+using namespace bolt::report;
+
+namespace {
+
+// A session of one pass over five joints, taken in the order given.
+SessionData session_of(const std::vector<std::size_t>& taken) {
+    SessionData session;
+    session.assembly = synthetic_assembly();
+    session.assembly.joints.resize(5);
+    session.assembly.passes = {{content::StepKind::tighten, 1.0, {0, 1, 2, 3, 4}}};
+    session.joints = results_by_joint(session.assembly, {});
+    session.curves.resize(5);
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+        Visit visit;
+        visit.begin = static_cast<double>(i);
+        visit.worked = true;
+        session.curves[taken[i]].visits.push_back(visit);
+    }
+    return session;
+}
+
+std::vector<std::size_t> out_of_turn(const PassOrder& order) {
+    std::vector<std::size_t> joints;
+    for (const Turn& turn : order.followed)
+        if (turn.out_of_turn) joints.push_back(turn.joint);
+    return joints;
+}
+
+}  // namespace
+
+TEST_CASE("the order as asked") {
+    const PassOrder order = pass_orders(session_of({0, 1, 2, 3, 4}))[0];
+    CHECK(order.in_turn());
+    CHECK(order.left_out() == 0);
+    CHECK(order.place_followed(3) == 4);
+}
+
+TEST_CASE("the fewest joints are out of turn") {
+    CHECK(out_of_turn(pass_orders(session_of({1, 2, 3, 4, 0}))[0]) == std::vector<std::size_t>{0});
+    CHECK(out_of_turn(pass_orders(session_of({0, 3, 2, 1, 4}))[0]).size() == 2);
+    const PassOrder skipped = pass_orders(session_of({0, 2, 3, 4}))[0];
+    CHECK(skipped.in_turn());
+    CHECK(skipped.left_out() == 1);
+    CHECK(skipped.place_followed(1) == 0);
+}
+
+TEST_CASE("a joint taken twice has one place and two visits") {
+    const PassOrder order = pass_orders(session_of({0, 1, 0, 2, 3, 4}))[0];
+    CHECK_FALSE(order.in_turn());
+    CHECK(out_of_turn(order).empty());
+    CHECK(order.visits(0) == 2);
+    CHECK(order.place_followed(2) == 3);
+}
+
+TEST_CASE("passes are told apart by their events, and only touched nuts do not count") {
+    SyntheticSession session = synthetic_session({});
+    const std::vector<PassOrder> orders = pass_orders(session.data);
+    REQUIRE(orders.size() == 4);
+    CHECK(orders[0].label == "run-down");
+    CHECK(orders[1].label == "30 %");
+    for (const PassOrder& order : orders) {
+        CHECK(order.followed.size() == 12);
+        CHECK(order.in_turn());
+    }
+    session.data.pass_texts.clear();
+    const std::vector<PassOrder> untold = pass_orders(session.data);
+    REQUIRE(untold.size() == 1);
+    CHECK(untold[0].asked.empty());
+}
+
+TEST_CASE("the plan keeps distances and drawings are well-formed") {
+    const SyntheticSession session = synthetic_session({});
+    const PlanLayout layout = plan_layout(session.data.assembly, 480.0, 40.0);
+    REQUIRE(layout.at.size() == 12);
+    const double along = layout.at[5].x - layout.at[0].x, across = layout.at[6].y - layout.at[0].y;
+    CHECK(along == doctest::Approx(400.0));
+    CHECK(across / along == doctest::Approx(0.24 / 0.64));
+    for (const PassOrder& order : pass_orders(session.data)) CHECK(markup_fault(order_plan(session.data, order)) == "");
+    CHECK(markup_fault(clamp_plan(session.data)) == "");
+    CHECK(markup_fault(clamp_rows(session.data)) == "");
+}

@@ -1,0 +1,79 @@
+#include "game/report/plot.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "game/report/style.hpp"
+#include "tests/report/well_formed.hpp"
+
+using namespace bolt::report;
+
+namespace {
+
+Plot example() {
+    Plot plot;
+    plot.title = "torque <&> \"angle\"";
+    plot.x = {inner_ticks({0.0, 100.0}), "angle, °"};
+    plot.x.ticks.range = {0.0, 100.0};
+    plot.y = {covering_ticks(0.0, 200.0), "torque"};
+    plot.y2 = Axis{covering_ticks(0.0, 90.0), "clamp"};
+    plot.bands.push_back({{10.0, 60.0}, "s1", "<band>", false});
+    plot.bands.push_back({{180.0, 190.0}, "win", "", true});
+    plot.rules.push_back({185.0, "tgt", "a & b", true});
+    Line line;
+    line.style = "ln p2";
+    for (int i = 0; i <= 1000; ++i) line.points.push_back({0.1 * i, i == 500 ? 199.0 : 0.1 * i});
+    plot.lines.push_back(line);
+    for (const Shape shape : {Shape::dot, Shape::ring, Shape::square, Shape::triangle})
+        plot.marks.push_back({{50.0, 100.0}, shape, "mpeak", "'x'", false});
+    return plot;
+}
+
+}  // namespace
+
+TEST_CASE("a plot is well-formed and escapes all words") {
+    const std::string svg = draw(example());
+    CHECK(markup_fault(svg) == "");
+    CHECK(svg.find("&lt;band&gt;") != std::string::npos);
+    CHECK(svg.find("torque &lt;&amp;&gt; &quot;angle&quot;") != std::string::npos);
+    CHECK(svg.find("<band>") == std::string::npos);
+    CHECK(markup_fault(standalone(svg, style_sheet())) == "");
+}
+
+TEST_CASE("the checker itself can fail") {
+    CHECK(markup_fault("<p>a</p>") == "");
+    CHECK(markup_fault("<p>a") != "");
+    CHECK(markup_fault("<p>a</div>") != "");
+    CHECK(markup_fault("<p>a & b</p>") != "");
+    CHECK(markup_fault("<p class=x>a</p>") != "");
+    CHECK(markup_fault("<p class=\"a<b\">a</p>") != "");
+    CHECK(markup_fault("<br/><p>5 > 3</p>") != "");
+    CHECK(markup_fault("</p>") != "");
+}
+
+TEST_CASE("a drawn line keeps its peak at the pixel where it belongs") {
+    const Plot plot = example();
+    const Box area = plot_area(plot);
+    const Scale x{plot.x.ticks.range, area.width, false}, y{plot.y.ticks.range, area.height, true};
+    Svg expected(1, 1, "");
+    const Point peak[] = {{x(50.0), y(199.0)}};
+    expected.path(peak, "");
+    const std::string text = expected.finish();
+    const std::size_t from = text.find("d=\"M") + 4;
+    CHECK(draw(plot).find(text.substr(from, text.find('"', from) - from)) != std::string::npos);
+}
+
+TEST_CASE("what is no number is not drawn") {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    Plot plot = example();
+    plot.lines.push_back({{{nan, nan}, {1.0, nan}, {HUGE_VAL, 3.0}}, "ln", false});
+    plot.marks.push_back({{nan, 1.0}, Shape::dot, "mpeak", "never", false});
+    plot.rules.push_back({nan, "tgt", "never", false});
+    const std::string svg = draw(plot);
+    CHECK(markup_fault(svg) == "");
+    CHECK(svg.find("nan") == std::string::npos);
+    CHECK(svg.find("inf") == std::string::npos);
+    CHECK(svg.find("never") == std::string::npos);
+}

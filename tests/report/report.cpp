@@ -1,0 +1,184 @@
+#include "game/report/report.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/base/math.hpp"
+#include "game/report/attempts.hpp"
+#include "game/report/joint_plot.hpp"
+#include "game/report/section.hpp"
+#include "game/report/text.hpp"
+#include "tests/report/synthetic.hpp"
+#include "tests/report/well_formed.hpp"
+
+using namespace bolt;
+using namespace bolt::report;
+
+namespace {
+
+std::string report_of(const SessionData& session) { return make_report(std::span<const SessionData>(&session, 1)); }
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("the page is well-formed, self-contained and the same every time") {
+    SyntheticOptions options;
+    options.slips = true;
+    const SyntheticSession session = synthetic_session(options);
+    const std::string html = report_of(session.data);
+    CHECK(markup_fault(html) == "");
+    CHECK(html == report_of(synthetic_session(options).data));
+    for (const char* outside : {"<script", "<link", "<img", "src=", "@import", "url(", "href=\"http"})
+        CHECK_FALSE_MESSAGE(has(html, outside), outside);
+    CHECK(has(html, "Split casing, upper half"));
+    CHECK(has(html, "mechanistic"));
+    CHECK_FALSE(has(html, "cut short"));
+    CHECK(html.size() < 1'000'000);
+}
+
+TEST_CASE("the figures are those of the results") {
+    SyntheticOptions options;
+    options.slips = true;
+    const SessionData session = synthetic_session(options).data;
+    const std::string html = report_of(session);
+    for (const lesson::JointResult& r : session.joints) {
+        const std::size_t row = html.find(">" + r.id + "</a>");
+        REQUIRE(row != std::string::npos);
+        const std::string cells = html.substr(row, html.find("</tr>", row) - row);
+        CHECK(has(cells, ">" + number(r.torque, 1) + " <"));
+        CHECK(has(cells, ">" + number(to_degrees(r.angle), 1) + "°<"));
+        CHECK(has(cells, ">" + number(1e-3 * r.clamp, 1) + " <"));
+        CHECK(has(cells, ">" + std::to_string(r.strokes) + "<"));
+        if (r.condition == joint::Condition::sound) {
+            CHECK(has(cells, std::string(name(r.overall))));
+        } else {
+            CHECK(has(cells, "✕ stripped"));
+        }
+    }
+    CHECK(has(html, ">" + number(session.score, 1) + " <small>/ 100"));
+    for (const lesson::ScoreReason& reason : session.reasons) {
+        CHECK(has(html, ">" + signed_number(reason.points, 1) + "<"));
+        CHECK(has(html, escape(reason.text)));
+    }
+}
+
+TEST_CASE("verdicts have a shape as well as a colour") {
+    SyntheticOptions options;
+    options.slips = true;
+    const std::string html = report_of(synthetic_session(options).data);
+    for (const char* mark : {"✓ OK", "▲ HIGH", "▼ LOW", "✕ stripped"}) CHECK_MESSAGE(has(html, mark), mark);
+}
+
+TEST_CASE("hostile names do no harm") {
+    SyntheticSession session = synthetic_session({});
+    const std::string attack = "</title><script>alert(1)</script>\"' onload=\"x";
+    SessionData& data = session.data;
+    data.assembly.title["en"] = attack;
+    data.header.operator_name = attack;
+    data.header.law = attack;
+    data.header.mode = attack;
+    data.header.variant = attack;
+    data.header.program = attack;
+    data.file = "/tmp/" + attack;
+    data.reasons.push_back({1.0, attack});
+    data.assembly.joints[0].design.id = attack;
+    data.assembly.joints[0].design.bolt_class.name = attack;
+    data.joints[0].id = attack;
+    data.pass_texts[0] = attack;
+    for (const std::string& html : {report_of(data), make_report(std::vector<SessionData>{data, data})}) {
+        CHECK(markup_fault(html) == "");
+        CHECK_FALSE(has(html, "<script"));
+        CHECK_FALSE(has(html, "\" onload"));
+    }
+}
+
+TEST_CASE("a session that was cut short says so first") {
+    SyntheticOptions options;
+    options.cut_short = true;
+    const std::string html = report_of(synthetic_session(options).data);
+    CHECK(html.find("This session was cut short") < html.find("<h2>"));
+    CHECK(markup_fault(html) == "");
+}
+
+TEST_CASE("a session in which nothing happened still makes a page") {
+    SessionData empty;
+    empty.assembly = synthetic_assembly();
+    empty.joints = results_by_joint(empty.assembly, {});
+    empty.curves.resize(empty.joints.size());
+    empty.header.task = "tighten";
+    const std::string html = report_of(empty);
+    CHECK(markup_fault(html) == "");
+    CHECK(has(html, "not reached"));
+    CHECK(has(html, "Never worked on: J01"));
+    CHECK_FALSE(has(html, "nan"));
+    empty.assembly.joints.clear();
+    empty.assembly.passes.clear();
+    empty.joints.clear();
+    empty.curves.clear();
+    CHECK(markup_fault(report_of(empty)) == "");
+}
+
+TEST_CASE("several sessions begin with how they compare") {
+    std::vector<SessionData> sessions;
+    for (std::uint64_t i = 0; i < 4; ++i) {
+        SyntheticOptions options;
+        options.seed = i;
+        options.cut_short = i == 1;
+        sessions.push_back(synthetic_session(options).data);
+        sessions.back().score = 61.5 + 10.0 * static_cast<double>(i);
+    }
+    const std::string html = make_report(sessions);
+    CHECK(markup_fault(html) == "");
+    CHECK(has(html, "4 attempts"));
+    for (const SessionData& session : sessions) CHECK(has(html, ">" + number(session.score, 1) + "<"));
+    CHECK(count_of(html, "<section class=\"session\"") == 4);
+    CHECK(html.find("Learning curve") < html.find("<section"));
+}
+
+TEST_CASE("the run-down does not squeeze the last turn") {
+    const SyntheticSession session = synthetic_session({});
+    const JointView view = joint_view(session.data, 0);
+    CHECK(view.cut);
+    CHECK(view.zero_name == "snug");
+    CHECK(view.shown.span() < 120.0);
+    CHECK(view.shown.low < 0.0);
+    const double end = to_degrees(session.data.curves[0].end_angle - session.data.curves[0].snug_angle);
+    CHECK(view.shown.high > end);
+    const Plot plot = joint_plot(session.data, 0);
+    CHECK(has(plot.x.label, "drawn from"));
+    CHECK(plot.y.ticks.range.high >= session.data.joints[0].torque);
+    CHECK(plot.bands.size() >= 4);  // three stages and the window
+    CHECK(run_down_text(session.data.curves[0].run_down).starts_with("Run-down of 17.9 turns in "));
+}
+
+TEST_CASE("the summary against a hand count") {
+    SessionData session;
+    session.assembly = synthetic_assembly();
+    session.joints = results_by_joint(session.assembly, {});
+    const double clamps[] = {70e3, 80e3, 90e3};
+    const double torques[] = {206.0 * 0.9, 206.0, 206.0 * 1.2};
+    for (std::size_t i = 0; i < 3; ++i) {
+        session.joints[i].overall = i == 2 ? lesson::Verdict::high : lesson::Verdict::ok;
+        session.joints[i].clamp = clamps[i];
+        session.joints[i].torque = torques[i];
+    }
+    const Summary s = summarise(session);
+    CHECK(s.judged == 3);
+    CHECK(s.ok == 2);
+    CHECK(s.clamp_mean == doctest::Approx(80e3));
+    CHECK(s.clamp_deviation == doctest::Approx(10e3));
+    CHECK(s.mean_torque_error == doctest::Approx(0.1));
+    CHECK(s.lowest == 0);
+    CHECK(s.highest == 2);
+}
+
+TEST_CASE("the clamp target follows from the torque where it is not stated") {
+    content::Assembly assembly = synthetic_assembly();
+    CHECK(target_clamp(assembly, 0) == doctest::Approx(80.9e3));
+    assembly.joints[0].spec.target_clamp = 0.0;
+    // VDI 2230 table A1: M16 8.8 at μ 0.12 holds 80.9 kN at 206 N·m.
+    CHECK(target_clamp(assembly, 0) == doctest::Approx(80.9e3).epsilon(0.01));
+    assembly.law = joint::Law::published;
+    assembly.joints[0].spec.torque.target = 59.976;
+    CHECK(target_clamp(assembly, 0) == doctest::Approx(59.976 / 12.464e-3).epsilon(0.001));
+}

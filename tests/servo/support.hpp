@@ -1,0 +1,47 @@
+// A small assembly for servo tests: two M16 joints, nuts on top, 0.2 m apart.
+#pragma once
+
+#include <vector>
+
+#include "haptics/servo/tick.hpp"
+#include "tests/joint/support.hpp"
+
+namespace bolt::test {
+
+inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis = Vec3(0, 1, 0)) {
+    std::vector<joint::JointDesign> designs(2, m16_flange_joint());
+    designs[1].seat = Vec3(0.2, 0.0, 0.0);
+    for (joint::JointDesign& d : designs) d.axis = axis;
+    servo::Description description;
+    description.joints = designs;
+    description.jaw = 24.2e-3;
+    description.head_angle = to_radians(15.0);
+    description.handle_length = 0.23;
+    description.greatest_torque = 210.0;
+    description.limits = limits;
+    return servo::make_setup(description);
+}
+
+// A tool at a place, its handle at `angle` about the nut's axis (tightening positive), upright or flipped.
+inline servo::DeviceSample tool_at(const servo::NutPlace& nut, const Vec3& position, double angle, bool flipped = false) {
+    const Vec3 x = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
+    const Vec3 z = flipped ? -nut.axis : nut.axis;
+    const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
+    servo::DeviceSample sample;
+    for (int i = 0; i < 3; ++i) sample.position[i] = static_cast<float>(position[i]);
+    sample.orientation[0] = static_cast<float>(q.w);
+    sample.orientation[1] = static_cast<float>(q.x);
+    sample.orientation[2] = static_cast<float>(q.y);
+    sample.orientation[3] = static_cast<float>(q.z);
+    return sample;
+}
+
+inline servo::Input holding(servo::Grip grip, const servo::DeviceSample& sample) {
+    servo::Input input;
+    input.enabled = true;
+    input.grip = grip;
+    input.device = sample;
+    return input;
+}
+
+}  // namespace bolt::test

@@ -1,0 +1,167 @@
+#include "haptics/servo/tick.hpp"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/servo/support.hpp"
+
+using namespace bolt;
+using namespace bolt::servo;
+
+namespace {
+std::atomic<bool> watching{false};
+std::atomic<int> allocations{0};
+}  // namespace
+
+// Every allocation of this program is counted while somebody watches.
+void* operator new(std::size_t size) {
+    if (watching) ++allocations;
+    if (void* memory = std::malloc(size)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace {
+
+// Reach over the nut, come down on it with the wrench, pull 40 degrees, let go, lift.
+Input scripted(const Setup& setup, const State& state, int i) {
+    const NutPlace& nut = setup.nuts[0];
+    const double fits = setup.wrench.head_angle;
+    const double height = i < 1000 ? 0.05 * (1.0 - i / 1000.0) : i < 4000 ? 0.0 : 0.05 * (i - 4000) / 1000.0;
+    const double pull = i < 1500 ? 0.0 : std::min(i - 1500, 2000) / 2000.0 * to_radians(40.0);
+    const Vec3 at = nut_centre(nut, state.joints[0].nut.angle) + nut.axis * height;
+    Input input = test::holding(Grip::wrench, test::tool_at(nut, at, fits + pull));
+    input.guide = 0;
+    return input;
+}
+
+}  // namespace
+
+TEST_CASE("the tick allocates nothing, and the watch would see it if it did") {
+    const Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    watching = true;
+    allocations = 0;
+    for (int i = 0; i < 5000; ++i) tick(setup, state, scripted(setup, state, i));
+    const int in_tick = allocations;
+    std::vector<int> seen(100);
+    watching = false;
+    CHECK(in_tick == 0);
+    CHECK(allocations > 0);
+}
+
+TEST_CASE("same inputs, same bits") {
+    const auto run = [] {
+        const Setup setup = test::two_joints();
+        State state = initial_state(setup);
+        std::uint64_t hash = 14695981039346656037ULL;
+        for (int i = 0; i < 5000; ++i) {
+            const Output output = tick(setup, state, scripted(setup, state, i));
+            const double values[] = {output.force.x, output.force.y, output.torque.y, output.wrench_torque,
+                                     output.nut_angle, output.clamp};
+            const auto* bytes = reinterpret_cast<const unsigned char*>(values);
+            for (std::size_t k = 0; k < sizeof values; ++k) hash = (hash ^ bytes[k]) * 1099511628211ULL;
+        }
+        return hash;
+    };
+    CHECK(run() == run());
+}
+
+TEST_CASE("reach, engage, turn, let go: no step of force or torque above the slew limit") {
+    const Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    Output last;
+    bool engaged = false, turned = false;
+    for (int i = 0; i < 5000; ++i) {
+        const Output output = tick(setup, state, scripted(setup, state, i));
+        REQUIRE(glm::length(output.force - last.force) <= setup.limits.force_rate * setup.dt * 1.0001);
+        REQUIRE(glm::length(output.torque - last.torque) <= setup.limits.torque_rate * setup.dt * 1.0001);
+        // The act of engaging adds no torque of its own: the nut's answer begins from nothing.
+        if (output.joint == 0 && last.joint == -1) CHECK(output.wrench_torque == 0.0);
+        engaged = engaged || output.joint == 0;
+        turned = turned || output.nut_angle > to_radians(30.0);
+        last = output;
+    }
+    CHECK(engaged);
+    CHECK(turned);
+}
+
+TEST_CASE("the nut's torque reaches the hand about the bolt's axis, against the pull, scaled into the device's range") {
+    const Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    const NutPlace& nut = setup.nuts[0];
+    Output output;
+    double angle = setup.wrench.head_angle;
+    for (int i = 0; i < 20'000; ++i) {
+        const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
+        output = tick(setup, state, test::holding(Grip::wrench, test::tool_at(nut, at, angle)));
+        if (output.wrench_torque < 150.0) angle += to_radians(0.05);
+    }
+    REQUIRE(output.wrench_torque > 140.0);
+    CHECK(output.torque.y == doctest::Approx(output.wrench_torque * setup.torque_scale).epsilon(0.02));
+    CHECK(output.torque.y < setup.limits.torque);
+    CHECK(setup.torque_scale * 210.0 == doctest::Approx(0.8 * setup.limits.torque));
+}
+
+TEST_CASE("a device without torque feels it as a force across the handle, against the pull") {
+    force::OutputLimits limits;
+    limits.torque = 0.0;
+    const Setup setup = test::two_joints(limits);
+    State state = initial_state(setup);
+    const NutPlace& nut = setup.nuts[0];
+    Output output;
+    double angle = setup.wrench.head_angle;
+    for (int i = 0; i < 20'000; ++i) {
+        const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
+        output = tick(setup, state, test::holding(Grip::wrench, test::tool_at(nut, at, angle)));
+        if (output.wrench_torque < 150.0) angle += to_radians(0.05);
+    }
+    REQUIRE(output.wrench_torque > 140.0);
+    const ToolPose tool = pose_of(test::tool_at(nut, Vec3(0.0), angle));
+    const Vec3 pull = glm::cross(-nut.axis, tool.handle);  // where the grip goes when tightening
+    CHECK(glm::dot(output.force, pull) == doctest::Approx(-output.wrench_torque * setup.torque_as_force).epsilon(0.05));
+    CHECK(glm::length(output.torque) == 0.0);
+}
+
+TEST_CASE("fingers run the nut down, slip at its seat, and leave it there") {
+    const Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    const NutPlace& nut = setup.nuts[0];
+    Output output;
+    for (int i = 0; i < 6000; ++i) {
+        const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
+        output = tick(setup, state, test::holding(Grip::fingers, test::tool_at(nut, at, 3e-3 * i)));
+        REQUIRE(output.wrench_torque <= setup.finger_torque * 1.0001);
+    }
+    CHECK(output.stage != joint::Stage::navigation);
+    CHECK(output.nut_angle == doctest::Approx(2 * pi).epsilon(0.1));  // 2 mm of gap, 2 mm of pitch
+}
+
+TEST_CASE("a whole turn of the hand counts as a whole turn: the angle is unwrapped across half turns") {
+    const Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    const NutPlace& nut = setup.nuts[0];
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
+        tick(setup, state, test::holding(Grip::fingers, test::tool_at(nut, at, 2.5e-3 * i)));
+    }
+    CHECK(state.joints[0].nut.angle == doctest::Approx(5.0).epsilon(0.02));
+}
+
+TEST_CASE("without the dead-man nothing is held and nothing is rendered") {
+    const Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    for (int i = 0; i < 3000; ++i) {
+        Input input = scripted(setup, state, 1500 + i % 1000);
+        input.enabled = false;
+        const Output output = tick(setup, state, input);
+        REQUIRE(output.joint == -1);
+        REQUIRE(glm::length(output.force) == 0.0);
+        REQUIRE(glm::length(output.torque) == 0.0);
+    }
+    CHECK(state.joints[0].nut.angle == 0.0);
+}
