@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_errors = 200;  // a file with more is not the file that was meant
+constexpr std::size_t most_errors = 200;  // that are worth reading
 
 bool holds_content(const fs::path& folder) {
     std::error_code ignored;
@@ -72,11 +72,10 @@ Loaded parse_assembly(std::string_view text, std::string_view file, std::string_
         return std::tie(a.line, a.column) < std::tie(b.line, b.column);
     });
     if (loaded.errors.size() > most_errors) {
-        const std::size_t more = loaded.errors.size() - most_errors;
         loaded.errors.resize(most_errors);
         Error last = loaded.errors.back();
         last.pointer.clear();
-        last.what = fmt::format("{} more mistakes follow", more);
+        last.what = "mistakes behind this line are not shown";
         last.expected = "mend these first";
         loaded.errors.push_back(std::move(last));
     }

@@ -16,6 +16,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::size_t most_findings = 1000;  // a file with more is not the file that was meant
+
 const json* value_at(const json& root, const std::vector<std::string>& tokens) {
     const json* at = &root;
     for (const std::string& token : tokens) {
@@ -61,6 +63,10 @@ SchemaFindings check_schema(const JsonDocument& document) {
     // once.
     const std::map<std::vector<std::string>, std::string> complaints = schema_complaints(document.root());
     for (auto it = complaints.begin(); it != complaints.end(); ++it) {
+        if (findings.errors.size() >= most_findings) {
+            findings.unusable.emplace_back();  // the whole file
+            break;
+        }
         const auto& [tokens, complaint] = *it;
         const std::string pointer = joined(tokens);
         const json* node = schema_of(schema_json(), tokens);

@@ -15,6 +15,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::size_t most_mistakes = 200;  // of one value
+
 const json& resolved(const json& schema, const json& node) {
     const json* at = &node;
     while (at->contains("$ref"))
@@ -150,6 +152,7 @@ void explain_members(const json& schema, const json& node, const json& value,
     if (node.contains("additionalProperties") && node["additionalProperties"] == false) {
         for (const auto& [key, member] : value.items()) {
             if (std::find(names.begin(), names.end(), key) != names.end()) continue;
+            if (out.size() >= most_mistakes) break;
             std::string best = meant(key, absent);
             if (best.empty()) best = meant(key, names);
             SchemaMistake mistake;

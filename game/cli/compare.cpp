@@ -29,7 +29,8 @@ int run(const Options& options) {
     const std::filesystem::path page(options.html);
     std::error_code ignored;  // a folder that cannot be made shows as a page that cannot be written
     if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path(), ignored);
-    if (Status kept = write_file(page, compare::comparison_page(*comparison)); !kept) return complain(kept.error());
+    if (Status kept = write_file(page, compare::comparison_page(*comparison)); !kept)
+        return complain(kept.error());
     (void)std::fputs((page.string() + "\n").c_str(), stdout);
     return 0;
 }
@@ -38,10 +39,13 @@ int run(const Options& options) {
 
 void add_compare(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<Options>();
-    CLI::App* compare = app.add_subcommand("compare", "Hold a session against a measured torque-angle record");
+    CLI::App* compare =
+        app.add_subcommand("compare", "Hold a session against a measured torque-angle record");
     compare->add_option("session", options->session, "Session file")->required();
-    compare->add_option("measured", options->measured, "CSV with angle_deg, torque_Nm and perhaps cycle")->required();
-    compare->add_option("--joint", options->joint, "Id of one joint; all that were turned that way if not given");
+    compare->add_option("measured", options->measured, "CSV with angle_deg, torque_Nm and perhaps cycle")
+        ->required();
+    compare->add_option("--joint", options->joint,
+                        "Id of one joint; all that were turned that way if not given");
     compare->add_option("--html", options->html, "Page with the plots to write")->capture_default_str();
     compare->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -18,10 +18,13 @@ double passing(const report::Curve& curve, double level) {
     return curve.angle[i - 1] + part * (curve.angle[i] - curve.angle[i - 1]);
 }
 
-double highest(const report::Curve& curve) { return *std::max_element(curve.torque.begin(), curve.torque.end()); }
+double highest(const report::Curve& curve) {
+    return *std::max_element(curve.torque.begin(), curve.torque.end());
+}
 
 std::size_t breakaway(const report::Curve& curve) {
-    return static_cast<std::size_t>(std::min_element(curve.torque.begin(), curve.torque.end()) - curve.torque.begin());
+    return static_cast<std::size_t>(std::min_element(curve.torque.begin(), curve.torque.end()) -
+                                    curve.torque.begin());
 }
 
 }  // namespace
@@ -37,7 +40,8 @@ Result<Alignment> align(const report::Curve& ours, const report::Curve& measured
     } else {
         const double end = std::min(highest(ours), highest(measured));
         if (!(end > 0.0))
-            return fail(ErrorCode::failed, "the curves have no torque in common to be aligned by", "tightening torque in both");
+            return fail(ErrorCode::failed, "the curves have no torque in common to be aligned by",
+                        "tightening torque in both");
         a.torque = share * end;
         a.our_angle = passing(ours, a.torque);
         a.measured_angle = passing(measured, a.torque);

@@ -6,19 +6,21 @@
 
 namespace bolt::compare {
 
-// Tightening curves are laid upon each other where the torque first passes this share of the end torque that both
-// reach: half-way up the elastic line, where the angle is sharpest.
+// Tightening curves are laid upon each other where the torque first passes this share of the end torque that
+// both reach: half-way up the elastic line, where the angle is sharpest.
 inline constexpr double default_share = 0.5;
 
 struct Alignment {
-    double shift = 0.0;          // rad, to be added to the measured angle
-    double our_angle = 0.0;      // rad, of the common point
+    double shift = 0.0;      // rad, to be added to the measured angle
+    double our_angle = 0.0;  // rad, of the common point
     double measured_angle = 0.0;
-    double torque = 0.0;         // N·m, of the common point on the measured curve
+    double torque = 0.0;  // N·m, of the common point on the measured curve
 };
 
-// Both curves as report::advance_curve makes them (each angle once). Tightening: by the running maximum of the torque,
-// so that a re-grip or a ripple cannot be taken for the passing; loosening: by the breakaway peak.
-Result<Alignment> align(const report::Curve& ours, const report::Curve& measured, double share = default_share);
+// Both curves as report::advance_curve makes them (each angle once). Tightening: by the running maximum of
+// the torque, so that a re-grip or a ripple cannot be taken for the passing; loosening: by the breakaway
+// peak.
+Result<Alignment> align(const report::Curve& ours, const report::Curve& measured,
+                        double share = default_share);
 
 }  // namespace bolt::compare

@@ -37,8 +37,8 @@ std::vector<MeasuredCurve> measured_curves(const Measured& measured) {
     return curves;
 }
 
-Result<JointComparison> compare_joint(std::string joint, report::Curve ours, const std::vector<MeasuredCurve>& measured,
-                                      const Options& options) {
+Result<JointComparison> compare_joint(std::string joint, report::Curve ours,
+                                      const std::vector<MeasuredCurve>& measured, const Options& options) {
     JointComparison result;
     result.joint = std::move(joint);
     result.ours = std::move(ours);
@@ -47,7 +47,8 @@ Result<JointComparison> compare_joint(std::string joint, report::Curve ours, con
         const Result<Alignment> alignment = align(result.ours, cycle.curve, options.share);
         if (!alignment) return fail(alignment.error());
         one.alignment = *alignment;
-        one.errors = errors_of(result.ours, cycle.curve, one.alignment.shift, floor_of(cycle.curve, options.floor_share));
+        one.errors = errors_of(result.ours, cycle.curve, one.alignment.shift,
+                               floor_of(cycle.curve, options.floor_share));
         result.errors = pool(result.errors, one.errors);
         result.cycles.push_back(one);
     }
@@ -59,7 +60,8 @@ Result<Comparison> compare(const record::Reader& session, const Measured& measur
     const Result<content::Assembly> assembly = report::stored_assembly(session);
     if (!assembly) return fail(assembly.error());
     const std::vector<std::string> ids = ids_of(*assembly);
-    if (!joint.empty() && std::find(ids.begin(), ids.end(), joint) == ids.end()) return unknown_joint(joint, ids);
+    if (!joint.empty() && std::find(ids.begin(), ids.end(), joint) == ids.end())
+        return unknown_joint(joint, ids);
 
     Result<std::vector<std::optional<report::Curve>>> ours =
         report::advance_curves(session, ids.size(), measured.direction);
@@ -86,8 +88,10 @@ Result<Comparison> compare(const record::Reader& session, const Measured& measur
         Error error;
         error.file = session.file();
         error.what = joint.empty() ? fmt::format("no joint was {} in this session", verb(measured.direction))
-                                   : fmt::format("joint '{}' was not {} in this session", joint, verb(measured.direction));
-        error.expected = fmt::format("a session in which it was {}, as in {}", verb(measured.direction), measured.file);
+                                   : fmt::format("joint '{}' was not {} in this session", joint,
+                                                 verb(measured.direction));
+        error.expected =
+            fmt::format("a session in which it was {}, as in {}", verb(measured.direction), measured.file);
         return fail(std::move(error));
     }
     return result;

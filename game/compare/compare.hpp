@@ -15,8 +15,8 @@
 namespace bolt::compare {
 
 struct Options {
-    double share = default_share;               // see align.hpp
-    double floor_share = default_floor_share;   // see errors.hpp
+    double share = default_share;              // see align.hpp
+    double floor_share = default_floor_share;  // see errors.hpp
 };
 
 // A run of the measured file against one joint.
@@ -28,32 +28,34 @@ struct CycleComparison {
 struct JointComparison {
     std::string joint;
     report::Curve ours;
-    std::vector<CycleComparison> cycles;        // one for each measured curve
-    Errors errors;                              // over all cycles
+    std::vector<CycleComparison> cycles;  // one for each measured curve
+    Errors errors;                        // over all cycles
 };
 
 struct MeasuredCurve {
-    std::string name;                           // of the cycle; may be empty
-    report::Curve curve;                        // each angle once
+    std::string name;     // of the cycle; may be empty
+    report::Curve curve;  // each angle once
 };
 
 struct Comparison {
-    std::string session;                        // file
-    std::string title, law, variant;            // of the session's assembly
+    std::string session;              // file
+    std::string title, law, variant;  // of the session's assembly
     std::string measured_file, source;
     joint::Direction direction = joint::Direction::tighten;
     std::vector<MeasuredCurve> measured;
     std::vector<JointComparison> joints;
-    Errors errors;                              // over all joints and cycles
+    Errors errors;  // over all joints and cycles
     Options options;
 };
 
 // Curves against a record; the rest of what a Comparison names is left to the caller.
-Result<JointComparison> compare_joint(std::string joint, report::Curve ours, const std::vector<MeasuredCurve>& measured,
+Result<JointComparison> compare_joint(std::string joint, report::Curve ours,
+                                      const std::vector<MeasuredCurve>& measured,
                                       const Options& options = {});
 std::vector<MeasuredCurve> measured_curves(const Measured& measured);
 
-// `joint`: its id, or empty for every joint that was turned the way the record was. The error says so if none was.
+// `joint`: its id, or empty for every joint that was turned the way the record was. The error says so if none
+// was.
 Result<Comparison> compare(const record::Reader& session, const Measured& measured, std::string_view joint,
                            const Options& options = {});
 

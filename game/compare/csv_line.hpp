@@ -10,8 +10,8 @@
 namespace bolt::compare {
 
 struct Field {
-    std::string text;   // unquoted, without surrounding blanks
-    int column = 1;     // 1-based, where the text begins
+    std::string text;  // unquoted, without surrounding blanks
+    int column = 1;    // 1-based, where the text begins
 };
 
 // RFC 4180 within a line. Errors have the column, not the file and line.

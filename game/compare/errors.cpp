@@ -19,10 +19,12 @@ struct Reading {
 
 Reading read_at(const report::Curve& curve, double angle) {
     const auto after = std::upper_bound(curve.angle.begin(), curve.angle.end(), angle);
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - curve.angle.begin(), 1,
-                                                                       std::ssize(curve.angle) - 1));
-    const double part = std::clamp((angle - curve.angle[i - 1]) / (curve.angle[i] - curve.angle[i - 1]), 0.0, 1.0);
-    return {curve.torque[i - 1] + part * (curve.torque[i] - curve.torque[i - 1]), curve.stage[part < 1.0 ? i - 1 : i]};
+    const auto i = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(after - curve.angle.begin(), 1, std::ssize(curve.angle) - 1));
+    const double part =
+        std::clamp((angle - curve.angle[i - 1]) / (curve.angle[i] - curve.angle[i - 1]), 0.0, 1.0);
+    return {curve.torque[i - 1] + part * (curve.torque[i] - curve.torque[i - 1]),
+            curve.stage[part < 1.0 ? i - 1 : i]};
 }
 
 // While collecting, mape holds the sum.
@@ -57,7 +59,8 @@ Errors errors_of(const report::Curve& ours, const report::Curve& measured, doubl
     errors.floor = floor;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         const double angle = measured.angle[i] + shift;
-        const bool inside = ours.size() > 1 && angle >= ours.angle.front() - slack && angle <= ours.angle.back() + slack;
+        const bool inside =
+            ours.size() > 1 && angle >= ours.angle.front() - slack && angle <= ours.angle.back() + slack;
         if (!inside) {
             ++errors.outside;
             continue;

@@ -10,23 +10,24 @@
 namespace bolt::compare {
 
 struct StageError {
-    std::size_t count = 0;        // samples judged
-    std::size_t below = 0;        // left out: |T_a| below the floor, where a relative error says nothing
-    double mre = 0.0;             // NaN where nothing was judged
+    std::size_t count = 0;  // samples judged
+    std::size_t below = 0;  // left out: |T_a| below the floor, where a relative error says nothing
+    double mre = 0.0;       // NaN where nothing was judged
     double mape = 0.0;
 };
 
 struct Errors {
     std::array<StageError, joint::stage_count> stage;
     StageError all;
-    std::size_t outside = 0;      // left out: at angles our curve does not have
-    double floor = 0.0;           // N·m; pooled: the largest
+    std::size_t outside = 0;  // left out: at angles our curve does not have
+    double floor = 0.0;       // N·m; pooled: the largest
 };
 
 // Share of a run's highest |T_a| below which a sample is left out: 1 %, what a good torque sensor resolves.
 inline constexpr double default_floor_share = 0.01;
 
-// Our torque is taken between samples, our stage from the sample before. `shift` is added to the measured angles.
+// Our torque is taken between samples, our stage from the sample before. `shift` is added to the measured
+// angles.
 Errors errors_of(const report::Curve& ours, const report::Curve& measured, double shift, double floor);
 
 // Maximum of the maxima, mean over all samples.

@@ -71,12 +71,14 @@ Result<Columns> read_header(const std::vector<Field>& fields, const Place& place
         for (std::size_t i = 0; i < fields.size(); ++i) {
             if (fields[i].text != name) continue;
             if (*index != absent)
-                return place.error(fields[i].column, fmt::format("column '{}' is there twice", name), "one of them");
+                return place.error(fields[i].column, fmt::format("column '{}' is there twice", name),
+                                   "one of them");
             *index = static_cast<int>(i);
         }
         if (*index != absent || name == "cycle") continue;
         const std::string near = nearest(name, columns.names);
-        const auto at = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.text == near; });
+        const auto at =
+            std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.text == near; });
         if (!near.empty())
             return place.error(at->column, fmt::format("there is no column '{}'", name),
                                fmt::format("'{}' instead of '{}'", name, near));
@@ -95,7 +97,8 @@ Result<double> read_number(const Field& field, std::string_view name, double lim
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool read = problem == std::errc() && end == text.data() + text.size() && std::isfinite(value);
     if (!read)
-        return place.error(field.column, fmt::format("'{}' is no number for '{}'", field.text.substr(0, 40), name),
+        return place.error(field.column,
+                           fmt::format("'{}' is no number for '{}'", field.text.substr(0, 40), name),
                            "a decimal number such as -12.5");
     if (std::abs(value) > limit)
         return place.error(field.column, fmt::format("{} is no measured '{}'", field.text, name),
@@ -118,11 +121,13 @@ struct Parser {
 
     Status row(const std::vector<Field>& fields, std::size_t length) {
         if (fields.size() != columns.count)
-            return place.error(fields.size() < columns.count ? static_cast<int>(length) + 1
-                                                             : fields[columns.count].column,
-                               fmt::format("this row has {} fields", fields.size()),
-                               fmt::format("{}, as the columns named", columns.count));
-        const auto field = [&](int column) -> const Field& { return fields[static_cast<std::size_t>(column)]; };
+            return place.error(
+                fields.size() < columns.count ? static_cast<int>(length) + 1 : fields[columns.count].column,
+                fmt::format("this row has {} fields", fields.size()),
+                fmt::format("{}, as the columns named", columns.count));
+        const auto field = [&](int column) -> const Field& {
+            return fields[static_cast<std::size_t>(column)];
+        };
         const Result<double> angle = read_number(field(columns.angle), "angle_deg", largest_angle, place);
         if (!angle) return fail(angle.error());
         const Result<double> torque = read_number(field(columns.torque), "torque_Nm", largest_torque, place);
@@ -167,8 +172,9 @@ Status check_cycles(Parser& parser) {
         const double peak = extreme_of(cycle);
         if (peak == 0.0) return parser.place.error(1, which + " has no torque at all", "a run with a load");
         if (extreme * peak < 0.0)
-            return parser.place.error(1, fmt::format("{} turns the other way than those before", which),
-                                      "all cycles of a file tightening (torque positive) or all loosening (negative)");
+            return parser.place.error(
+                1, fmt::format("{} turns the other way than those before", which),
+                "all cycles of a file tightening (torque positive) or all loosening (negative)");
         extreme = peak;
     }
     parser.measured.direction = extreme < 0.0 ? joint::Direction::loosen : joint::Direction::tighten;

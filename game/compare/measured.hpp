@@ -1,7 +1,7 @@
 // A measured torque–angle record, from a CSV file.
 //
-// The first line that is neither blank nor a comment (#) names the columns. `angle_deg` and `torque_Nm` must be there,
-// `cycle` may be: it tells several runs in one file apart. Other columns are left alone.
+// The first line that is neither blank nor a comment (#) names the columns. `angle_deg` and `torque_Nm` must
+// be there, `cycle` may be: it tells several runs in one file apart. Other columns are left alone.
 #pragma once
 
 #include <filesystem>
@@ -15,17 +15,17 @@
 namespace bolt::compare {
 
 struct Cycle {
-    std::string name;               // as in the file; empty if the file has no cycles
-    int line = 0;                   // of its first sample
-    std::vector<double> angle;      // rad, as counted by the rig
-    std::vector<double> torque;     // N·m, tightening positive
+    std::string name;            // as in the file; empty if the file has no cycles
+    int line = 0;                // of its first sample
+    std::vector<double> angle;   // rad, as counted by the rig
+    std::vector<double> torque;  // N·m, tightening positive
 };
 
 struct Measured {
     std::string file;
-    std::string source;             // who measured it: named wherever the data is shown; may be empty
+    std::string source;  // who measured it: named wherever the data is shown; may be empty
     joint::Direction direction = joint::Direction::tighten;  // loosening if the torques are negative
-    std::vector<Cycle> cycles;      // in the order of the file
+    std::vector<Cycle> cycles;                               // in the order of the file
 
     [[nodiscard]] std::size_t samples() const;
 };

@@ -26,7 +26,9 @@ struct View {
 };
 
 // Degrees from the common point of the first cycle, in which frame ours does not move.
-double our_zero(const JointComparison& joint) { return joint.cycles.empty() ? 0.0 : joint.cycles[0].alignment.our_angle; }
+double our_zero(const JointComparison& joint) {
+    return joint.cycles.empty() ? 0.0 : joint.cycles[0].alignment.our_angle;
+}
 
 std::vector<report::Point> our_points(const JointComparison& joint) {
     std::vector<report::Point> points;
@@ -35,7 +37,8 @@ std::vector<report::Point> our_points(const JointComparison& joint) {
     return points;
 }
 
-std::vector<report::Point> cycle_points(const Comparison& c, const JointComparison& joint, std::size_t cycle) {
+std::vector<report::Point> cycle_points(const Comparison& c, const JointComparison& joint,
+                                        std::size_t cycle) {
     const report::Curve& curve = c.measured[cycle].curve;
     const double shift = joint.cycles[cycle].alignment.shift - our_zero(joint);
     std::vector<report::Point> points;
@@ -44,7 +47,8 @@ std::vector<report::Point> cycle_points(const Comparison& c, const JointComparis
     return points;
 }
 
-// Where a curve carries load: from its first to its last sample above a share of its peak that noise does not reach.
+// Where a curve carries load: from its first to its last sample above a share of its peak that noise does not
+// reach.
 void include_loaded(View& view, const std::vector<report::Point>& points) {
     double peak = 0.0;
     for (const report::Point& p : points) peak = std::max(peak, std::abs(p.y));
@@ -64,7 +68,8 @@ report::Plot framed(View view, std::string title, double width, double height) {
     plot.title = std::move(title);
     plot.x = {report::degree_ticks(view.angle, width > 400.0 ? 8 : 4), "angle from the common point, °"};
     plot.x.ticks.range = view.angle;
-    plot.y = {report::covering_ticks(view.torque.low, view.torque.high, width > 400.0 ? 6 : 3), "torque, N·m"};
+    plot.y = {report::covering_ticks(view.torque.low, view.torque.high, width > 400.0 ? 6 : 3),
+              "torque, N·m"};
     return plot;
 }
 
@@ -75,9 +80,10 @@ void add_stages(report::Plot& plot, const JointComparison& joint) {
         std::size_t end = i;
         while (end + 1 < ours.size() && ours.stage[end + 1] == ours.stage[i]) ++end;
         const std::size_t to = std::min(end + 1, ours.size() - 1);
-        plot.bands.push_back({{to_degrees(ours.angle[i] - our_zero(joint)), to_degrees(ours.angle[to] - our_zero(joint))},
-                              styles[static_cast<std::size_t>(ours.stage[i])],
-                              std::string(joint::name(ours.stage[i]))});
+        plot.bands.push_back(
+            {{to_degrees(ours.angle[i] - our_zero(joint)), to_degrees(ours.angle[to] - our_zero(joint))},
+             styles[static_cast<std::size_t>(ours.stage[i])],
+             std::string(joint::name(ours.stage[i]))});
         i = end + 1;
     }
 }
@@ -90,7 +96,8 @@ View view_of(const Comparison& c, const JointComparison& joint) {
     return view;
 }
 
-report::Plot cycle_plot(const Comparison& c, const JointComparison& joint, std::size_t cycle, const View& view) {
+report::Plot cycle_plot(const Comparison& c, const JointComparison& joint, std::size_t cycle,
+                        const View& view) {
     report::Plot plot = framed(view, fmt::format("cycle {}", c.measured[cycle].name), 220.0, 150.0);
     plot.x.label.clear();
     plot.lines.push_back({our_points(joint), "ln p2", false});
@@ -101,39 +108,50 @@ report::Plot cycle_plot(const Comparison& c, const JointComparison& joint, std::
 std::string error_value(const StageError& e, double value) { return e.count > 0 ? number(value, 5) : "–"; }
 
 std::string error_table(const Errors& errors) {
-    std::string out = "<div class=\"scroll\"><table><thead><tr><th>stage</th><th class=\"n\">MRE</th><th class=\"n\">MAPE</th>"
-                      "<th class=\"n\">samples</th><th class=\"n\">below the floor</th></tr></thead><tbody>\n";
+    std::string out =
+        "<div class=\"scroll\"><table><thead><tr><th>stage</th><th class=\"n\">MRE</th><th "
+        "class=\"n\">MAPE</th>"
+        "<th class=\"n\">samples</th><th class=\"n\">below the floor</th></tr></thead><tbody>\n";
     const auto row = [&](std::string_view name, const StageError& e, std::string_view style) {
-        fmt::format_to(std::back_inserter(out),
-                       "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-                       "<td class=\"n\">{}</td></tr>\n",
-                       style, name, error_value(e, e.mre), error_value(e, e.mape), e.count, e.below);
+        fmt::format_to(
+            std::back_inserter(out),
+            "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+            "<td class=\"n\">{}</td></tr>\n",
+            style, name, error_value(e, e.mre), error_value(e, e.mape), e.count, e.below);
     };
     for (std::size_t i = 0; i < errors.stage.size(); ++i)
         row(joint::name(static_cast<joint::Stage>(i)), errors.stage[i], "");
     row("all stages", errors.all, " class=\"sum\"");
-    return out + fmt::format("</tbody></table></div>\n<p class=\"note\">{} samples lie outside the virtual curve.</p>\n",
-                             errors.outside);
+    return out +
+           fmt::format(
+               "</tbody></table></div>\n<p class=\"note\">{} samples lie outside the virtual curve.</p>\n",
+               errors.outside);
 }
 
 std::string cycle_table(const Comparison& c, const JointComparison& joint) {
-    std::string out = "<details><summary>Every cycle</summary><div class=\"scroll\"><table><thead><tr><th>cycle</th>"
-                      "<th class=\"n\">shift</th><th class=\"n\">peak, N·m</th><th class=\"n\">floor, N·m</th>";
+    std::string out =
+        "<details><summary>Every cycle</summary><div class=\"scroll\"><table><thead><tr><th>cycle</th>"
+        "<th class=\"n\">shift</th><th class=\"n\">peak, N·m</th><th class=\"n\">floor, N·m</th>";
     for (int i = 0; i < joint::stage_count; ++i)
-        out += fmt::format("<th class=\"n\">{}<br/>MRE / MAPE</th>", joint::name(static_cast<joint::Stage>(i)));
-    out += "<th class=\"n\">all<br/>MRE / MAPE</th><th class=\"n\">samples</th><th class=\"n\">left out</th></tr></thead><tbody>\n";
+        out +=
+            fmt::format("<th class=\"n\">{}<br/>MRE / MAPE</th>", joint::name(static_cast<joint::Stage>(i)));
+    out +=
+        "<th class=\"n\">all<br/>MRE / MAPE</th><th class=\"n\">samples</th><th class=\"n\">left "
+        "out</th></tr></thead><tbody>\n";
     for (std::size_t i = 0; i < joint.cycles.size(); ++i) {
         const Errors& e = joint.cycles[i].errors;
         const std::string& name = c.measured[i].name;
-        out += fmt::format("<tr><td>{}</td><td class=\"n\">{}°</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
-                           name.empty() ? fmt::format("{}", i + 1) : escape(name),
-                           number(to_degrees(joint.cycles[i].alignment.shift), 1),
-                           number(floor_of(c.measured[i].curve, 1.0), 3), number(e.floor, 3));
+        out += fmt::format(
+            "<tr><td>{}</td><td class=\"n\">{}°</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
+            name.empty() ? fmt::format("{}", i + 1) : escape(name),
+            number(to_degrees(joint.cycles[i].alignment.shift), 1),
+            number(floor_of(c.measured[i].curve, 1.0), 3), number(e.floor, 3));
         for (const StageError& s : e.stage)
             out += fmt::format("<td class=\"n\">{} / {}</td>", error_value(s, s.mre), error_value(s, s.mape));
-        out += fmt::format("<td class=\"n\">{} / {}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-                           error_value(e.all, e.all.mre), error_value(e.all, e.all.mape), e.all.count,
-                           e.all.below + e.outside + c.measured[i].curve.passed_over);
+        out +=
+            fmt::format("<td class=\"n\">{} / {}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+                        error_value(e.all, e.all.mre), error_value(e.all, e.all.mape), e.all.count,
+                        e.all.below + e.outside + c.measured[i].curve.passed_over);
     }
     return out + "</tbody></table></div></details>\n";
 }
@@ -141,8 +159,9 @@ std::string cycle_table(const Comparison& c, const JointComparison& joint) {
 std::string joint_section(const Comparison& c, std::size_t index) {
     const JointComparison& joint = c.joints[index];
     std::string out = fmt::format("<h2>{}</h2>\n<div class=\"grid\">\n", escape(joint.joint));
-    const std::string caption = fmt::format("Line: virtual. Thin: {} measured cycle{}. Shaded: stages of the virtual curve.",
-                                            c.measured.size(), c.measured.size() == 1 ? "" : "s");
+    const std::string caption =
+        fmt::format("Line: virtual. Thin: {} measured cycle{}. Shaded: stages of the virtual curve.",
+                    c.measured.size(), c.measured.size() == 1 ? "" : "s");
     out += report::figure("", report::draw(overlay_plot(c, index)), escape(caption));
     out += "<div>" + error_table(joint.errors) + "</div></div>\n" + cycle_table(c, joint);
     if (c.joints.size() > 1 || c.measured.size() < 2) return out;
@@ -150,13 +169,15 @@ std::string joint_section(const Comparison& c, std::size_t index) {
     out += "<h2>Cycle by cycle</h2>\n<div class=\"grid tiny\">\n";
     for (std::size_t i = 0; i < std::min(c.measured.size(), most_small_plots); ++i) {
         const StageError& all = joint.cycles[i].errors.all;
-        out += report::figure(fmt::format("<h3>{}</h3><span class=\"note\">MAPE {}</span>", escape(c.measured[i].name),
-                                          all.count > 0 ? number(all.mape, 3) : "–"),
-                              report::draw(cycle_plot(c, joint, i, view)), "");
+        out +=
+            report::figure(fmt::format("<h3>{}</h3><span class=\"note\">MAPE {}</span>",
+                                       escape(c.measured[i].name), all.count > 0 ? number(all.mape, 3) : "–"),
+                           report::draw(cycle_plot(c, joint, i, view)), "");
     }
     out += "</div>\n";
     if (c.measured.size() > most_small_plots)
-        out += fmt::format("<p class=\"note\">The first {} of {} cycles.</p>\n", most_small_plots, c.measured.size());
+        out += fmt::format("<p class=\"note\">The first {} of {} cycles.</p>\n", most_small_plots,
+                           c.measured.size());
     return out;
 }
 
@@ -172,7 +193,8 @@ report::Plot overlay_plot(const Comparison& c, std::size_t index) {
         framed(view_of(c, joint), fmt::format("{}: virtual and measured torque", joint.joint), 480.0, 320.0);
     add_stages(plot, joint);
     const std::string_view style = joint.cycles.size() == 1 ? "ln me1" : "ln me";
-    for (std::size_t i = 0; i < joint.cycles.size(); ++i) plot.lines.push_back({cycle_points(c, joint, i), style, false});
+    for (std::size_t i = 0; i < joint.cycles.size(); ++i)
+        plot.lines.push_back({cycle_points(c, joint, i), style, false});
     plot.lines.push_back({our_points(joint), "ln p2", false});
     return plot;
 }
@@ -188,14 +210,18 @@ std::string overlay_svg(const Comparison& c, std::size_t joint) {
 
 std::string comparison_page(const Comparison& c) {
     const auto fact = [](std::string_view name, std::string_view value) {
-        return value.empty() ? std::string() : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escape(value));
+        return value.empty() ? std::string()
+                             : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escape(value));
     };
     const auto base = [](const std::string& path) { return path.substr(path.find_last_of('/') + 1); };
-    std::string body = fmt::format("<p class=\"over\">Virtual against measured torque</p>\n<h1>{}</h1>\n", escape(c.title));
+    std::string body =
+        fmt::format("<p class=\"over\">Virtual against measured torque</p>\n<h1>{}</h1>\n", escape(c.title));
     if (!c.source.empty()) body += fmt::format("<p>{}</p>\n", escape(source_line(c)));
-    body += "<dl class=\"facts\">\n" + fact("session", base(c.session)) + fact("measured", base(c.measured_file)) +
-            fact("direction", c.direction == joint::Direction::tighten ? "tightening" : "loosening") + fact("law", c.law) +
-            fact("variant", c.variant) + fact("cycles", fmt::format("{}", c.measured.size())) + "</dl>\n<p class=\"note\">";
+    body += "<dl class=\"facts\">\n" + fact("session", base(c.session)) +
+            fact("measured", base(c.measured_file)) +
+            fact("direction", c.direction == joint::Direction::tighten ? "tightening" : "loosening") +
+            fact("law", c.law) + fact("variant", c.variant) +
+            fact("cycles", fmt::format("{}", c.measured.size())) + "</dl>\n<p class=\"note\">";
     for (const std::string& text : remarks(c)) body += escape(text) + " ";
     body += "</p>\n";
     for (std::size_t j = 0; j < c.joints.size(); ++j) body += joint_section(c, j);

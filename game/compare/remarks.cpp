@@ -39,12 +39,15 @@ std::vector<std::string> remarks(const Comparison& c) {
                                 span_text(ours_least, ours_most)));
     const double ratio = std::max(ours_most / std::max(least, 1e-12), most / std::max(ours_least, 1e-12));
     if (ratio > 3.0)
-        texts.push_back(fmt::format("The peaks differ by a factor of up to {}: these are not the same joint, and the "
-                                    "relative errors say so.", number(ratio, 1)));
+        texts.push_back(
+            fmt::format("The peaks differ by a factor of up to {}: these are not the same joint, and the "
+                        "relative errors say so.",
+                        number(ratio, 1)));
     for (std::size_t i = 0; i < c.errors.stage.size(); ++i) {
         const StageError& stage = c.errors.stage[i];
         if (stage.count == 0)
-            texts.push_back(fmt::format("No sample was judged in {}{}.", joint::name(static_cast<joint::Stage>(i)),
+            texts.push_back(fmt::format("No sample was judged in {}{}.",
+                                        joint::name(static_cast<joint::Stage>(i)),
                                         stage.below > 0 ? ": all lie below the floor" : ""));
     }
     return texts;
@@ -53,12 +56,16 @@ std::vector<std::string> remarks(const Comparison& c) {
 std::string method_text(const Comparison& c) {
     const std::string aligned =
         c.direction == joint::Direction::tighten
-            ? fmt::format("where the torque first passes {} % of the end torque both reach", number(100.0 * c.options.share, 0))
+            ? fmt::format("where the torque first passes {} % of the end torque both reach",
+                          number(100.0 * c.options.share, 0))
             : std::string("by the breakaway peak");
     return fmt::format(
-        "Each curve counts an angle once, when the nut first gets there; measured curves are shifted onto the virtual one {}. "
-        "Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its mean; stages are those of the virtual curve. "
-        "Samples below {} % of their run’s highest measured torque are left out, as are angles the virtual curve does not "
+        "Each curve counts an angle once, when the nut first gets there; measured curves are shifted onto "
+        "the virtual one {}. "
+        "Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its mean; stages are those of "
+        "the virtual curve. "
+        "Samples below {} % of their run’s highest measured torque are left out, as are angles the virtual "
+        "curve does not "
         "have. Virtual torque: at the wrench, true and unscaled, law “{}”.",
         aligned, number(100.0 * c.options.floor_share, 1), c.law);
 }
@@ -66,16 +73,19 @@ std::string method_text(const Comparison& c) {
 std::string console_text(const Comparison& c) {
     std::string out = fmt::format("{} against {}\n", c.session, c.measured_file);
     if (!c.source.empty()) out += fmt::format("measured by: {}\n", c.source);
-    out += fmt::format("{} measured cycle{}, {}, {} joint{}, law {}\n\n", c.measured.size(), c.measured.size() == 1 ? "" : "s",
+    out += fmt::format("{} measured cycle{}, {}, {} joint{}, law {}\n\n", c.measured.size(),
+                       c.measured.size() == 1 ? "" : "s",
                        c.direction == joint::Direction::tighten ? "tightening" : "loosening", c.joints.size(),
                        c.joints.size() == 1 ? "" : "s", c.law);
-    out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "joint", "stage", "MRE", "MAPE", "samples", "floor",
-                       "outside");
+    out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "joint", "stage", "MRE", "MAPE",
+                       "samples", "floor", "outside");
     const auto rows = [&](const std::string& joint, const Errors& errors) {
         const auto row = [&](std::string_view stage, const StageError& e, const std::string& outside) {
-            const auto value = [&](double v) { return e.count > 0 ? fmt::format("{:.5f}", v) : std::string("-"); };
-            out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>8} {:>8} {:>8}\n", joint, stage, value(e.mre), value(e.mape),
-                               e.count, e.below, outside);
+            const auto value = [&](double v) {
+                return e.count > 0 ? fmt::format("{:.5f}", v) : std::string("-");
+            };
+            out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>8} {:>8} {:>8}\n", joint, stage, value(e.mre),
+                               value(e.mape), e.count, e.below, outside);
         };
         for (std::size_t i = 0; i < errors.stage.size(); ++i)
             row(joint::name(static_cast<joint::Stage>(i)), errors.stage[i], "");

@@ -10,8 +10,9 @@ namespace bolt::lesson {
 namespace {
 
 constexpr double moved = to_radians(0.2);  // of nut angle: the wrench has moved it
-constexpr double seated_torque = 0.4;      // N·m at the fingers: the nut sits
-constexpr double working_torque = 0.5;     // N·m: the wrench is used, not only touching
+constexpr double past_breakaway = to_radians(2.0);
+constexpr double seated_torque = 0.4;   // N·m at the fingers: the nut sits
+constexpr double working_torque = 0.5;  // N·m: the wrench is used, not only touching
 
 const content::Specification& spec_of(const Lesson& lesson, std::size_t joint) {
     return lesson.assembly->joints[joint].spec;
@@ -69,7 +70,10 @@ void end_step(Lesson& lesson, const servo::State& state) {
         track.result.angle = track.begin_angle - state.joints[step.joint].nut.angle;
     } else if (step.kind == StepKind::tighten && full) {
         track.result.torque = track.peak_torque;
-    } else if (step.kind == StepKind::recheck) {
+    } else if (step.kind == StepKind::recheck &&
+               state.joints[step.joint].nut.angle - track.begin_angle > past_breakaway) {
+        // A nut that only began to move has shown its breakaway torque, which is not what it was tightened
+        // with.
         track.result.torque = std::max(track.result.torque, track.peak_torque);
     }
     say(lesson, state.tick, "step_end", static_cast<int>(step.joint), track.peak_torque,
@@ -135,17 +139,14 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     const bool fingers = lesson.grip == servo::Grip::fingers;
     if (!track.worked && (work > working_torque || (fingers && work > 0.01)))
         first_work(lesson, joint, state);
-    if (work > track.peak_torque) {
-        track.peak_torque = work;
-        track.peak_angle = output.nut_angle;
-        if (lesson.task == Task::tighten && track.snug)
-            track.result.angle = track.peak_angle - track.snug_angle;
-    }
+    track.peak_torque = std::max(track.peak_torque, work);
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
         !fingers) {
         track.snug = true;
         track.snug_angle = output.nut_angle;
     }
+    if (track.snug && torque > 0.0) track.result.angle = output.nut_angle - track.snug_angle;
+    if (output.stage == joint::Stage::yield) track.yielded = true;
     if (output.stage != track.stage) {
         track.stage = output.stage;
         say(lesson, state.tick, "stage", static_cast<int>(joint), static_cast<double>(output.stage),

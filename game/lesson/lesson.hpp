@@ -4,7 +4,9 @@
 // A step is due until it is done. The hand may come and go (an open-end wrench comes off for every stroke); a
 // step is done when the hand has let go of a nut on which it reached what the step asks for:
 //   run down    the fingers have turned the nut onto its seat
-//   tighten     the torque reached the low edge of the step's window
+//   tighten     the torque reached the low edge of the step's window; in full and by strategy `yield` also
+//   the joint
+//               yielded (or the torque is past its window: more of it would not help)
 //   re-check    the wrench moved the nut on, or reached the window without moving it
 //   loosen      the nut is free of clamp force
 // In assessment a joint that is left for the next one counts as done as it was left; in the other modes the
@@ -28,8 +30,8 @@ struct JointTrack {
     bool snug = false;         // the snug torque has been reached
     double snug_angle = 0.0;   // rad, nut angle when it was reached first
     double peak_torque = 0.0;  // N·m, of the step that is due
-    double peak_angle = 0.0;   // rad, nut angle at the last peak
     double begin_angle = 0.0;  // rad, nut angle when the step began
+    bool yielded = false;      // the yield stage has been felt
     bool worked = false;       // the hand has done something with the nut in this visit
     int done_in_pass = -1;     // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;

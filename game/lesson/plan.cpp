@@ -1,5 +1,7 @@
 #include "game/lesson/plan.hpp"
 
+#include <algorithm>
+
 namespace bolt::lesson {
 
 namespace {
@@ -17,6 +19,18 @@ StepKind kind_of(content::StepKind kind) {
 }
 
 }  // namespace
+
+content::Assembly under_law(content::Assembly assembly, joint::Law law) {
+    if (law == joint::Law::mechanistic) return assembly;
+    const double most = 0.98 * assembly.published.T_max_Nm;
+    for (content::AssemblyJoint& joint : assembly.joints) {
+        joint.spec.strategy = content::Strategy::torque;
+        joint.spec.has_angle = false;
+        joint.spec.torque.target = std::min(joint.spec.torque.target, most);
+        joint.spec.torque.low = std::min(joint.spec.torque.low, 0.95 * joint.spec.torque.target);
+    }
+    return assembly;
+}
 
 std::vector<Step> make_plan(const content::Assembly& assembly, Task task) {
     std::vector<Step> steps;

@@ -33,6 +33,11 @@ struct Step {
     int pass = 0;
 };
 
+// An assembly's specifications are those of its mechanistic joints. Under the published law every joint ends
+// at the same T_max by turning the last quarter, so targets above 98 % of it come down to that, and no angle
+// is judged.
+content::Assembly under_law(content::Assembly assembly, joint::Law law);
+
 // Tightening: the assembly's passes in order. Loosening: every joint once, in the reverse of the last pass's
 // order.
 std::vector<Step> make_plan(const content::Assembly& assembly, Task task);

@@ -6,21 +6,13 @@
 
 namespace bolt::play {
 
-Result<servo::Setup> make_setup(const content::Assembly& assembly, joint::Law law,
-                                const force::OutputLimits& limits, std::uint64_t seed, double dt) {
+servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const force::OutputLimits& limits,
+                        std::uint64_t seed, double dt) {
     std::vector<joint::JointDesign> designs;
     double greatest = 0.0;
     for (const content::AssemblyJoint& joint : assembly.joints) {
         designs.push_back(joint.design);
         greatest = std::max(greatest, joint.spec.torque.high);
-        if (law == joint::Law::published && joint.spec.torque.low > assembly.published.T_max_Nm)
-            return fail(
-                ErrorCode::bad_content,
-                fmt::format("{}: joint {} asks for at least {:.1f} N·m", assembly.file, joint.design.id,
-                            joint.spec.torque.low),
-                fmt::format("the published law never gives more than {:.1f} N·m; use --law mechanistic or "
-                            "lower the target",
-                            assembly.published.T_max_Nm));
     }
     const content::FlangeDesign& f = assembly.flange;
     joint::FlangePlate plate;

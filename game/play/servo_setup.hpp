@@ -11,9 +11,9 @@
 
 namespace bolt::play {
 
-// `law` may differ from the assembly's own. Fails if the law cannot reach a target of the assembly.
-Result<servo::Setup> make_setup(const content::Assembly& assembly, joint::Law law,
-                                const force::OutputLimits& limits, std::uint64_t seed, double dt);
+// `law` may differ from the assembly's own.
+servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const force::OutputLimits& limits,
+                        std::uint64_t seed, double dt);
 
 // Brings every joint to its target in the order of the last pass, by machine, and lets it rest: where a
 // loosening lesson begins. Fails if a joint does not get there.

@@ -45,13 +45,12 @@ Status pass_on_events(lesson::Lesson& lesson, const servo::State& state, record:
 
 }  // namespace
 
-Result<lesson::LessonResult> train(const content::Assembly& assembly, const TrainOptions& options,
+Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOptions& options,
                                    const std::filesystem::path& file,
                                    const std::function<bool(const Progress&)>& watch) {
+    const content::Assembly assembly = lesson::under_law(given, options.law);
     const force::OutputLimits device;  // the simulated device: what a 6-DoF arm of the Virtuose class renders
-    Result<servo::Setup> made = make_setup(assembly, options.law, device, options.seed, options.dt);
-    if (!made) return fail(made.error());
-    const servo::Setup& setup = *made;
+    const servo::Setup setup = make_setup(assembly, options.law, device, options.seed, options.dt);
     servo::State state = servo::initial_state(setup);
     if (options.task == lesson::Task::loosen)
         if (Status tight = pretighten(assembly, setup, state); !tight) return fail(tight.error());

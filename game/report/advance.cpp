@@ -31,7 +31,8 @@ void AdvanceBuilder::restart(double nut_angle, double torque, joint::Stage stage
 void AdvanceBuilder::thin() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < curve_.size(); i += 2, ++kept) {
-        const bool second = i + 1 < curve_.size() && std::abs(curve_.torque[i + 1]) > std::abs(curve_.torque[i]);
+        const bool second =
+            i + 1 < curve_.size() && std::abs(curve_.torque[i + 1]) > std::abs(curve_.torque[i]);
         const std::size_t from = second ? i + 1 : i;
         curve_.angle[kept] = curve_.angle[from];
         curve_.torque[kept] = curve_.torque[from];
@@ -76,7 +77,8 @@ void AdvanceBuilder::add(double nut_angle, double torque, joint::Stage stage) {
 
 Curve AdvanceBuilder::take() { return std::move(curve_); }
 
-Curve advance_curve(std::span<const double> angle, std::span<const double> torque, joint::Direction direction) {
+Curve advance_curve(std::span<const double> angle, std::span<const double> torque,
+                    joint::Direction direction) {
     // A rig counts its angle upwards whichever way it turns, or as we do: what it ran through says which.
     const std::size_t count = std::min(angle.size(), torque.size());
     if (count == 0) return {};
@@ -97,7 +99,8 @@ Result<std::vector<std::optional<Curve>>> advance_curves(const record::Reader& s
         for (const record::TickRecord& tick : ticks) {
             if (tick.joint < 0 || static_cast<std::size_t>(tick.joint) >= joints) continue;
             const auto stage = static_cast<joint::Stage>(std::min<int>(tick.stage, joint::stage_count - 1));
-            builders[static_cast<std::size_t>(tick.joint)].add(double{tick.nut_angle}, double{tick.wrench_torque}, stage);
+            builders[static_cast<std::size_t>(tick.joint)].add(double{tick.nut_angle},
+                                                               double{tick.wrench_torque}, stage);
         }
     });
     if (!read) return fail(read.error());
@@ -105,7 +108,8 @@ Result<std::vector<std::optional<Curve>>> advance_curves(const record::Reader& s
     for (AdvanceBuilder& builder : builders) {
         Curve curve = builder.take();
         const double sign = direction == joint::Direction::tighten ? 1.0 : -1.0;
-        const bool loaded = std::any_of(curve.torque.begin(), curve.torque.end(), [&](double t) { return sign * t > 0.0; });
+        const bool loaded =
+            std::any_of(curve.torque.begin(), curve.torque.end(), [&](double t) { return sign * t > 0.0; });
         const bool turned = !curve.empty() && curve.angle.back() >= least_turn;
         curves.push_back(loaded && turned ? std::optional<Curve>(std::move(curve)) : std::nullopt);
     }

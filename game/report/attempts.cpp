@@ -63,29 +63,34 @@ Attempt attempt_of(const SessionData& session) {
 }
 
 std::string attempts_section(std::span<const Attempt> attempts) {
-    std::string out = fmt::format("<p class=\"over\">Boltwright training report</p>\n<h1>{} attempts</h1>\n", attempts.size());
+    std::string out = fmt::format("<p class=\"over\">Boltwright training report</p>\n<h1>{} attempts</h1>\n",
+                                  attempts.size());
     bool cut_short = false;
-    out += "<div class=\"scroll\"><table><thead><tr><th class=\"n\">#</th><th>assembly</th><th>operator</th><th>mode</th>"
-           "<th>law</th><th class=\"n\">seed</th><th class=\"n\">score</th><th class=\"n\">joints OK</th>"
-           "<th class=\"n\">mean |torque error|</th><th class=\"n\">duration</th></tr></thead><tbody>\n";
+    out +=
+        "<div class=\"scroll\"><table><thead><tr><th "
+        "class=\"n\">#</th><th>assembly</th><th>operator</th><th>mode</th>"
+        "<th>law</th><th class=\"n\">seed</th><th class=\"n\">score</th><th class=\"n\">joints OK</th>"
+        "<th class=\"n\">mean |torque error|</th><th class=\"n\">duration</th></tr></thead><tbody>\n";
     for (std::size_t i = 0; i < attempts.size(); ++i) {
         const Attempt& a = attempts[i];
         cut_short = cut_short || !a.complete;
-        fmt::format_to(std::back_inserter(out),
-                       "<tr><td class=\"n\"><a href=\"#session-{0}\">{0}</a></td><td class=\"w\">{1}</td><td>{2}</td>"
-                       "<td>{3}{4}</td><td>{5}</td><td class=\"n\">{6}</td><td class=\"n\">{7}</td>"
-                       "<td class=\"n\">{8} <span class=\"of\">of {9}</span></td><td class=\"n\">{10} %</td>"
-                       "<td class=\"n\">{11}</td></tr>\n",
-                       i + 1, escape(a.title), escape(a.operator_name), escape(a.mode), a.complete ? "" : " (cut short)",
-                       escape(a.law), a.seed, number(a.score, 1), a.summary.ok, a.summary.joints,
-                       number(100.0 * a.summary.mean_torque_error, 1), duration_text(a.duration));
+        fmt::format_to(
+            std::back_inserter(out),
+            "<tr><td class=\"n\"><a href=\"#session-{0}\">{0}</a></td><td class=\"w\">{1}</td><td>{2}</td>"
+            "<td>{3}{4}</td><td>{5}</td><td class=\"n\">{6}</td><td class=\"n\">{7}</td>"
+            "<td class=\"n\">{8} <span class=\"of\">of {9}</span></td><td class=\"n\">{10} %</td>"
+            "<td class=\"n\">{11}</td></tr>\n",
+            i + 1, escape(a.title), escape(a.operator_name), escape(a.mode), a.complete ? "" : " (cut short)",
+            escape(a.law), a.seed, number(a.score, 1), a.summary.ok, a.summary.joints,
+            number(100.0 * a.summary.mean_torque_error, 1), duration_text(a.duration));
     }
     out += "</tbody></table></div>\n<h2>Learning curve</h2>\n<p class=\"note\">Attempts in the order given.";
     if (cut_short) out += " A ring is an attempt that was cut short.";
     out += "</p>\n<div class=\"grid quad\">\n";
     const Measure measures[] = {
         {"Score", "points", "higher is better", [](const Attempt& a) { return a.score; }, 100.0},
-        {"Joints OK", "joints", "higher is better", [](const Attempt& a) { return static_cast<double>(a.summary.ok); },
+        {"Joints OK", "joints", "higher is better",
+         [](const Attempt& a) { return static_cast<double>(a.summary.ok); },
          static_cast<double>(attempts.empty() ? 1 : attempts.front().summary.joints)},
         {"Mean |torque error|", "% of target", "lower is better",
          [](const Attempt& a) { return 100.0 * a.summary.mean_torque_error; }, 1.0},

@@ -15,7 +15,7 @@ struct Attempt {
     std::uint64_t seed = 0;
     bool complete = true;
     double score = 0.0;
-    double duration = 0.0;         // s
+    double duration = 0.0;  // s
     Summary summary;
 };
 Attempt attempt_of(const SessionData& session);

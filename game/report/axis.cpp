@@ -13,7 +13,8 @@ Range sane(double low, double high) {
     if (!std::isfinite(low) || !std::isfinite(high)) return {0.0, 1.0};
     if (low > high) std::swap(low, high);
     const double least = 1e-9 * std::max({std::abs(low), std::abs(high), 1e-3});
-    if (high - low < least) return low == 0.0 ? Range{0.0, 1.0} : Range{low - 0.5 * std::abs(low), high + 0.5 * std::abs(high)};
+    if (high - low < least)
+        return low == 0.0 ? Range{0.0, 1.0} : Range{low - 0.5 * std::abs(low), high + 0.5 * std::abs(high)};
     return {low, high};
 }
 
@@ -35,7 +36,8 @@ double degree_step(double span, int about) {
 
 int decimals_of(double step) {
     int decimals = 0;
-    for (double scaled = step; decimals < 12 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled; scaled *= 10.0)
+    for (double scaled = step; decimals < 12 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled;
+         scaled *= 10.0)
         ++decimals;
     return decimals;
 }
@@ -50,7 +52,8 @@ Ticks ticks_between(Range range, double first, double last, double step) {
 
 Ticks inside(Range range, double step) {
     constexpr double slack = 1e-9;  // a tick on the border is drawn
-    return ticks_between(range, std::ceil(range.low / step - slack), std::floor(range.high / step + slack), step);
+    return ticks_between(range, std::ceil(range.low / step - slack), std::floor(range.high / step + slack),
+                         step);
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct Ticks {
 // Ticks 1, 2, 2.5 or 5 · 10ⁿ apart, about `about` of them, whose first and last cover [low, high].
 Ticks covering_ticks(double low, double high, int about = 5);
 
-// Ticks inside the range, which stays as it is. Degrees step by divisors and multiples of a turn (…, 15, 30, 45, 90 …).
+// Ticks inside the range, which stays as it is. Degrees step by divisors and multiples of a turn (…, 15, 30,
+// 45, 90 …).
 Ticks inner_ticks(Range range, int about = 6);
 Ticks degree_ticks(Range range, int about = 6);
 

@@ -15,8 +15,9 @@ constexpr double touch_angle = to_radians(0.5);
 constexpr double touch_torque = 0.01;  // N·m, where no snug torque is asked
 
 bool usable(const record::TickRecord& tick, std::size_t joints) {
-    return tick.joint >= 0 && static_cast<std::size_t>(tick.joint) < joints && tick.stage < joint::stage_count &&
-           std::isfinite(tick.nut_angle) && std::isfinite(tick.wrench_torque) && std::isfinite(tick.clamp);
+    return tick.joint >= 0 && static_cast<std::size_t>(tick.joint) < joints &&
+           tick.stage < joint::stage_count && std::isfinite(tick.nut_angle) &&
+           std::isfinite(tick.wrench_torque) && std::isfinite(tick.clamp);
 }
 
 void extend(std::vector<StageSpan>& spans, joint::Stage stage, double from, double to) {

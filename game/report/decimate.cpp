@@ -33,7 +33,8 @@ std::vector<Point> decimate(std::span<const Point> points, double column) {
         }
         const double cell = std::floor(points[begin].x / column);
         std::size_t end = begin + 1;
-        while (end < points.size() && !is_gap(points[end]) && std::floor(points[end].x / column) == cell) ++end;
+        while (end < points.size() && !is_gap(points[end]) && std::floor(points[end].x / column) == cell)
+            ++end;
         append_run(out, points.subspan(begin, end - begin));
         begin = end;
     }

@@ -23,13 +23,20 @@ std::string figure(std::string_view heading, std::string_view svg, std::string_v
     return out + "</figure>\n";
 }
 
-std::string verdict_mark(lesson::Verdict verdict, joint::Condition condition) {
-    if (condition != joint::Condition::sound)
-        return fmt::format("<span class=\"v vh\">✕ {}</span>", joint::name(condition));
+std::string verdict_mark(const lesson::JointResult& result) {
+    using lesson::Verdict;
+    if (result.condition != joint::Condition::sound)
+        return fmt::format("<span class=\"v vh\">✕ {}</span>", joint::name(result.condition));
     constexpr std::string_view styles[] = {"vn", "vl", "vo", "vh"};
     constexpr std::string_view shapes[] = {"–", "▼ LOW", "✓ OK", "▲ HIGH"};
-    const auto i = static_cast<std::size_t>(verdict);
-    return fmt::format("<span class=\"v {}\">{}</span>", styles[i], shapes[i]);
+    const auto i = static_cast<std::size_t>(result.overall);
+    std::string about;
+    const bool wrong = result.overall == Verdict::low || result.overall == Verdict::high;
+    if (wrong && result.angle_verdict != Verdict::none) {
+        if (result.torque_verdict == result.overall) about = " torque";
+        if (result.angle_verdict == result.overall) about += about.empty() ? " angle" : " and angle";
+    }
+    return fmt::format("<span class=\"v {}\">{}{}</span>", styles[i], shapes[i], about);
 }
 
 }  // namespace bolt::report

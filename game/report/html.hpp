@@ -14,7 +14,8 @@ std::string page(std::string_view title, std::string_view body);
 // A drawing with its heading and caption; both are HTML already and may be empty.
 std::string figure(std::string_view heading, std::string_view svg, std::string_view caption);
 
-// "✓ OK", "▲ HIGH", "▼ LOW": shape, word and colour. A joint that is not sound says that instead.
-std::string verdict_mark(lesson::Verdict verdict, joint::Condition condition = joint::Condition::sound);
+// "✓ OK", "▲ HIGH", "▼ LOW": shape, word and colour, and what it is about if torque and angle were both
+// judged. A joint that is not sound says that instead.
+std::string verdict_mark(const lesson::JointResult& result);
 
 }  // namespace bolt::report

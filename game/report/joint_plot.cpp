@@ -16,8 +16,8 @@ namespace bolt::report {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double lead_in = 12.0;    // degrees drawn before the first contact, at least
-constexpr double longest = 540.0;   // degrees drawn before the end, at most
+constexpr double lead_in = 12.0;   // degrees drawn before the first contact, at least
+constexpr double longest = 540.0;  // degrees drawn before the end, at most
 
 constexpr std::string_view stage_styles[] = {"s0", "s1", "s2", "s3"};
 // The last pass stands out, those before step back.
@@ -46,26 +46,35 @@ std::vector<Point> line_of(const Visit& visit, const JointView& view, bool loose
     return points;
 }
 
-// Loading and unloading the wrench while the nut stands still is part of the record, but not what is looked at: the
-// line is parted into what turned the nut and the rest, each with gaps where the other is.
+// Loading and unloading the wrench while the nut stands still is part of the record, but not what is looked
+// at: the line is parted into what turned the nut and the rest, each with gaps where the other is.
 struct Parted {
     std::vector<Point> turning, resting;
 };
 
 Parted parted(const std::vector<Point>& line) {
-    constexpr double still = 0.02;  // degrees
+    constexpr double still = 0.05;       // degrees within which the nut counts as standing
+    constexpr double noticeable = 0.03;  // of the highest torque: a smaller change is the nut creeping on
+    double highest = 0.0;
+    for (const Point& p : line) highest = std::isfinite(p.y) ? std::max(highest, std::abs(p.y)) : highest;
+    const auto append = [&](std::vector<Point>& part, std::size_t from, std::size_t to) {
+        const bool goes_on = !part.empty() && part.back().x == line[from].x && part.back().y == line[from].y;
+        if (!goes_on && !part.empty()) part.push_back({nan, nan});
+        part.insert(part.end(), line.begin() + static_cast<std::ptrdiff_t>(from + (goes_on ? 1 : 0)),
+                    line.begin() + static_cast<std::ptrdiff_t>(to + 1));
+    };
     Parted parts;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        const Point& a = line[i - 1];
-        const Point& b = line[i];
-        if (!std::isfinite(a.x) || !std::isfinite(b.x)) continue;
-        std::vector<Point>& part = std::abs(b.x - a.x) > still ? parts.turning : parts.resting;
-        const bool goes_on = !part.empty() && part.back().x == a.x && part.back().y == a.y;
-        if (!goes_on) {
-            if (!part.empty()) part.push_back({nan, nan});
-            part.push_back(a);
+    for (std::size_t i = 0; i + 1 < line.size();) {
+        Range torque{line[i].y, line[i].y};
+        std::size_t end = i;
+        while (end + 1 < line.size() && std::abs(line[end + 1].x - line[i].x) <= still) {
+            ++end;
+            torque = {std::min(torque.low, line[end].y), std::max(torque.high, line[end].y)};
         }
-        part.push_back(b);
+        const bool rests = torque.span() > noticeable * highest;
+        const bool gap = !std::isfinite(line[i].x) || !std::isfinite(line[i + 1].x);
+        if (!gap) append(rests ? parts.resting : parts.turning, i, rests ? end : i + 1);
+        i = rests ? end : i + 1;
     }
     return parts;
 }
@@ -95,22 +104,28 @@ Axis value_axis(Range range, std::string label) {
     // Noise around zero (the weight of the nut) does not ask for a tick below it.
     if (range.low > -0.03 * range.high) range.low = 0.0;
     if (range.high < -0.03 * range.low) range.high = 0.0;
-    return {covering_ticks(range.low, range.high + 0.04 * range.span(), 5), std::move(label)};
+    const double room = 0.04 * range.span();
+    const double low = range.low < 0.0 ? range.low - room : 0.0,
+                 high = range.high > 0.0 ? range.high + room : 0.0;
+    return {covering_ticks(low, high, 5), std::move(label)};
 }
 
 void add_targets(Plot& plot, const content::Specification& spec) {
     plot.bands.push_back({{spec.torque.low, spec.torque.high}, "win", "", true});
     plot.rules.push_back({spec.torque.target, "tgt", "", true});
     if (!spec.has_angle) return;
-    plot.bands.push_back({{to_degrees(spec.angle.low), to_degrees(spec.angle.high)}, "win", "", false});
+    plot.bands.push_back(
+        {{to_degrees(spec.angle.low), to_degrees(spec.angle.high)}, "wins", "", false, true});
 }
 
+// The last pass that tightens: a re-check after it is drawn like it.
 int last_pass_of(const SessionData& session) {
-    int last = 0;
-    for (const JointCurve& curve : session.curves)
-        for (const Visit& visit : curve.visits)
-            if (visit.worked) last = std::max(last, visit.pass);
-    return last;
+    if (is_loosening(session)) return 0;
+    const std::vector<content::Pass>& passes = session.assembly.passes;
+    const auto last = std::find_if(passes.rbegin(), passes.rend(), [](const content::Pass& p) {
+        return p.kind == content::StepKind::tighten;
+    });
+    return std::max(0, static_cast<int>(passes.rend() - last) - 1);
 }
 
 void add_visits(Plot& plot, const JointCurve& curve, const JointView& view, bool loosening, int last_pass) {
@@ -130,18 +145,27 @@ void add_marks(Plot& plot, const SessionData& session, const JointCurve& curve, 
     const Visit* highest = nullptr;
     for (const Visit& visit : curve.visits) {
         if (!visit.worked) continue;
-        if (highest == nullptr || std::abs(visit.peak.torque) >= std::abs(highest->peak.torque)) highest = &visit;
+        if (highest == nullptr || std::abs(visit.peak.torque) >= std::abs(highest->peak.torque))
+            highest = &visit;
         const double at = visit.release.angle;
         if (!is_in_view(view, at, loosening)) continue;
         const auto pass = static_cast<std::size_t>(visit.pass);
-        const bool named = !session.pass_texts.empty() && pass + 1 < passes.size() &&
-                           passes[pass].kind == content::StepKind::tighten;
-        plot.marks.push_back({{drawn_angle(view, at, loosening), clamp_kN(visit.release)}, Shape::square, "mclamp",
-                              named ? pass_label(passes[pass]) : "", true, true});
+        const bool named = !session.pass_texts.empty() && pass < passes.size() &&
+                           passes[pass].kind == content::StepKind::tighten && passes[pass].fraction < 1.0;
+        plot.marks.push_back({{drawn_angle(view, at, loosening), clamp_kN(visit.release)},
+                              Shape::square,
+                              "mclamp",
+                              named ? pass_label(passes[pass]) : "",
+                              true,
+                              true});
     }
     if (highest == nullptr || !is_in_view(view, highest->peak.angle, loosening)) return;
     plot.marks.push_back({{drawn_angle(view, highest->peak.angle, loosening), torque_of(highest->peak)},
-                          Shape::dot, "mpeak", number(torque_of(highest->peak), 1), false, false});
+                          Shape::dot,
+                          "mpeak",
+                          number(torque_of(highest->peak), 1),
+                          false,
+                          false});
 }
 
 // The whole run, small, under the target window where the curve leaves room.
@@ -187,8 +211,9 @@ JointView joint_view(const SessionData& session, std::size_t joint) {
         from = std::max({start, touch - std::max(lead_in, 0.12 * (end - touch)), end - longest});
     }
     if (loosening) {  // once the nut is free nothing more happens
-        const auto free = std::find_if(curve.stages.begin(), curve.stages.end(),
-                                       [](const StageSpan& s) { return s.stage == joint::Stage::navigation; });
+        const auto free = std::find_if(curve.stages.begin(), curve.stages.end(), [](const StageSpan& s) {
+            return s.stage == joint::Stage::navigation;
+        });
         if (free != curve.stages.end()) {
             const double loose = drawn_angle(view, free->from, loosening);
             end = std::min(end, loose + std::max(lead_in, 0.12 * loose));
@@ -222,10 +247,12 @@ Plot joint_plot(const SessionData& session, std::size_t joint) {
 
     for (const StageSpan& span : curve.stages) {
         const auto stage = static_cast<std::size_t>(span.stage);
-        const double from = drawn_angle(view, span.from, loosening), to = drawn_angle(view, span.to, loosening);
+        const double from = drawn_angle(view, span.from, loosening),
+                     to = drawn_angle(view, span.to, loosening);
         // Beyond the last sample the stage goes on; a plain margin would look like a change.
         const bool last = &span == &curve.stages.back();
-        plot.bands.push_back({{from, last ? view.shown.high : to}, stage_styles[stage], std::string(name(span.stage))});
+        plot.bands.push_back(
+            {{from, last ? view.shown.high : to}, stage_styles[stage], std::string(name(span.stage))});
     }
     if (!loosening) add_targets(plot, spec);
     add_visits(plot, curve, view, loosening, last_pass_of(session));

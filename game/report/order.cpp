@@ -19,12 +19,13 @@ std::vector<Taken> visits_in_time(const SessionData& session) {
     for (std::size_t j = 0; j < session.curves.size(); ++j)
         for (const Visit& visit : session.curves[j].visits)
             if (visit.worked) taken.push_back({visit.begin, visit.pass, j});
-    std::stable_sort(taken.begin(), taken.end(), [](const Taken& a, const Taken& b) { return a.begin < b.begin; });
+    std::stable_sort(taken.begin(), taken.end(),
+                     [](const Taken& a, const Taken& b) { return a.begin < b.begin; });
     return taken;
 }
 
-// Out of turn are the fewest joints that would have to move for the order to be as asked: those off the longest run
-// of rising places. A swap then is two joints, and one that came late is one.
+// Out of turn are the fewest joints that would have to move for the order to be as asked: those off the
+// longest run of rising places. A swap then is two joints, and one that came late is one.
 void mark_out_of_turn(PassOrder& order) {
     if (order.asked.empty()) return;
     std::vector<std::size_t> turns;  // first visits of joints that were asked
@@ -56,7 +57,8 @@ void mark_out_of_turn(PassOrder& order) {
 }  // namespace
 
 bool PassOrder::in_turn() const {
-    return std::none_of(followed.begin(), followed.end(), [](const Turn& t) { return t.out_of_turn || t.again; });
+    return std::none_of(followed.begin(), followed.end(),
+                        [](const Turn& t) { return t.out_of_turn || t.again; });
 }
 
 std::size_t PassOrder::left_out() const {
@@ -85,9 +87,12 @@ std::size_t PassOrder::visits(std::size_t joint) const {
 
 std::string pass_label(const content::Pass& pass) {
     switch (pass.kind) {
-        case content::StepKind::run_down: return "run-down";
-        case content::StepKind::recheck: return "re-check";
-        case content::StepKind::tighten: break;
+        case content::StepKind::run_down:
+            return "run-down";
+        case content::StepKind::recheck:
+            return "re-check";
+        case content::StepKind::tighten:
+            break;
     }
     return fmt::format("{:.0f} %", 100.0 * pass.fraction);
 }
@@ -99,7 +104,8 @@ std::vector<PassOrder> pass_orders(const SessionData& session) {
     std::vector<PassOrder> orders;
     if (loosening) {
         // As the lesson plans it: the reverse of the last pass.
-        orders.push_back({"loosening", passes.empty() ? std::vector<std::size_t>{} : passes.back().order, {}});
+        orders.push_back(
+            {"loosening", passes.empty() ? std::vector<std::size_t>{} : passes.back().order, {}});
         std::reverse(orders.back().asked.begin(), orders.back().asked.end());
     } else if (!told && passes.size() != 1) {
         orders.push_back({"whole session", {}, {}});

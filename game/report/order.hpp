@@ -10,25 +10,26 @@ namespace bolt::report {
 
 struct Turn {
     std::size_t joint = 0;
-    bool out_of_turn = false;      // one of the fewest that would have to move for the order to be as asked
-    bool again = false;            // it had been taken in this pass already
+    bool out_of_turn = false;  // one of the fewest that would have to move for the order to be as asked
+    bool again = false;        // it had been taken in this pass already
 };
 
 struct PassOrder {
-    std::string label;             // "30 %", "run down", "re-check"
+    std::string label;  // "30 %", "run down", "re-check"
     std::vector<std::size_t> asked;
-    std::vector<Turn> followed;    // visits that did some work, in time
+    std::vector<Turn> followed;  // visits that did some work, in time
 
-    [[nodiscard]] bool in_turn() const;             // nothing out of turn or repeated
-    [[nodiscard]] std::size_t left_out() const;     // asked, but not visited
+    [[nodiscard]] bool in_turn() const;          // nothing out of turn or repeated
+    [[nodiscard]] std::size_t left_out() const;  // asked, but not visited
     // Place in the order, counted from 1; 0 if not in it.
     [[nodiscard]] std::size_t place_asked(std::size_t joint) const;
-    [[nodiscard]] std::size_t place_followed(std::size_t joint) const;  // its first turn, repeated ones not counted
+    [[nodiscard]] std::size_t place_followed(
+        std::size_t joint) const;  // its first turn, repeated ones not counted
     [[nodiscard]] std::size_t visits(std::size_t joint) const;
 };
 
-// One for each pass of the assembly. A session that tells no passes apart gives one, without an order asked if the
-// assembly has several.
+// One for each pass of the assembly. A session that tells no passes apart gives one, without an order asked
+// if the assembly has several.
 std::vector<PassOrder> pass_orders(const SessionData& session);
 
 std::string pass_label(const content::Pass& pass);

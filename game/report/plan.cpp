@@ -76,6 +76,17 @@ void draw_order_joint(Svg& svg, const SessionData& session, const PassOrder& ord
     svg.text({at.x, at.y + (under ? far : -far)}, "wn mid", (out_of_turn ? "▲ " : "") + below);
 }
 
+// Height of a bar such that those above and below, with their words, do not touch.
+double bar_room(const PlanLayout& layout) {
+    constexpr double words_wide = 40.0, words_high = 32.0;
+    double room = 56.0;
+    for (std::size_t i = 0; i < layout.at.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (std::abs(layout.at[i].x - layout.at[k].x) < words_wide)
+                room = std::min(room, std::abs(layout.at[i].y - layout.at[k].y) - words_high);
+    return std::max(room, 12.0);
+}
+
 }  // namespace
 
 PlanLayout plan_layout(const content::Assembly& assembly, double width, double margin) {
@@ -90,9 +101,9 @@ PlanLayout plan_layout(const content::Assembly& assembly, double width, double m
         y = {std::min(y.low, p.y), std::max(y.high, p.y)};
     }
     if (layout.at.empty()) return layout;
-    // As wide as there is room for, and not much taller than wide.
+    // As wide as there is room for, and no taller than half of that.
     const double room = width - 2.0 * margin;
-    const double scale = room / std::max({x.span(), 1.25 * y.span(), 1e-6});
+    const double scale = room / std::max({x.span(), 2.0 * y.span(), 1e-6});
     layout.height = y.span() * scale + 2.0 * margin;
     const double left = 0.5 * (width - x.span() * scale);
     for (Point& p : layout.at) p = {left + (p.x - x.low) * scale, margin + (p.y - y.low) * scale};
@@ -117,8 +128,9 @@ std::string order_plan(const SessionData& session, const PassOrder& order) {
 }
 
 std::string clamp_plan(const SessionData& session) {
-    constexpr double bar_height = 56.0, bar_width = 12.0, full = 1.25;  // of the target: top of the bar's frame
+    constexpr double bar_width = 12.0, full = 1.25;  // of the target: top of the bar's frame
     const PlanLayout layout = plan_layout(session.assembly, 480.0, 52.0);
+    const double bar_height = bar_room(layout);
     Svg svg(layout.width, layout.height, "Clamp force of each joint against its target");
     for (std::size_t j = 0; j < layout.at.size(); ++j) {
         const lesson::JointResult& r = session.joints[j];
@@ -157,7 +169,8 @@ std::string clamp_rows(const SessionData& session) {
         const double from = x(1e-3 * (summary.clamp_mean - summary.clamp_deviation));
         const double to = x(1e-3 * (summary.clamp_mean + summary.clamp_deviation));
         svg.rect({left + std::max(0.0, from), top, to - std::max(0.0, from), foot - top}, "s1");
-        svg.line({left + x(1e-3 * summary.clamp_mean), top}, {left + x(1e-3 * summary.clamp_mean), foot}, "mean");
+        svg.line({left + x(1e-3 * summary.clamp_mean), top}, {left + x(1e-3 * summary.clamp_mean), foot},
+                 "mean");
     }
     for (const double at : ticks.at) {
         svg.line({left + x(at), top}, {left + x(at), foot}, "gr");

@@ -14,7 +14,7 @@ namespace bolt::report {
 struct PlanLayout {
     std::vector<Point> at;
     double width = 480.0, height = 200.0;
-    double radius = 12.0;          // of a joint's disc, so that neighbours do not touch
+    double radius = 12.0;  // of a joint's disc, so that neighbours do not touch
 };
 PlanLayout plan_layout(const content::Assembly& assembly, double width, double margin);
 

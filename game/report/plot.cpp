@@ -10,7 +10,7 @@ namespace bolt::report {
 
 namespace {
 
-constexpr double letter = 6.4;  // width of a letter of the small print, on the wide side
+constexpr double letter = 5.8;  // width of a letter of the small print, in a wide typeface
 
 struct Mapping {
     Scale x, y, y2;
@@ -42,7 +42,9 @@ void draw_band(Svg& svg, const Band& band, const Mapping& map, const Box& area) 
         svg.rect({0.0, from, area.width, std::max(size, 0.75)}, band.style);
         return;
     }
-    svg.rect({from, 0.0, size, area.height}, band.style);
+    constexpr double strip = 5.0;
+    svg.rect({from, band.strip ? area.height - strip : 0.0, size, band.strip ? strip : area.height},
+             band.style);
 }
 
 // Above the area, where no curve runs.
@@ -82,8 +84,12 @@ void draw_mark(Svg& svg, const Mark& mark, const Mapping& map, const Box& area) 
     constexpr double r = 3.2;
     switch (mark.shape) {
         case Shape::dot:
-        case Shape::ring: svg.circle(p, r, mark.style); break;
-        case Shape::square: svg.rect({p.x - r, p.y - r, 2.0 * r, 2.0 * r}, mark.style); break;
+        case Shape::ring:
+            svg.circle(p, r, mark.style);
+            break;
+        case Shape::square:
+            svg.rect({p.x - r, p.y - r, 2.0 * r, 2.0 * r}, mark.style);
+            break;
         case Shape::triangle: {
             const Point corners[] = {{p.x - r - 1.0, p.y - r}, {p.x + r + 1.0, p.y - r}, {p.x, p.y + r}};
             svg.path(corners, mark.style, true);

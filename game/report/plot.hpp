@@ -27,8 +27,9 @@ struct Line {
 struct Band {
     Range range;
     std::string_view style;
-    std::string label;          // left out where it does not fit
+    std::string label;  // left out where it does not fit
     bool of_y = false;
+    bool strip = false;  // of x: only along the axis, so that it hides nothing
 };
 
 // A thin line at one x or y.
@@ -47,7 +48,7 @@ struct Mark {
     std::string_view style;
     std::string label;
     bool second_axis = false;
-    bool quiet = false;         // small print to the lower right; else bold, above, on the side with more room
+    bool quiet = false;  // small print to the lower right; else bold, above, on the side with more room
 };
 
 struct Plot {
@@ -55,7 +56,7 @@ struct Plot {
     std::string title;
     Axis x, y;
     std::optional<Axis> y2;
-    std::vector<Band> bands;    // first drawn lies lowest
+    std::vector<Band> bands;  // first drawn lies lowest
     std::vector<Rule> rules;
     std::vector<Line> lines;
     std::vector<Mark> marks;

@@ -21,14 +21,16 @@ struct Pages {
 
     [[nodiscard]] std::string finish() const {
         if (attempts.size() == 1) return page(attempts.front().title + " – training report", sections);
-        return page(fmt::format("{} attempts – training report", attempts.size()), attempts_section(attempts) + sections);
+        return page(fmt::format("{} attempts – training report", attempts.size()),
+                    attempts_section(attempts) + sections);
     }
 };
 
 }  // namespace
 
 Result<std::string> make_report(std::span<const record::Reader* const> sessions) {
-    if (sessions.empty()) return fail(ErrorCode::usage, "no session was given to report", "one or more session files");
+    if (sessions.empty())
+        return fail(ErrorCode::usage, "no session was given to report", "one or more session files");
     Pages pages;
     for (const record::Reader* session : sessions) {
         const Result<SessionData> data = read_session(*session);

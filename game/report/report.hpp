@@ -1,4 +1,5 @@
-// report.html: what was done in one session, or how several attempts compare. One file that needs nothing else.
+// report.html: what was done in one session, or how several attempts compare. One file that needs nothing
+// else.
 #pragma once
 
 #include <span>

@@ -121,8 +121,9 @@ Summary summarise(const SessionData& session) {
         squares += delta * (r.clamp - s.clamp_mean);
     }
     const auto n = static_cast<double>(s.judged);
+    const bool asked = session.direction() == joint::Direction::tighten;  // a loosening torque has no target
     if (s.judged == 0) s.clamp_mean = s.clamp_low = s.clamp_high = nan;
-    s.mean_torque_error = s.judged > 0 ? errors / n : nan;
+    s.mean_torque_error = s.judged > 0 && asked ? errors / n : nan;
     s.clamp_deviation = s.judged > 1 ? std::sqrt(squares / (n - 1.0)) : nan;
     return s;
 }

@@ -15,16 +15,16 @@ namespace bolt::report {
 struct SessionData {
     std::string file;
     record::Header header;
-    bool complete = true;                          // false: cut short
-    double recorded = 0.0;                         // s
-    content::Assembly assembly;                    // as stored in the session; its law is the header's
-    std::vector<lesson::JointResult> joints;       // one for each of assembly.joints, in their order
-    double duration = 0.0;                         // s
+    bool complete = true;                     // false: cut short
+    double recorded = 0.0;                    // s
+    content::Assembly assembly;               // as stored in the session; its law is the header's
+    std::vector<lesson::JointResult> joints;  // one for each of assembly.joints, in their order
+    double duration = 0.0;                    // s
     double score = 0.0;
     bool finished = false;
     std::vector<lesson::ScoreReason> reasons;
-    std::vector<std::string> pass_texts;           // what the session's pass_begin events say, in order
-    std::vector<JointCurve> curves;                // one for each of assembly.joints
+    std::vector<std::string> pass_texts;  // what the session's pass_begin events say, in order
+    std::vector<JointCurve> curves;       // one for each of assembly.joints
 
     [[nodiscard]] joint::Direction direction() const {
         return header.task == "loosen" ? joint::Direction::loosen : joint::Direction::tighten;
@@ -46,10 +46,11 @@ double target_clamp(const content::Assembly& assembly, std::size_t joint);
 // How the joints of one session came out, in numbers.
 struct Summary {
     std::size_t joints = 0, judged = 0, ok = 0;
-    double mean_torque_error = 0.0;                // mean of |T − target| / target over judged joints; NaN without any
+    double mean_torque_error =
+        0.0;  // mean of |T − target| / target over judged joints; NaN without any, or loosening
     double clamp_mean = 0.0, clamp_low = 0.0, clamp_high = 0.0;  // N, over judged joints; NaN without any
-    double clamp_deviation = 0.0;                  // N, sample standard deviation; NaN below two joints
-    std::size_t lowest = 0, highest = 0;           // joints
+    double clamp_deviation = 0.0;         // N, sample standard deviation; NaN below two joints
+    std::size_t lowest = 0, highest = 0;  // joints
 };
 Summary summarise(const SessionData& session);
 

@@ -9,7 +9,8 @@ namespace {
 
 // A hand that holds still says nothing new; its last sample keeps the time.
 bool same_reading(const CurvePoint& a, const CurvePoint& b) {
-    return a.angle == b.angle && a.torque == b.torque && a.clamp == b.clamp && a.stage == b.stage && a.stroke == b.stroke;
+    return a.angle == b.angle && a.torque == b.torque && a.clamp == b.clamp && a.stage == b.stage &&
+           a.stroke == b.stroke;
 }
 
 }  // namespace

@@ -11,16 +11,16 @@ namespace bolt::report {
 
 // One sample of a joint at work.
 struct CurvePoint {
-    double time = 0.0;          // s from the start of the session
-    double angle = 0.0;         // rad, nut angle
-    double torque = 0.0;        // N·m at the wrench, tightening positive
-    double clamp = 0.0;         // N
+    double time = 0.0;    // s from the start of the session
+    double angle = 0.0;   // rad, nut angle
+    double torque = 0.0;  // N·m at the wrench, tightening positive
+    double clamp = 0.0;   // N
     joint::Stage stage = joint::Stage::navigation;
-    std::uint16_t stroke = 0;   // counts re-grips of the visit: lines break between strokes
+    std::uint16_t stroke = 0;  // counts re-grips of the visit: lines break between strokes
 };
 
-// Equal shares of the stream, each kept as its first, lowest, highest (by torque) and last sample. When the shares
-// run out, neighbours are joined and the share doubles.
+// Equal shares of the stream, each kept as its first, lowest, highest (by torque) and last sample. When the
+// shares run out, neighbours are joined and the share doubles.
 class CurveStream {
   public:
     explicit CurveStream(std::size_t most_buckets = 2048);

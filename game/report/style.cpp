@@ -62,7 +62,7 @@ svg .no{font-weight:500}
 svg .sm,svg .wn{paint-order:stroke;stroke:var(--paper);stroke-width:2.5px;stroke-opacity:.75}
 .ax{stroke:var(--faint)}.gr{stroke:var(--rule);stroke-width:.75}
 .s0{fill:none}.s1{fill:var(--s1)}.s2{fill:var(--s2)}.s3{fill:var(--s3)}
-.win{fill:var(--win);fill-opacity:.13}.tgt{stroke:var(--win);stroke-width:1.1}.mean{stroke:var(--mute);stroke-dasharray:3 3}
+.win{fill:var(--win);fill-opacity:.13}.wins{fill:var(--win);fill-opacity:.55}.tgt{stroke:var(--win);stroke-width:1.1}.mean{stroke:var(--mute);stroke-dasharray:3 3}
 .ln{fill:none;stroke-width:1.7;stroke-linejoin:round;stroke-linecap:round}
 .p0{stroke:var(--p0)}.p1{stroke:var(--p1)}.p2{stroke:var(--accent)}
 .cl{stroke:var(--mute);stroke-width:1.1;stroke-dasharray:4 3}

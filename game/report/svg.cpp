@@ -12,8 +12,8 @@ namespace bolt::report {
 
 namespace {
 
-// Two decimals of a unit that is about a pixel, without trailing zeros; far outside the drawing it is cut off, as
-// renderers lose precision there.
+// Two decimals of a unit that is about a pixel, without trailing zeros; far outside the drawing it is cut
+// off, as renderers lose precision there.
 std::string coordinate(double value) {
     if (!std::isfinite(value)) value = 0.0;
     std::string text = fmt::format("{:.2f}", std::clamp(value, -1e5, 1e5));
@@ -25,26 +25,28 @@ std::string coordinate(double value) {
 }  // namespace
 
 Svg::Svg(double width, double height, std::string_view title) {
-    fmt::format_to(std::back_inserter(text_), R"(<svg viewBox="0 0 {} {}" role="img" xmlns="http://www.w3.org/2000/svg">)",
+    fmt::format_to(std::back_inserter(text_),
+                   R"(<svg viewBox="0 0 {} {}" role="img" xmlns="http://www.w3.org/2000/svg">)",
                    coordinate(width), coordinate(height));
     fmt::format_to(std::back_inserter(text_), "<title>{}</title>", escape(title));
 }
 
 void Svg::line(Point a, Point b, std::string_view style) {
-    fmt::format_to(std::back_inserter(text_), R"(<line x1="{}" y1="{}" x2="{}" y2="{}" class="{}"/>)", coordinate(a.x),
-                   coordinate(a.y), coordinate(b.x), coordinate(b.y), escape(style));
+    fmt::format_to(std::back_inserter(text_), R"(<line x1="{}" y1="{}" x2="{}" y2="{}" class="{}"/>)",
+                   coordinate(a.x), coordinate(a.y), coordinate(b.x), coordinate(b.y), escape(style));
 }
 
 void Svg::rect(Box box, std::string_view style, double radius) {
-    fmt::format_to(std::back_inserter(text_), R"(<rect x="{}" y="{}" width="{}" height="{}")", coordinate(box.x),
-                   coordinate(box.y), coordinate(std::max(0.0, box.width)), coordinate(std::max(0.0, box.height)));
+    fmt::format_to(std::back_inserter(text_), R"(<rect x="{}" y="{}" width="{}" height="{}")",
+                   coordinate(box.x), coordinate(box.y), coordinate(std::max(0.0, box.width)),
+                   coordinate(std::max(0.0, box.height)));
     if (radius > 0.0) fmt::format_to(std::back_inserter(text_), R"( rx="{}")", coordinate(radius));
     fmt::format_to(std::back_inserter(text_), R"( class="{}"/>)", escape(style));
 }
 
 void Svg::circle(Point centre, double radius, std::string_view style) {
-    fmt::format_to(std::back_inserter(text_), R"(<circle cx="{}" cy="{}" r="{}" class="{}"/>)", coordinate(centre.x),
-                   coordinate(centre.y), coordinate(radius), escape(style));
+    fmt::format_to(std::back_inserter(text_), R"(<circle cx="{}" cy="{}" r="{}" class="{}"/>)",
+                   coordinate(centre.x), coordinate(centre.y), coordinate(radius), escape(style));
 }
 
 void Svg::text(Point at, std::string_view style, std::string_view words) {
@@ -60,7 +62,8 @@ void Svg::path(std::span<const Point> points, std::string_view style, bool close
             down = false;
             continue;
         }
-        fmt::format_to(std::back_inserter(data), "{}{} {}", down ? "L" : "M", coordinate(p.x), coordinate(p.y));
+        fmt::format_to(std::back_inserter(data), "{}{} {}", down ? "L" : "M", coordinate(p.x),
+                       coordinate(p.y));
         down = true;
     }
     if (data.empty()) return;
@@ -69,8 +72,8 @@ void Svg::path(std::span<const Point> points, std::string_view style, bool close
 }
 
 void Svg::enter(Box box) {
-    fmt::format_to(std::back_inserter(text_), R"(<svg x="{}" y="{}" width="{}" height="{}">)", coordinate(box.x),
-                   coordinate(box.y), coordinate(box.width), coordinate(box.height));
+    fmt::format_to(std::back_inserter(text_), R"(<svg x="{}" y="{}" width="{}" height="{}">)",
+                   coordinate(box.x), coordinate(box.y), coordinate(box.width), coordinate(box.height));
     ++open_;
 }
 
@@ -89,8 +92,8 @@ std::string standalone(std::string_view svg, std::string_view style_sheet) {
     const std::size_t after_title = svg.find("</title>");
     const std::size_t at = after_title == std::string_view::npos ? svg.find('>') + 1 : after_title + 8;
     // In CDATA, as a style sheet may hold '>' and '&'.
-    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}<style><![CDATA[{}]]></style>{}", svg.substr(0, at),
-                       style_sheet, svg.substr(at));
+    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}<style><![CDATA[{}]]></style>{}",
+                       svg.substr(0, at), style_sheet, svg.substr(at));
 }
 
 }  // namespace bolt::report

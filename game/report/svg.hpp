@@ -1,5 +1,5 @@
-// An SVG drawing, element by element. Text is escaped here and nowhere else; colours are CSS classes, so that one
-// drawing serves light, dark and paper.
+// An SVG drawing, element by element. Text is escaped here and nowhere else; colours are CSS classes, so that
+// one drawing serves light, dark and paper.
 #pragma once
 
 #include <span>
@@ -28,8 +28,9 @@ class Svg {
     void line(Point a, Point b, std::string_view style);
     void rect(Box box, std::string_view style, double radius = 0.0);
     void circle(Point centre, double radius, std::string_view style);
-    void text(Point at, std::string_view style, std::string_view words);   // anchor by class: "mid", "end"
-    void path(std::span<const Point> points, std::string_view style, bool closed = false);  // a NaN lifts the pen
+    void text(Point at, std::string_view style, std::string_view words);  // anchor by class: "mid", "end"
+    void path(std::span<const Point> points, std::string_view style,
+              bool closed = false);  // a NaN lifts the pen
 
     // What is drawn until leave() is clipped to the box; coordinates inside start at its corner.
     void enter(Box box);

@@ -15,7 +15,8 @@ bool continues(std::string_view text, std::size_t at) {
     return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
 }
 
-// Length of the well-formed UTF-8 sequence at `at`, 0 if there is none (overlong forms and surrogates are none).
+// Length of the well-formed UTF-8 sequence at `at`, 0 if there is none (overlong forms and surrogates are
+// none).
 std::size_t sequence_length(std::string_view text, std::size_t at) {
     const auto lead = static_cast<unsigned char>(text[at]);
     if (lead < 0x80U) return 1;
@@ -31,12 +32,23 @@ std::size_t sequence_length(std::string_view text, std::size_t at) {
 
 void append_ascii(std::string& out, char c) {
     switch (c) {
-        case '&': out += "&amp;"; return;
-        case '<': out += "&lt;"; return;
-        case '>': out += "&gt;"; return;
-        case '"': out += "&quot;"; return;
-        case '\'': out += "&#39;"; return;
-        default: break;
+        case '&':
+            out += "&amp;";
+            return;
+        case '<':
+            out += "&lt;";
+            return;
+        case '>':
+            out += "&gt;";
+            return;
+        case '"':
+            out += "&quot;";
+            return;
+        case '\'':
+            out += "&#39;";
+            return;
+        default:
+            break;
     }
     const bool forbidden = static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t' && c != '\r';
     if (forbidden || c == '\x7F')

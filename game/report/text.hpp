@@ -6,7 +6,8 @@
 
 namespace bolt::report {
 
-// For HTML and SVG, text and attribute values alike. Bytes that are no UTF-8 and controls that XML forbids become U+FFFD.
+// For HTML and SVG, text and attribute values alike. Bytes that are no UTF-8 and controls that XML forbids
+// become U+FFFD.
 std::string escape(std::string_view text);
 
 // A number with a true minus sign and no "−0.0"; a dash for what is not a finite number.

@@ -16,7 +16,8 @@ TEST_CASE("a tightening curve that was shifted is found again") {
             const report::Curve measured = curve_of(tightening_torque, shift, 95.0, step, Direction::tighten);
             const Result<Alignment> a = align(ours, measured);
             REQUIRE(a);
-            // Both start counting where they start, so that the measured one, starting at `shift`, is moved by it.
+            // Both start counting where they start, so that the measured one, starting at `shift`, is moved
+            // by it.
             CHECK(to_degrees(a->shift) == doctest::Approx(shift).epsilon(1e-9).scale(step / 1e-9));
             CHECK(std::abs(to_degrees(a->shift) - shift) <= step);
         }
@@ -58,7 +59,9 @@ TEST_CASE("strokes and re-grips do not move the point") {
 TEST_CASE("loosening curves meet at their breakaway") {
     const report::Curve ours = curve_of(loosening_torque, 0.0, 90.0, 0.05, Direction::loosen);
     // The rig takes up its play for 31.9° before the nut breaks loose.
-    const auto rig = [](double degrees) { return degrees < 0.0 ? -5.02 * std::exp(degrees / 4.0) : loosening_torque(degrees); };
+    const auto rig = [](double degrees) {
+        return degrees < 0.0 ? -5.02 * std::exp(degrees / 4.0) : loosening_torque(degrees);
+    };
     const report::Curve measured = curve_of(rig, -31.9, 200.0, 5.32, Direction::loosen);
     const Result<Alignment> a = align(ours, measured);
     REQUIRE(a);

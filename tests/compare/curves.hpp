@@ -10,7 +10,9 @@
 namespace bolt::compare {
 
 // Smooth run-up: flat, then an elastic line of 3 N·m a degree from 60° on.
-inline double tightening_torque(double degrees) { return 0.5 + 3.0 * 4.0 * std::log1p(std::exp((degrees - 60.0) / 4.0)); }
+inline double tightening_torque(double degrees) {
+    return 0.5 + 3.0 * 4.0 * std::log1p(std::exp((degrees - 60.0) / 4.0));
+}
 
 // Breaks loose at once and falls off.
 inline double loosening_torque(double degrees) { return -0.02 - 5.0 * std::exp(-degrees / 9.0); }
@@ -22,8 +24,8 @@ inline joint::Stage stage_at(double torque) {
     return t < 80.0 ? joint::Stage::linearity : joint::Stage::yield;
 }
 
-inline report::Curve curve_of(const std::function<double(double)>& torque, double from, double to, double step,
-                              joint::Direction direction) {
+inline report::Curve curve_of(const std::function<double(double)>& torque, double from, double to,
+                              double step, joint::Direction direction) {
     report::Curve curve;
     curve.direction = direction;
     for (double at = from; at <= to; at += step) {

@@ -39,7 +39,8 @@ TEST_CASE("maximum and mean, by hand") {
     report::Curve ours;
     ours.angle = {0.0, 1.0, 2.0, 3.0};
     ours.torque = {1.0, 2.0, 3.0, 4.0};
-    ours.stage = {joint::Stage::navigation, joint::Stage::navigation, joint::Stage::linearity, joint::Stage::linearity};
+    ours.stage = {joint::Stage::navigation, joint::Stage::navigation, joint::Stage::linearity,
+                  joint::Stage::linearity};
     report::Curve measured;
     measured.angle = {0.5, 1.5, 2.0, 2.5};
     measured.torque = {1.0, 5.0, 2.0, 4.0};

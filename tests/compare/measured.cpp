@@ -22,7 +22,9 @@ std::string error_of(const std::string& text) {
     return read.error().message();
 }
 
-std::filesystem::path data_folder() { return std::filesystem::path(__FILE__).parent_path().parent_path() / "data"; }
+std::filesystem::path data_folder() {
+    return std::filesystem::path(__FILE__).parent_path().parent_path() / "data";
+}
 
 }  // namespace
 
@@ -39,7 +41,8 @@ TEST_CASE("a plain file") {
 
 TEST_CASE("byte order mark, CRLF, comments, blank lines, quotes, other columns in any order") {
     const std::string text =
-        "\xEF\xBB\xBF# source: A. Rig, Lab Book 7, CC0 \r\n\r\n\"note, \"\"x\"\"\" , torque_Nm,speed_rpm,\"angle_deg\"\r\n"
+        "\xEF\xBB\xBF# source: A. Rig, Lab Book 7, CC0 \r\n\r\n\"note, \"\"x\"\"\" , "
+        "torque_Nm,speed_rpm,\"angle_deg\"\r\n"
         "a,+0.1,5,0\r\n   \r\n# between\r\n\"b, c\", \"0.2\" ,5,1\r\nd,3e-1,5,2\r\n,0.4,,3\r\ne,0.5,x,4";
     const Result<Measured> read = parse_measured(text, "m.csv");
     REQUIRE_MESSAGE(read, (read ? "" : read.error().message()));
@@ -51,7 +54,8 @@ TEST_CASE("byte order mark, CRLF, comments, blank lines, quotes, other columns i
 TEST_CASE("cycles, also when their rows are mixed") {
     std::string text = "cycle,angle_deg,torque_Nm\n";
     for (int i = 0; i < 6; ++i)
-        for (const char* cycle : {"7", "9"}) text += std::string(cycle) + "," + std::to_string(i) + ",-" + std::to_string(i) + ".5\n";
+        for (const char* cycle : {"7", "9"})
+            text += std::string(cycle) + "," + std::to_string(i) + ",-" + std::to_string(i) + ".5\n";
     const Result<Measured> read = parse_measured(text, "m.csv");
     REQUIRE(read);
     REQUIRE(read->cycles.size() == 2);
@@ -63,33 +67,46 @@ TEST_CASE("cycles, also when their rows are mixed") {
 
 TEST_CASE("every mistake names its line and column and what was expected") {
     CHECK(error_of("") == "m.csv:1:1: there is nothing in this file; columns 'angle_deg' and 'torque_Nm'");
-    CHECK(error_of("# only a comment\n") == "m.csv:1:1: there is nothing in this file; columns 'angle_deg' and 'torque_Nm'");
+    CHECK(error_of("# only a comment\n") ==
+          "m.csv:1:1: there is nothing in this file; columns 'angle_deg' and 'torque_Nm'");
     CHECK(error_of(head) == "m.csv:1:1: there are no samples; at least 5 rows");
     CHECK(error_of("angel_deg,torque_Nm\n" + rows) ==
           "m.csv:1:1: there is no column 'angle_deg'; 'angle_deg' instead of 'angel_deg'");
     CHECK(error_of("angle_deg, torque_nm\n" + rows) ==
           "m.csv:1:12: there is no column 'torque_Nm'; 'torque_Nm' instead of 'torque_nm'");
     CHECK(error_of("a,b\n" + rows) ==
-          "m.csv:1:1: there is no column 'angle_deg'; a first line that names the columns 'angle_deg' and 'torque_Nm'");
+          "m.csv:1:1: there is no column 'angle_deg'; a first line that names the columns 'angle_deg' and "
+          "'torque_Nm'");
     CHECK(error_of("angle_deg;torque_Nm\n0;1\n") ==
           "m.csv:1:1: there is no column 'angle_deg'; columns separated by commas, with a decimal point");
-    CHECK(error_of("angle_deg,torque_Nm,angle_deg\n") == "m.csv:1:21: column 'angle_deg' is there twice; one of them");
+    CHECK(error_of("angle_deg,torque_Nm,angle_deg\n") ==
+          "m.csv:1:21: column 'angle_deg' is there twice; one of them");
     CHECK(error_of(head + "0,0.1\n1\n") == "m.csv:3:2: this row has 1 fields; 2, as the columns named");
     CHECK(error_of(head + "0,0.1,7\n") == "m.csv:2:7: this row has 3 fields; 2, as the columns named");
-    CHECK(error_of(head + "0,zero\n") == "m.csv:2:3: 'zero' is no number for 'torque_Nm'; a decimal number such as -12.5");
-    CHECK(error_of(head + "0, 1.5 N\n") == "m.csv:2:4: '1.5 N' is no number for 'torque_Nm'; a decimal number such as -12.5");
-    CHECK(error_of(head + "nan,1\n") == "m.csv:2:1: 'nan' is no number for 'angle_deg'; a decimal number such as -12.5");
-    CHECK(error_of(head + "0,inf\n") == "m.csv:2:3: 'inf' is no number for 'torque_Nm'; a decimal number such as -12.5");
-    CHECK(error_of(head + "0,\n") == "m.csv:2:3: '' is no number for 'torque_Nm'; a decimal number such as -12.5");
-    CHECK(error_of(head + "0,1e9\n") == "m.csv:2:3: 1e9 is no measured 'torque_Nm'; a value between -1000000 and 1000000");
+    CHECK(error_of(head + "0,zero\n") ==
+          "m.csv:2:3: 'zero' is no number for 'torque_Nm'; a decimal number such as -12.5");
+    CHECK(error_of(head + "0, 1.5 N\n") ==
+          "m.csv:2:4: '1.5 N' is no number for 'torque_Nm'; a decimal number such as -12.5");
+    CHECK(error_of(head + "nan,1\n") ==
+          "m.csv:2:1: 'nan' is no number for 'angle_deg'; a decimal number such as -12.5");
+    CHECK(error_of(head + "0,inf\n") ==
+          "m.csv:2:3: 'inf' is no number for 'torque_Nm'; a decimal number such as -12.5");
+    CHECK(error_of(head + "0,\n") ==
+          "m.csv:2:3: '' is no number for 'torque_Nm'; a decimal number such as -12.5");
+    CHECK(error_of(head + "0,1e9\n") ==
+          "m.csv:2:3: 1e9 is no measured 'torque_Nm'; a value between -1000000 and 1000000");
     CHECK(error_of(head + "0,\"1\n") == "m.csv:2:3: this quote is not closed on its line; a closing '\"'");
-    CHECK(error_of(head + "\"0\"x,1\n") == "m.csv:2:4: there is text behind a quoted field; a comma or the end of the line");
+    CHECK(error_of(head + "\"0\"x,1\n") ==
+          "m.csv:2:4: there is text behind a quoted field; a comma or the end of the line");
     CHECK(error_of(head + "0,1\n1,2\n2,3\n3,4\n") == "m.csv:2:1: this file has only 4 samples; at least 5");
     CHECK(error_of("cycle," + head + "a,0,1\na,1,1\na,2,1\na,3,1\na,4,1\nb,0,1\n") ==
           "m.csv:7:1: cycle 'b' has only 1 samples; at least 5");
-    CHECK(error_of(head + "0,0\n1,0\n2,0\n3,0\n4,0\n") == "m.csv:2:1: this file has no torque at all; a run with a load");
-    CHECK(error_of("cycle," + head + "a,0,1\na,1,1\na,2,1\na,3,1\na,4,1\nb,0,-1\nb,1,-1\nb,2,-1\nb,3,-1\nb,4,-1\n") ==
-          "m.csv:7:1: cycle 'b' turns the other way than those before; all cycles of a file tightening (torque positive) "
+    CHECK(error_of(head + "0,0\n1,0\n2,0\n3,0\n4,0\n") ==
+          "m.csv:2:1: this file has no torque at all; a run with a load");
+    CHECK(error_of("cycle," + head +
+                   "a,0,1\na,1,1\na,2,1\na,3,1\na,4,1\nb,0,-1\nb,1,-1\nb,2,-1\nb,3,-1\nb,4,-1\n") ==
+          "m.csv:7:1: cycle 'b' turns the other way than those before; all cycles of a file tightening "
+          "(torque positive) "
           "or all loosening (negative)");
 }
 
@@ -105,17 +122,20 @@ TEST_CASE("the published loosening runs are read as they are, and their source i
     CHECK(read->direction == joint::Direction::loosen);
     CHECK(read->cycles.size() == 5);
     CHECK(read->samples() == 800);
-    CHECK(read->source.starts_with("Al Assadi et al., J. Manuf. Syst. 65 (2022) 19-32, dataset_unfastening, CC BY 4.0"));
+    CHECK(read->source.starts_with(
+        "Al Assadi et al., J. Manuf. Syst. 65 (2022) 19-32, dataset_unfastening, CC BY 4.0"));
     // The files as published do not say it themselves.
     const Result<Measured> bare = parse_measured(head + rows, "some/where/m6_releasable.csv");
     REQUIRE(bare);
-    CHECK(bare->source == "Al Assadi et al., J. Manuf. Syst. 65 (2022) 19–32, dataset_unfastening, CC BY 4.0");
+    CHECK(bare->source ==
+          "Al Assadi et al., J. Manuf. Syst. 65 (2022) 19–32, dataset_unfastening, CC BY 4.0");
 }
 
 TEST_CASE("a thousand broken files: a value or an error with a place, never a crash") {
     const std::string good = "# source: rig\ncycle,angle_deg,torque_Nm\n" + [] {
         std::string text;
-        for (int i = 0; i < 12; ++i) text += "\"1\"," + std::to_string(i) + "," + std::to_string(0.5 * i) + "\n";
+        for (int i = 0; i < 12; ++i)
+            text += "\"1\"," + std::to_string(i) + "," + std::to_string(0.5 * i) + "\n";
         return text;
     }();
     REQUIRE(parse_measured(good, "m.csv"));
@@ -128,10 +148,18 @@ TEST_CASE("a thousand broken files: a value or an error with a place, never a cr
             const std::size_t at = random.bits() % text.size();
             const char byte = bytes[random.bits() % sizeof bytes];
             switch (random.bits() % 4U) {
-                case 0: text[at] = byte; break;
-                case 1: text.insert(at, 1, byte); break;
-                case 2: text.erase(at, 1 + random.bits() % 5U); break;
-                default: text.resize(at); break;
+                case 0:
+                    text[at] = byte;
+                    break;
+                case 1:
+                    text.insert(at, 1, byte);
+                    break;
+                case 2:
+                    text.erase(at, 1 + random.bits() % 5U);
+                    break;
+                default:
+                    text.resize(at);
+                    break;
             }
             if (text.empty()) break;
         }

@@ -67,8 +67,10 @@ TEST_CASE("peaks that do not belong together are remarked upon") {
 
 TEST_CASE("a comparison of closed forms") {
     const Comparison c = comparison_of(1, "rig");
-    // Laid upon each other where both pass the same torque, the curves differ less than the 5 % between them there.
-    CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::navigation)].mape == doctest::Approx(0.05).epsilon(0.1));
+    // Laid upon each other where both pass the same torque, the curves differ less than the 5 % between them
+    // there.
+    CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::navigation)].mape ==
+          doctest::Approx(0.05).epsilon(0.1));
     CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::linearity)].mape < 0.03);
     CHECK(c.errors.all.count + c.errors.all.below + c.errors.outside == c.measured[0].curve.size());
 }

@@ -103,17 +103,20 @@ TEST_CASE("ZQ350: from the middle outward and from side to side, in three rounds
     CHECK(reach(1) < reach(2));
 }
 
-TEST_CASE("ZQ350 in carbon steel: the paper's 72 N·m is the onset of yield") {
+TEST_CASE("ZQ350 in carbon steel: the paper's 72 N·m is where yield begins") {
     for (const AssemblyJoint& j : load("zq350").joints) {
         CHECK(j.spec.strategy == content::Strategy::yield);
         CHECK(yield_90(j.design).force == doctest::Approx(30.7e3).epsilon(0.005));
-        CHECK(yield_90(j.design).torque == doctest::Approx(j.spec.torque.target).epsilon(0.01));
-        // The law `published` ends at 72.126 N·m: it must be able to reach the target too.
-        CHECK(j.spec.torque.target < joint::PublishedParameters{}.T_max_Nm);
-        // Beyond full yield (100 % of R_p0.2) is HIGH.
-        CHECK(j.spec.torque.high <= yield_90(j.design).torque / 0.9);
+        CHECK(yield_90(j.design).force == doctest::Approx(30.7e3).epsilon(0.005));
+        CHECK(yield_90(j.design).torque == doctest::Approx(72.5).epsilon(0.005));
+        // The window holds the onset of yield, and the end of the law `published`.
+        CHECK(j.spec.torque.low < joint::PublishedParameters{}.T_max_Nm);
+        CHECK(j.spec.torque.high > yield_90(j.design).torque);
+        CHECK(j.spec.torque.target >= 0.95 * yield_90(j.design).torque);
+        CHECK(j.spec.torque.target < 1.15 * yield_90(j.design).torque);
+        // Beyond yield the torque hardly grows: it is the angle that tells too much.
         CHECK(j.spec.has_angle);
-        CHECK(j.spec.angle.high == doctest::Approx(pi / 2));
+        CHECK(j.spec.angle.high <= pi / 2);
     }
 }
 
@@ -126,8 +129,8 @@ TEST_CASE("ZQ350 in stainless steel: the same torque stays elastic") {
         CHECK(j.design.friction.thread == 0.2);
         CHECK(j.spec.strategy == content::Strategy::torque);
         CHECK(j.spec.torque.target == 72.0);
+        CHECK(j.spec.snug_torque == 20.0);  // from under the patch
         CHECK(j.spec.torque.high < 0.5 * yield_90(j.design).torque);
-        CHECK(j.spec.angle.high == doctest::Approx(pi / 2));  // from under the patch
     }
     CHECK(a.joints[0].spec.angle.low == doctest::Approx(to_radians(4.0)));
     CHECK(a.joints[11].spec.angle.low == doctest::Approx(to_radians(2.0)));

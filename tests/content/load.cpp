@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <optional>
 
 #include "content/format/new_assembly.hpp"
 #include "engine/base/file.hpp"
@@ -27,6 +28,25 @@ struct Folder {
         std::error_code ignored;
         fs::remove_all(path, ignored);
     }
+};
+
+// $BOLTWRIGHT_CONTENT for as long as this lives; the tests may themselves be run with one.
+struct ContentVariable {
+    explicit ContentVariable(const char* value) { set(value); }
+    ContentVariable(const ContentVariable&) = delete;
+    ContentVariable& operator=(const ContentVariable&) = delete;
+    ~ContentVariable() { set(before ? before->c_str() : nullptr); }
+
+    static void set(const char* value) {
+        if (value != nullptr)
+            ::setenv("BOLTWRIGHT_CONTENT", value, 1);
+        else
+            ::unsetenv("BOLTWRIGHT_CONTENT");
+    }
+    std::optional<std::string> before = [] {
+        const char* value = std::getenv("BOLTWRIGHT_CONTENT");
+        return value != nullptr ? std::optional<std::string>(value) : std::nullopt;
+    }();
 };
 
 Error only_error(const fs::path& where, std::string_view variant = {}) {
@@ -79,13 +99,18 @@ TEST_CASE("a variant that is not there") {
 TEST_CASE("BOLTWRIGHT_CONTENT says where content/ is") {
     const fs::path found = content::content_folder();
     REQUIRE_FALSE(found.empty());
-    ::setenv("BOLTWRIGHT_CONTENT", found.c_str(), 1);
+    {
+        const ContentVariable variable("/nowhere");
+        CHECK(content::content_folder().empty());
+        CHECK(only_error("zq350").expected == "there are: none");
+    }
+    const ContentVariable variable(found.c_str());
     CHECK(content::content_folder() == found);
-    ::setenv("BOLTWRIGHT_CONTENT", "/nowhere", 1);
-    CHECK(content::content_folder().empty());
-    CHECK(only_error("zq350").expected == "there are: none");
-    ::unsetenv("BOLTWRIGHT_CONTENT");
-    CHECK(content::content_folder() == found);
+}
+
+TEST_CASE("without it content/ is found from the program") {
+    const ContentVariable variable(nullptr);
+    CHECK(fs::exists(content::content_folder() / "schema" / "assembly.schema.json"));
 }
 
 TEST_CASE("a new assembly loads without a mistake and carries its name") {
@@ -129,11 +154,10 @@ TEST_CASE("beside the other assemblies the common schema is used") {
     fs::create_directories(folder.path / "assemblies");
     fs::copy_file(content::content_folder() / "schema" / "assembly.schema.json",
                   folder.path / "schema" / "assembly.schema.json");
-    ::setenv("BOLTWRIGHT_CONTENT", folder.path.c_str(), 1);
+    const ContentVariable variable(folder.path.c_str());
     REQUIRE(content::create_assembly(folder.path / "assemblies" / "pump", "pump"));
     const auto loaded = content::load_assembly("pump");
     CHECK(loaded.ok());
     CHECK(loaded.assembly.text.find("\"../../schema/assembly.schema.json\"") != std::string::npos);
     CHECK_FALSE(fs::exists(folder.path / "assemblies" / "pump" / "assembly.schema.json"));
-    ::unsetenv("BOLTWRIGHT_CONTENT");
 }

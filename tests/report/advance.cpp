@@ -15,10 +15,12 @@ TEST_CASE("strokes and re-grips leave each angle once, with the torque it was re
     AdvanceBuilder builder(Direction::tighten);
     for (int stroke = 0; stroke < 4; ++stroke) {
         const double from = 0.1 * stroke;
-        for (int i = 0; i <= 10; ++i) builder.add(from, 10.0 * from * i / 10.0, Stage::linearity);  // loading at rest
-        builder.add(from, 99.0, Stage::linearity);                                              // sticks
-        for (int i = 1; i <= 10; ++i) builder.add(from + 0.01 * i, 10.0 * (from + 0.01 * i), Stage::linearity);
-        builder.add(from + 0.1, 0.0, Stage::linearity);                                         // wrench off
+        for (int i = 0; i <= 10; ++i)
+            builder.add(from, 10.0 * from * i / 10.0, Stage::linearity);  // loading at rest
+        builder.add(from, 99.0, Stage::linearity);                        // sticks
+        for (int i = 1; i <= 10; ++i)
+            builder.add(from + 0.01 * i, 10.0 * (from + 0.01 * i), Stage::linearity);
+        builder.add(from + 0.1, 0.0, Stage::linearity);  // wrench off
     }
     const Curve curve = builder.take();
     REQUIRE(curve.size() == 41);

@@ -13,7 +13,8 @@ using namespace bolt::report;
 
 namespace {
 
-record::TickRecord tick(int joint, double degrees, double torque, joint::Stage stage = joint::Stage::linearity) {
+record::TickRecord tick(int joint, double degrees, double torque,
+                        joint::Stage stage = joint::Stage::linearity) {
     record::TickRecord t;
     t.joint = static_cast<std::int16_t>(joint);
     t.nut_angle = static_cast<float>(to_radians(degrees));
@@ -90,7 +91,8 @@ TEST_CASE("snug, run-down and stages of a known joint") {
         CHECK(curve.stages[0].stage == joint::Stage::navigation);
         CHECK(curve.stages[1].stage == joint::Stage::transition);
         CHECK(curve.stages[2].stage == joint::Stage::linearity);
-        for (std::size_t i = 1; i < curve.stages.size(); ++i) CHECK(curve.stages[i].from == curve.stages[i - 1].to);
+        for (std::size_t i = 1; i < curve.stages.size(); ++i)
+            CHECK(curve.stages[i].from == curve.stages[i - 1].to);
         CHECK(curve.run_down.angle / (2.0 * pi) == doctest::Approx(18.0).epsilon(0.01));
         CHECK(curve.run_down.torque_high < 0.2);
         CHECK(curve.run_down.time == doctest::Approx(curve.run_down.angle / to_radians(540.0)).epsilon(0.05));
@@ -104,7 +106,8 @@ TEST_CASE("loosening counts the other way") {
     CurveBuilder builder(request);
     std::vector<record::TickRecord> ticks;
     for (int i = 0; i < 100; ++i)
-        ticks.push_back(tick(0, 100.0 - i, -50.0 * std::exp(-0.1 * i), i < 40 ? joint::Stage::linearity : joint::Stage::navigation));
+        ticks.push_back(tick(0, 100.0 - i, -50.0 * std::exp(-0.1 * i),
+                             i < 40 ? joint::Stage::linearity : joint::Stage::navigation));
     builder.add(0, ticks);
     const JointCurve curve = builder.finish()[0];
     CHECK(curve.visits[0].peak.torque == doctest::Approx(-50.0));
@@ -116,8 +119,8 @@ TEST_CASE("loosening counts the other way") {
 
 TEST_CASE("broken samples are left out, and many visits stay bounded") {
     CurveBuilder builder = builder_for(2);
-    std::vector<record::TickRecord> ticks = {tick(7, 1.0, 1.0), tick(-5, 1.0, 1.0), tick(0, std::nan(""), 1.0),
-                                             tick(0, 1.0, HUGE_VAL)};
+    std::vector<record::TickRecord> ticks = {tick(7, 1.0, 1.0), tick(-5, 1.0, 1.0),
+                                             tick(0, std::nan(""), 1.0), tick(0, 1.0, HUGE_VAL)};
     ticks.push_back(tick(0, 1.0, 1.0));
     ticks.back().stage = 200;
     builder.add(0, ticks);

@@ -19,7 +19,8 @@ std::vector<Point> noisy(std::uint64_t seed, std::size_t count) {
     bolt::Random random(seed);
     std::vector<Point> points;
     for (std::size_t i = 0; i < count; ++i)
-        points.push_back({0.01 * static_cast<double>(i), std::sin(0.002 * static_cast<double>(i)) + random.normal()});
+        points.push_back(
+            {0.01 * static_cast<double>(i), std::sin(0.002 * static_cast<double>(i)) + random.normal()});
     return points;
 }
 
@@ -43,8 +44,10 @@ TEST_CASE("decimation keeps the extremes of every column, the ends and the order
         };
         const std::vector<Point> before = in_column(all), after = in_column(few);
         REQUIRE_FALSE(after.empty());
-        CHECK(std::min_element(before.begin(), before.end(), by_y)->y == std::min_element(after.begin(), after.end(), by_y)->y);
-        CHECK(std::max_element(before.begin(), before.end(), by_y)->y == std::max_element(after.begin(), after.end(), by_y)->y);
+        CHECK(std::min_element(before.begin(), before.end(), by_y)->y ==
+              std::min_element(after.begin(), after.end(), by_y)->y);
+        CHECK(std::max_element(before.begin(), before.end(), by_y)->y ==
+              std::max_element(after.begin(), after.end(), by_y)->y);
     }
 }
 
@@ -87,7 +90,8 @@ TEST_CASE("a stream of any length fits its buckets and keeps its peaks") {
         CHECK(kept.size() <= 4 * 64);
         CHECK(kept.front().time == 0.0);
         CHECK(kept.back().time == doctest::Approx(0.001 * static_cast<double>(count - 1)));
-        CHECK(std::is_sorted(kept.begin(), kept.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.time < b.time; }));
+        CHECK(std::is_sorted(kept.begin(), kept.end(),
+                             [](const CurvePoint& a, const CurvePoint& b) { return a.time < b.time; }));
         const auto by_torque = [](const CurvePoint& a, const CurvePoint& b) { return a.torque < b.torque; };
         CHECK(std::min_element(kept.begin(), kept.end(), by_torque)->time == low.time);
         CHECK(std::max_element(kept.begin(), kept.end(), by_torque)->time == high.time);

@@ -84,7 +84,8 @@ TEST_CASE("the plan keeps distances and drawings are well-formed") {
     const double along = layout.at[5].x - layout.at[0].x, across = layout.at[6].y - layout.at[0].y;
     CHECK(along == doctest::Approx(400.0));
     CHECK(across / along == doctest::Approx(0.24 / 0.64));
-    for (const PassOrder& order : pass_orders(session.data)) CHECK(markup_fault(order_plan(session.data, order)) == "");
+    for (const PassOrder& order : pass_orders(session.data))
+        CHECK(markup_fault(order_plan(session.data, order)) == "");
     CHECK(markup_fault(clamp_plan(session.data)) == "");
     CHECK(markup_fault(clamp_rows(session.data)) == "");
 }

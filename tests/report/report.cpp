@@ -4,6 +4,7 @@
 
 #include "engine/base/math.hpp"
 #include "game/report/attempts.hpp"
+#include "game/report/html.hpp"
 #include "game/report/joint_plot.hpp"
 #include "game/report/section.hpp"
 #include "game/report/text.hpp"
@@ -15,7 +16,9 @@ using namespace bolt::report;
 
 namespace {
 
-std::string report_of(const SessionData& session) { return make_report(std::span<const SessionData>(&session, 1)); }
+std::string report_of(const SessionData& session) {
+    return make_report(std::span<const SessionData>(&session, 1));
+}
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -67,6 +70,17 @@ TEST_CASE("verdicts have a shape as well as a colour") {
     options.slips = true;
     const std::string html = report_of(synthetic_session(options).data);
     for (const char* mark : {"✓ OK", "▲ HIGH", "▼ LOW", "✕ stripped"}) CHECK_MESSAGE(has(html, mark), mark);
+}
+
+TEST_CASE("a verdict says what it is about where two things are judged") {
+    lesson::JointResult r;
+    r.overall = r.angle_verdict = lesson::Verdict::high;
+    r.torque_verdict = lesson::Verdict::ok;
+    CHECK(has(verdict_mark(r), "▲ HIGH angle<"));
+    r.torque_verdict = lesson::Verdict::high;
+    CHECK(has(verdict_mark(r), "▲ HIGH torque and angle<"));
+    r.angle_verdict = lesson::Verdict::none;
+    CHECK(has(verdict_mark(r), "▲ HIGH<"));
 }
 
 TEST_CASE("hostile names do no harm") {

@@ -9,16 +9,16 @@ namespace bolt::report {
 
 namespace {
 
-constexpr double lever = 2.55e-3;     // m, torque per clamp force
-constexpr double target = 206.0;      // N·m
-constexpr double yields_at = 80e3;    // N
+constexpr double lever = 2.55e-3;   // m, torque per clamp force
+constexpr double target = 206.0;    // N·m
+constexpr double yields_at = 80e3;  // N
 
 // Plays the hand: every tick is what a wrench on the nut would have shown.
 struct Hand {
     SyntheticSession& session;
     double dt;
-    std::vector<double> angle;        // degrees from the hand-started nut
-    double seat;                      // degrees
+    std::vector<double> angle;  // degrees from the hand-started nut
+    double seat;                // degrees
 
     void tick(int joint, double torque, servo::Grip grip) {
         record::TickRecord t;
@@ -127,8 +127,9 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     SessionData& data = session.data;
     data.assembly = synthetic_assembly();
     data.file = "out/session.bolt";
-    data.header = {"flange", "flange/assembly.json", "", "carbon", "mechanistic", "practice",
-                   "tighten", "expert", options.seed, options.dt, "boltwright 0.1.0"};
+    data.header = {
+        "flange", "flange/assembly.json", "",         "carbon",          "mechanistic", "practice", "tighten",
+        "expert", options.seed,           options.dt, "boltwright 0.1.0"};
     Random random(options.seed);
     const std::size_t count = data.assembly.joints.size();
     Hand hand{session, options.dt, std::vector<double>(count, 0.0), 360.0 * options.run_down_turns};
@@ -175,8 +176,10 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
         data.joints[data.assembly.passes[2].order[6]].order_errors = 1;
         data.joints[11].condition = joint::Condition::stripped;
         data.joints[11].overall = lesson::Verdict::high;
-        data.reasons = {{100.0, "twelve joints to do"}, {-8.0, "J05: torque 12 % above the target"},
-                        {-4.0, "one joint taken out of turn"}, {-1.5, "J08: hit again after it was done"}};
+        data.reasons = {{100.0, "twelve joints to do"},
+                        {-8.0, "J05: torque 12 % above the target"},
+                        {-4.0, "one joint taken out of turn"},
+                        {-1.5, "J08: hit again after it was done"}};
     } else {
         data.reasons = {{100.0, "twelve joints to do"}, {-1.0, "scatter of the clamp force above 3 %"}};
     }

@@ -1,5 +1,6 @@
-// A session made up for the tests of pages and plots: twelve joints of a flange, tightened stroke by stroke in passes.
-// Its curve is a closed form, so that what is drawn can be checked; it claims nothing about real joints.
+// A session made up for the tests of pages and plots: twelve joints of a flange, tightened stroke by stroke
+// in passes. Its curve is a closed form, so that what is drawn can be checked; it claims nothing about real
+// joints.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +13,10 @@ namespace bolt::report {
 
 struct SyntheticOptions {
     std::uint64_t seed = 1;
-    double scatter = 0.03;          // of the torque at which the wrench is let go
-    bool slips = false;             // a swap in the order, an over-tightened and an unfinished joint, a broken one
+    double scatter = 0.03;  // of the torque at which the wrench is let go
+    bool slips = false;     // a swap in the order, an over-tightened and an unfinished joint, a broken one
     bool cut_short = false;
-    double dt = 0.01;               // s
+    double dt = 0.01;  // s
     double run_down_turns = 18.0;
 };
 

@@ -17,9 +17,9 @@ TEST_CASE("bytes that are no UTF-8 are replaced") {
     CHECK(escape(std::string_view("a\0b", 3)) == "a" + bad + "b");
     CHECK(escape("\x1B[0m") == bad + "[0m");
     CHECK(escape("\xFF") == bad);
-    CHECK(escape("\xC0\xAF") == bad + bad);          // overlong '/'
+    CHECK(escape("\xC0\xAF") == bad + bad);            // overlong '/'
     CHECK(escape("\xED\xA0\x80") == bad + bad + bad);  // half of a surrogate pair
-    CHECK(escape("\xE2\x82") == bad + bad);          // cut off
+    CHECK(escape("\xE2\x82") == bad + bad);            // cut off
 }
 
 TEST_CASE("numbers have a true minus and no negative zero") {

@@ -25,8 +25,8 @@ struct MarkupChecker {
     }
     std::string name() {
         const std::size_t from = at;
-        while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '-' ||
-                                    text[at] == ':'))
+        while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 ||
+                                    text[at] == '-' || text[at] == ':'))
             ++at;
         return std::string(text.substr(from, at - from));
     }
@@ -105,7 +105,9 @@ inline std::string markup_fault(std::string_view text) {
 // How often `part` occurs.
 inline std::size_t count_of(std::string_view text, std::string_view part) {
     std::size_t count = 0;
-    for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size())) ++count;
+    for (std::size_t at = text.find(part); at != std::string_view::npos;
+         at = text.find(part, at + part.size()))
+        ++count;
     return count;
 }
 

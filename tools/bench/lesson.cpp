@@ -45,15 +45,15 @@ void headless_lesson_unrecorded(benchmark::State& state) {
         state.SkipWithError(loaded.errors.front().message().c_str());
         return;
     }
-    const auto setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, {}, 1, 1e-3);
+    const servo::Setup setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, {}, 1, 1e-3);
     double seconds = 0.0;
     for (auto _ : state) {
-        servo::State servo = servo::initial_state(*setup);
+        servo::State servo = servo::initial_state(setup);
         lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
-        operators::Operator trainee(operators::find_profile("expert").value(), 1, *setup);
+        operators::Operator trainee(operators::find_profile("expert").value(), 1, setup);
         while (lesson.due() != nullptr && servo.tick < 7'200'000) {
-            const servo::Input input = trainee.act(*setup, servo, lesson);
-            const servo::Output output = servo::tick(*setup, servo, input);
+            const servo::Input input = trainee.act(setup, servo, lesson);
+            const servo::Output output = servo::tick(setup, servo, input);
             lesson::observe(lesson, servo, input, output);
             lesson.events.clear();
         }
