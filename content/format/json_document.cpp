@@ -7,7 +7,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "content/format/json_pointer.hpp"
 #include "content/format/json_syntax.hpp"
+#include "content/format/wording.hpp"
 
 namespace bolt::content {
 
@@ -275,49 +277,6 @@ Error JsonDocument::error(std::string_view pointer, Part part, std::string what,
 
 int JsonDocument::line(std::string_view pointer, Part part) const {
     return error_at(offset(pointer, part), {}, {}).line;
-}
-
-std::string pointer_token(std::string_view key) {
-    std::string token;
-    for (const char c : key) {
-        if (c == '~')
-            token += "~0";
-        else if (c == '/')
-            token += "~1";
-        else
-            token += c;
-    }
-    return token;
-}
-
-std::vector<std::string> pointer_tokens(std::string_view pointer) {
-    std::vector<std::string> tokens;
-    for (std::size_t i = 0; i < pointer.size(); ++i) {
-        if (pointer[i] == '/') {
-            tokens.emplace_back();
-        } else if (pointer[i] == '~' && i + 1 < pointer.size()) {
-            tokens.back() += pointer[++i] == '1' ? '/' : '~';
-        } else {
-            tokens.back() += pointer[i];
-        }
-    }
-    return tokens;
-}
-
-std::string in_quotes(std::string_view text) {
-    constexpr std::size_t longest = 60;
-    std::string shown = "\"";
-    std::size_t end = text.size();
-    if (end > longest) {
-        end = longest;
-        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
-            --end;  // not inside a character
-    }
-    for (const char c : text.substr(0, end)) {
-        const auto byte = static_cast<unsigned char>(c);
-        shown += byte < 0x20 || byte == 0x7F ? '?' : c;
-    }
-    return shown + (end < text.size() ? "\"..." : "\"");
 }
 
 }  // namespace bolt::content

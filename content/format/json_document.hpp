@@ -53,13 +53,4 @@ class JsonDocument {
     std::unique_ptr<Content> content_;
 };
 
-// One reference token of a JSON pointer, escaped (RFC 6901): "a/b" becomes "a~1b".
-std::string pointer_token(std::string_view key);
-
-// The tokens of a JSON pointer, unescaped.
-std::vector<std::string> pointer_tokens(std::string_view pointer);
-
-// A text of the file as a message shows it: quoted, cut when long, without control characters.
-std::string in_quotes(std::string_view text);
-
 }  // namespace bolt::content

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "content/format/json_document.hpp"
+#include "content/format/wording.hpp"
 #include "engine/base/nearest.hpp"
 
 namespace bolt::content {

@@ -8,8 +8,8 @@
 
 #include "content/format/json_document.hpp"
 #include "content/format/read_assembly.hpp"
+#include "content/format/wording.hpp"
 #include "engine/base/file.hpp"
-#include "engine/base/nearest.hpp"
 
 namespace bolt::content {
 
@@ -43,6 +43,18 @@ Loaded failed(std::string file, std::string what, std::string expected) {
     Loaded loaded;
     loaded.errors.push_back(std::move(error));
     return loaded;
+}
+
+Loaded unknown_assembly(const std::string& name, const fs::path& content,
+                        const std::vector<std::string>& names) {
+    const std::string best = meant(name, names);
+    std::string there =
+        fmt::format("{}there are: {}", best.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(best)),
+                    fmt::join(names, ", "));
+    if (names.empty())
+        there = content.empty() ? "no content/ was found: BOLTWRIGHT_CONTENT says where it is"
+                                : "content/ holds no assemblies";
+    return failed(name, "there is no such folder, file or assembly", std::move(there));
 }
 
 std::string folder_name(const fs::path& file) {
@@ -84,24 +96,16 @@ Loaded parse_assembly(std::string_view text, std::string_view file, std::string_
 
 Loaded load_assembly(const fs::path& where, std::string_view variant) {
     std::error_code ignored;
-    fs::path file = where;
-    if (fs::is_directory(where, ignored)) {
-        file = where / "assembly.json";
-        if (!fs::exists(file, ignored))
-            return failed(where.string(), "this folder has no assembly.json",
-                          "expected a folder of an assembly");
-    } else if (!fs::exists(where, ignored)) {
+    const bool folder = fs::is_directory(where, ignored);
+    fs::path file = folder ? where / "assembly.json" : where;
+    if (!fs::exists(file, ignored)) {
         const fs::path content = content_folder();
         const std::vector<std::string> names = assembly_names(content);
-        const std::string name = where.string();
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
-            const std::string best = nearest(name, names);
-            return failed(name, "there is no such folder, file or assembly",
-                          fmt::format("{}there are: {}",
-                                      best.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(best)),
-                                      names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
-        }
-        file = content / "assemblies" / name / "assembly.json";
+        if (std::find(names.begin(), names.end(), where.string()) == names.end())
+            return folder ? failed(where.string(), "this folder has no assembly.json",
+                                   "expected a folder of an assembly")
+                          : unknown_assembly(where.string(), content, names);
+        file = content / "assemblies" / where / "assembly.json";
     }
     const auto text = read_file(file, json_size_limit, ErrorCode::bad_content);
     if (!text) {

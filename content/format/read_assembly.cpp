@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "content/format/suggest.hpp"
+#include "content/format/json_pointer.hpp"
+#include "content/format/wording.hpp"
 
 namespace bolt::content {
 

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "content/format/suggest.hpp"
+#include "content/format/json_pointer.hpp"
+#include "content/format/wording.hpp"
 
 namespace bolt::content {
 

@@ -2,9 +2,10 @@
 
 #include <map>
 
+#include "content/format/json_pointer.hpp"
 #include "content/format/read_assembly.hpp"
 #include "content/format/read_joint_type.hpp"
-#include "content/format/suggest.hpp"
+#include "content/format/wording.hpp"
 
 namespace bolt::content {
 

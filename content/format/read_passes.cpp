@@ -6,7 +6,7 @@
 #include <set>
 
 #include "content/format/read_assembly.hpp"
-#include "content/format/suggest.hpp"
+#include "content/format/wording.hpp"
 
 namespace bolt::content {
 

@@ -7,10 +7,7 @@ namespace bolt::content {
 joint::PublishedParameters read_published(Reader& reader) {
     joint::PublishedParameters p;
     const Layers file(reader, {reader.member(reader.root(), "published")});
-    const auto read = [&](std::string_view key, double& value, double unit = 1.0) {
-        value = file.number(key).value_or(value / unit) * unit;
-    };
-    constexpr double degree = pi / 180.0;
+    const auto read = [&](std::string_view key, double& value) { value = file.number(key).value_or(value); };
     read("nut_mass_g", p.nut_mass_g);
     read("mu", p.mu);
     read("mu1", p.mu1);
@@ -32,8 +29,8 @@ joint::PublishedParameters read_published(Reader& reader) {
     read("transition_width_deg", p.transition_width_deg);
     read("contact_end_mm2", p.contact_end_mm2);
     // Only where they are given: the printed values must come through to the last bit.
-    if (const auto alpha = file.number("alpha_deg")) p.alpha = *alpha * degree;
-    if (const auto beta = file.number("beta_deg")) p.beta = *beta * degree;
+    if (const auto alpha = file.number("alpha_deg")) p.alpha = to_radians(*alpha);
+    if (const auto beta = file.number("beta_deg")) p.beta = to_radians(*beta);
     if (const auto turns = file.number("theta_max_turns")) p.theta_max_deg = *turns * 360.0;
     const std::vector<Node> rates = reader.items(file.find("spring_rates_MN_per_mm"));
     for (std::size_t i = 0; i < rates.size() && i < std::size(p.spring_rates_1e6); ++i)

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "content/format/json_pointer.hpp"
+
 namespace bolt::content {
 
 using nlohmann::json;
@@ -125,11 +127,6 @@ Found<bool> Layers::boolean(std::string_view key) const {
 bool Layers::sound() const {
     return std::all_of(objects_.begin(), objects_.end(),
                        [&](const Node& n) { return reader_.sound(n.pointer); });
-}
-
-std::string last_token(std::string_view pointer) {
-    const std::vector<std::string> tokens = pointer_tokens(pointer);
-    return tokens.empty() ? std::string{} : tokens.back();
 }
 
 }  // namespace bolt::content

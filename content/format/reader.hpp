@@ -82,7 +82,4 @@ class Layers {
     std::vector<Node> objects_;  // those that are there
 };
 
-// The last token of a JSON pointer, unescaped.
-std::string last_token(std::string_view pointer);
-
 }  // namespace bolt::content

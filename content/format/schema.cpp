@@ -7,6 +7,7 @@
 #include <set>
 
 #include "content/format/embedded.hpp"
+#include "content/format/json_pointer.hpp"
 #include "content/format/schema_explain.hpp"
 #include "content/format/schema_validator.hpp"
 

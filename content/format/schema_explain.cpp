@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "content/format/json_document.hpp"
-#include "content/format/suggest.hpp"
+#include "content/format/wording.hpp"
 
 namespace bolt::content {
 

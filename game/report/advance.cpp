@@ -99,8 +99,8 @@ Result<std::vector<std::optional<Curve>>> advance_curves(const record::Reader& s
         for (const record::TickRecord& tick : ticks) {
             if (tick.joint < 0 || static_cast<std::size_t>(tick.joint) >= joints) continue;
             const auto stage = static_cast<joint::Stage>(std::min<int>(tick.stage, joint::stage_count - 1));
-            builders[static_cast<std::size_t>(tick.joint)].add(double{tick.nut_angle},
-                                                               double{tick.wrench_torque}, stage);
+            builders[static_cast<std::size_t>(tick.joint)].add(
+                static_cast<double>(tick.nut_angle), static_cast<double>(tick.wrench_torque), stage);
         }
     });
     if (!read) return fail(read.error());

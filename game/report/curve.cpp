@@ -106,12 +106,9 @@ void CurveBuilder::add(std::uint64_t first_tick, std::span<const record::TickRec
         const std::vector<std::uint64_t>& begins = request_.pass_begins;
         const auto begun = std::upper_bound(begins.begin(), begins.end(), at) - begins.begin();
         const int pass = std::max(0, static_cast<int>(begun) - 1);
-        const CurvePoint point{static_cast<double>(at) * request_.dt,
-                               double{tick.nut_angle},
-                               double{tick.wrench_torque},
-                               double{tick.clamp},
-                               static_cast<joint::Stage>(tick.stage),
-                               0};
+        const CurvePoint point{static_cast<double>(at) * request_.dt,   static_cast<double>(tick.nut_angle),
+                               static_cast<double>(tick.wrench_torque), static_cast<double>(tick.clamp),
+                               static_cast<joint::Stage>(tick.stage),   0};
         if (tick.joint != open_joint_ || pass != open_pass_) {
             if (open_joint_ >= 0) end_visit(joints_[static_cast<std::size_t>(open_joint_)]);
             open_joint_ = tick.joint;

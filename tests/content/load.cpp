@@ -102,7 +102,7 @@ TEST_CASE("BOLTWRIGHT_CONTENT says where content/ is") {
     {
         const ContentVariable variable("/nowhere");
         CHECK(content::content_folder().empty());
-        CHECK(only_error("zq350").expected == "there are: none");
+        CHECK(only_error("zq350").expected == "no content/ was found: BOLTWRIGHT_CONTENT says where it is");
     }
     const ContentVariable variable(found.c_str());
     CHECK(content::content_folder() == found);

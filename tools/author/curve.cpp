@@ -10,13 +10,14 @@
 #include "engine/base/file.hpp"
 #include "engine/base/nearest.hpp"
 #include "tools/author/commands.hpp"
+#include "tools/author/curve_plot.hpp"
 
 namespace bolt::author {
 
 namespace {
 
 struct Options {
-    std::string assembly, variant, joint, law, direction = "tighten", csv;
+    std::string assembly, variant, joint, law, direction = "tighten", csv, svg;
 };
 
 Result<std::size_t> find_joint(const content::Assembly& assembly, const std::string& id) {
@@ -31,7 +32,14 @@ Result<std::size_t> find_joint(const content::Assembly& assembly, const std::str
                              : fmt::format("did you mean {}?", best));
 }
 
-int run(const Options& options) {
+int run_curve(const Options& options) {
+    if (options.csv.empty() && options.svg.empty()) {
+        Error error;
+        error.code = ErrorCode::usage;
+        error.what = "there is nothing to write";
+        error.expected = "--csv FILE or --svg FILE";
+        return complain(error);
+    }
     const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
     if (!loaded.ok()) return complain(loaded.errors);
     const content::Assembly& assembly = loaded.assembly;
@@ -50,8 +58,17 @@ int run(const Options& options) {
     curve.direction = options.direction == "loosen" ? joint::Direction::loosen : joint::Direction::tighten;
     curve.torque = assembly.joints[*joint].spec.torque.target;
 
+    const std::vector<joint::CurveSample> run = joint::torque_angle_curve(group, curve);
+    if (!options.svg.empty()) {
+        const std::string title =
+            fmt::format("{} {}, law {}, {}", assembly.name, options.joint, name(law), options.direction);
+        const Status kept =
+            write_file(options.svg, curve_svg(assembly.joints[*joint], run, curve.direction, title));
+        if (!kept) return complain(kept.error());
+    }
+    if (options.csv.empty()) return 0;
     std::string text = "angle_deg,stage,torque_Nm,clamp_N\n";
-    for (const joint::CurveSample& s : joint::torque_angle_curve(group, curve))
+    for (const joint::CurveSample& s : run)
         fmt::format_to(std::back_inserter(text), "{:.4f},{},{:.7g},{:.6g}\n", to_degrees(s.angle),
                        name(s.stage), s.torque, s.clamp);
     if (options.csv != "-") {
@@ -79,8 +96,9 @@ void add_curve(CLI::App& app, int& exit_code) {
     curve->add_option("--direction", options->direction)
         ->check(CLI::IsMember({"tighten", "loosen"}))
         ->capture_default_str();
-    curve->add_option("--csv", options->csv, "CSV file to write, - for stdout")->required();
-    curve->callback([options, &exit_code] { exit_code = run(*options); });
+    curve->add_option("--csv", options->csv, "CSV file to write, - for stdout");
+    curve->add_option("--svg", options->svg, "Drawing to write");
+    curve->callback([options, &exit_code] { exit_code = run_curve(*options); });
 }
 
 }  // namespace bolt::author

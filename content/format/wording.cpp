@@ -1,14 +1,29 @@
-#include "content/format/suggest.hpp"
+#include "content/format/wording.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "content/format/json_document.hpp"
 #include "engine/base/nearest.hpp"
 
 namespace bolt::content {
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t longest = 60;
+    std::string shown = "\"";
+    std::size_t end = text.size();
+    if (end > longest) {
+        end = longest;
+        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+            --end;  // not inside a character
+    }
+    for (const char c : text.substr(0, end)) {
+        const auto byte = static_cast<unsigned char>(c);
+        shown += byte < 0x20 || byte == 0x7F ? '?' : c;
+    }
+    return shown + (end < text.size() ? "\"..." : "\"");
+}
 
 std::string meant(std::string_view name, std::span<const std::string> known) {
     std::string best = nearest(name, known);

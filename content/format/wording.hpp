@@ -1,4 +1,4 @@
-// What an author may have meant by a name that is not there.
+// How messages show the names of a file, and what an author may have meant by one that is not there.
 #pragma once
 
 #include <span>
@@ -6,6 +6,9 @@
 #include <string_view>
 
 namespace bolt::content {
+
+// A text of the file as a message shows it: quoted, cut when long, without control characters.
+std::string in_quotes(std::string_view text);
 
 // The one known name that is near enough to be what was meant; empty if none is, or several are as near.
 std::string meant(std::string_view name, std::span<const std::string> known);

@@ -1,0 +1,128 @@
+#!/usr/bin/env bash
+# The programs as their users call them: options, exit codes, messages, files. $1: folder of the programs, $2: sources.
+set -uo pipefail
+bin=$1
+sources=$2
+export BOLTWRIGHT_CONTENT=$sources/content
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failed=0
+passed=0
+
+# expect CODE 'pattern of what it says' command...
+expect() {
+    local code=$1 pattern=$2
+    shift 2
+    local said status
+    said=$("$@" 2>&1)
+    status=$?
+    if [[ $status -eq $code ]] && grep -qE -- "$pattern" <<<"$said"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $* -> exit $status, wanted $code and /$pattern/"
+        head -5 <<<"$said"
+    fi
+}
+check() {  # check 'what' command...
+    local what=$1
+    shift
+    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $what"; fi
+}
+
+# The author's tool.
+expect 0 '"preload_kN":80\.8' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12 --json
+expect 0 '"preload_kN":87\.5' "$bin/bolt-author" torque --size M16 --pitch 1.5 --class 8.8 --mu 0.12 --json
+expect 0 'torque_Nm 205\.8' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12
+expect 2 'did you mean "M16"' "$bin/bolt-author" torque --size N16 --class 8.8
+expect 2 'did you mean "8.8"' "$bin/bolt-author" torque --size M16 --class 88
+expect 2 '' "$bin/bolt-author" torque --size M16 --class 8.8 --mu -1
+expect 2 '' "$bin/bolt-author"
+expect 0 'boltwright|bolt-author' "$bin/bolt-author" --version
+
+expect 0 '^$' "$bin/bolt-author" curve zq350 --joint B1 --law published --csv published.csv
+check "the published curve begins with its header and -0.5761 N mm" \
+    bash -c '[[ $(head -1 published.csv) == angle_deg,stage,torque_Nm,clamp_N && $(sed -n 2p published.csv) == 0.0000,navigation,-0.00057612* ]]'
+check "... and ends at 72.126 N m" bash -c 'tail -1 published.csv | grep -q ",yield,72\.12"'
+check "... with 14.354 N m per degree in the linear stage" awk -F, '
+    $2 == "linearity" { if (n++) { s = ($3 - t) / ($1 - a); if (s < 14.352 || s > 14.356) bad = 1 } a = $1; t = $3 }
+    END { exit !(n > 100 && !bad) }' published.csv
+expect 0 'angle_deg,stage' "$bin/bolt-author" curve zq350 --joint F1 --direction loosen --csv -
+expect 2 'did you mean B1' "$bin/bolt-author" curve zq350 --joint b1 --csv -
+expect 2 'nothing to write' "$bin/bolt-author" curve zq350 --joint B1
+expect 1 'cannot be written' "$bin/bolt-author" curve zq350 --joint B1 --csv none/there.csv
+expect 1 'cannot be written' bash -c "'$bin/bolt-author' curve zq350 --joint B1 --csv - > /dev/full"
+expect 0 '^$' "$bin/bolt-author" curve zq350 --joint F1 --svg torque-angle.svg
+check "the README's picture is what the program draws" cmp torque-angle.svg "$sources/docs/torque-angle.svg"
+
+expect 0 'no mistakes' "$bin/bolt-author" validate zq350 cover-m8
+expect 0 'variant stainless' "$bin/bolt-author" validate zq350 --variant stainless
+expect 3 'did you mean|nearest' "$bin/bolt-author" validate zq35
+expect 3 '' "$bin/bolt-author" validate /dev/null
+
+# A new assembly, a mistake in it, and a lesson on it.
+expect 0 'assembly.json' "$bin/bolt-author" new pump-cover
+expect 0 'no mistakes' "$bin/bolt-author" validate pump-cover
+expect 2 "not empty" "$bin/bolt-author" new pump-cover
+mkdir broken && sed 's/"friction_thread": *[0-9.]*/"frction_thread": 0.12/; s/"size": *"M8"/"size": "N8"/' \
+    pump-cover/assembly.json > broken/assembly.json
+expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*friction_thread' "$bin/bolt-author" validate broken
+expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*M8' "$bin/bolt-author" validate broken
+expect 3 'friction_thread' "$bin/boltwright" train broken --headless --out "$work/never"
+check "bad content leaves no folder behind" test ! -e never
+expect 0 'score' "$bin/boltwright" train pump-cover --headless --quiet --out pump
+
+# A lesson, its files, and what can be done with them.
+expect 0 'score [0-9.]+ of 100' "$bin/boltwright" train --headless --operator novice --seed 4 --out a
+for file in session.boltwright summary.json report.html; do check "train leaves $file" test -s "a/$file"; done
+expect 0 '"operator": "novice"' cat a/summary.json
+expect 0 'simulated trainee plays' "$bin/boltwright" train cover-m8 --out window
+expect 0 'score' "$bin/boltwright" train --headless --quiet --operator novice --seed 4 --out b
+check "the same seed gives the same summary" cmp a/summary.json b/summary.json
+check "the same seed gives the same session, byte by byte, as CSV" bash -c "
+    '$bin/boltwright' export a/session.boltwright --csv - | sha256sum > a.sum &&
+    '$bin/boltwright' export b/session.boltwright --csv - | sha256sum > b.sum && cmp a.sum b.sum"
+expect 0 'report2.html' "$bin/boltwright" report a/session.boltwright b/session.boltwright --html report2.html
+check "two sessions make one page" grep -q '<html' report2.html
+expect 0 '' "$bin/boltwright" export a/session.boltwright --csv ticks.csv
+check "a row a tick, and a header" bash -c '[[ $(wc -l < ticks.csv) -gt 300000 ]] && head -1 ticks.csv | grep -q wrench_torque_Nm'
+expect 1 'full|written' bash -c "'$bin/boltwright' export a/session.boltwright --csv - > /dev/full"
+
+# Loosening, held against measured runs.
+expect 0 'score' "$bin/boltwright" train cover-m8 --headless --quiet --task loosen --out loose
+expect 0 'Al Assadi' "$bin/boltwright" compare loose/session.boltwright "$sources/tests/data/m8_releasable.csv" --html m8.html
+expect 0 'MAPE' "$bin/boltwright" compare loose/session.boltwright "$sources/tests/data/m8_releasable.csv" --html m8.html
+check "compare names the source on the page" grep -q 'Al Assadi' m8.html
+expect 0 'MAPE' bash -c "'$bin/bolt-author' curve zq350 --joint F1 --csv m.csv && '$bin/boltwright' compare a/session.boltwright m.csv --joint F1 --html m.html"
+expect 1 'm8_releasable|loosen' "$bin/boltwright" compare a/session.boltwright "$sources/tests/data/m8_releasable.csv"
+printf 'angle,torque\n1,2\n' > wrong.csv
+expect 3 'wrong.csv:1' "$bin/boltwright" compare a/session.boltwright wrong.csv
+
+# What is wrong is said, with the right exit code.
+expect 2 '' "$bin/boltwright"
+expect 2 '' "$bin/boltwright" train --mode hard
+expect 2 'did you mean expert' "$bin/boltwright" train --headless --operator exprt --out never
+expect 4 'no headset' "$bin/boltwright" train --headless --hmd --out never
+expect 4 'no driver for a device' "$bin/boltwright" train --headless --device omega7 --out never
+expect 4 'no driver for a glove' "$bin/boltwright" train --headless --glove /dev/ttyS0 --out never
+expect 1 'cannot be made|Not a directory' "$bin/boltwright" train --headless --quiet --out /dev/null/out
+expect 1 'session' "$bin/boltwright" report ticks.csv --html never.html
+expect 1 'nowhere' "$bin/boltwright" report nowhere --html never.html
+
+# Killed in the middle: what was recorded opens, reports, and says that it was cut short.
+for delay in 0.05 0.15 0.3; do
+    rm -rf killed
+    "$bin/boltwright" train --headless --quiet --operator novice --out killed >/dev/null 2>&1 &
+    victim=$!
+    sleep "$delay"
+    kill -9 $victim 2>/dev/null
+    wait $victim 2>/dev/null
+    if [[ -s killed/session.boltwright && ! -e killed/summary.json ]]; then
+        expect 0 'cut short' "$bin/boltwright" report killed/session.boltwright --html killed.html
+        check "the page says so too" grep -qi 'cut short' killed.html
+    fi
+done
+
+echo "$passed passed, $failed failed"
+[[ $failed -eq 0 ]]
