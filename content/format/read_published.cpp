@@ -40,10 +40,10 @@ joint::PublishedParameters read_published(Reader& reader) {
     if (p.D1_mm <= p.D2_mm)
         reader.report(file.objects()[0].pointer, fmt::format("D1 of {:g} mm is no larger than D2", p.D1_mm),
                       fmt::format("expected more than {:g} mm", p.D2_mm));
-    const double end_of_yield = joint::published_yield_torque(p, p.theta_max_deg - p.yield_width_deg);
-    if (end_of_yield <= 0.0)
+    const double yield_start = joint::published_yield_torque(p, p.theta_max_deg - p.yield_width_deg);
+    if (yield_start <= 0.0)
         reader.report(file.objects()[0].pointer,
-                      fmt::format("the torque would be {:.1f} N·m where yield begins", end_of_yield),
+                      fmt::format("the torque would be {:.1f} N·m where yield begins", yield_start),
                       "expected a smaller kappa1_Nm_per_deg2 or yield_width_deg, or a larger T_max_Nm");
     else if (const double start = joint::published_boundaries(p).transition; start <= 0.0)
         reader.report(file.objects()[0].pointer,

@@ -213,8 +213,9 @@ void Operator::Mind::pull(const Feeling& felt) {
     } else {
         // It allows for the torque that will still come while it reacts.
         const double coming = profile.anticipation * profile.reaction * std::max(felt.torque_rate, 0.0);
-        intent.finished =
-            load + coming >= intent.goal || (intent.stops_at_yield && felt.yields && load >= intent.least);
+        intent.finished = load + coming >= intent.goal ||
+                          (intent.stops_at_yield && felt.yields && load >= intent.least) ||
+                          (intent.checks && joint().nut.angle - begin_angle > seen_turn);
     }
     if (intent.finished || std::abs(handle - stroke_begin) >= profile.stroke)
         enter(Phase::ease, unwinding_time);

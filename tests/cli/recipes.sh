@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Walks the recipes: every sh block of CONTRIBUTING.md, in order, in an empty folder. $1: programs, $2: sources.
+set -euo pipefail
+export PATH="$1:$PATH" SOURCES="$2" BOLTWRIGHT_CONTENT="$2/content"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$2/CONTRIBUTING.md" > "$work/recipes.sh"
+[[ $(grep -c . "$work/recipes.sh") -ge 10 ]] || { echo "no recipes found"; exit 1; }
+cd "$work"
+bash -euxo pipefail recipes.sh > said 2>&1 || { cat said; exit 1; }
+for file in pump-cover/assembly.json after.svg loosened/report.html compare.html ticks.csv; do
+    [[ -s $file ]] || { echo "the recipes left no $file"; exit 1; }
+done
+grep -q '"id": "B5"' five/summary.json
+cmp -s before.csv after.csv && { echo "the change of the torque changed nothing"; exit 1; }
+
+# What README.md shows exists: every command of it is known to its program.
+while read -r program command _; do
+    "$program" "$command" --help >/dev/null || { echo "README.md: $program $command is unknown"; exit 1; }
+done < <(grep -hoE '^(boltwright|bolt-author) [a-z]+' "$2/README.md" | sort -u)
+echo "recipes walked"

@@ -1,0 +1,15 @@
+// Measured records: any bytes end in a record or in an error that names a line, never in a crash.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "game/compare/measured.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const auto measured = bolt::compare::parse_measured(text, "fuzz.csv");
+    if (!measured && measured.error().message().empty()) std::abort();
+    return 0;
+}

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Every fuzzer for a fixed number of runs and a fixed seed, from the corpus that is shipped. $1: folder of the programs.
+set -euo pipefail
+bin=$1
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0
+smoke() {  # smoke NAME RUNS options...
+    local name=$1 runs=$2
+    shift 2
+    mkdir -p "$work/$name"
+    "$bin/fuzz_$name" -runs="$runs" -seed=1 -verbosity=0 -artifact_prefix="$work/" "$@" "$work/$name" \
+        > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+    passed=$((passed + 1))
+}
+smoke assembly 20000 -dict="$here/assembly.dict" "$bin/../corpus/assembly"
+smoke chunk 50000
+smoke measured 100000 "$bin/../corpus/measured"
+echo "$passed passed, 0 failed"
