@@ -1,9 +1,7 @@
 // boltwright: the trainer. The commands are in game/cli.
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
-
 #include "game/cli/commands.hpp"
+#include "game/cli/program.hpp"
 
 int main(int argc, char** argv) {
     CLI::App app("Boltwright trains people to assemble bolted joints by feel.", "boltwright");
@@ -14,13 +12,5 @@ int main(int argc, char** argv) {
     bolt::cli::add_report(app, exit_code);
     bolt::cli::add_export(app, exit_code);
     bolt::cli::add_compare(app, exit_code);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {  // out of memory, say
-        (void)std::fprintf(stderr, "error: %s\n", error.what());
-        return 1;
-    }
-    return exit_code;
+    return bolt::cli::run_program(app, argc, argv, exit_code);
 }

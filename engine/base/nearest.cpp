@@ -35,14 +35,15 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
     const std::size_t limit = std::max<std::size_t>(1, (name.size() + 1) / 3);
     std::string best;
     std::size_t best_distance = limit + 1;
+    bool tie = false;
     for (const std::string& candidate : candidates) {
         const std::size_t distance = edit_distance(name, candidate);
-        if (distance < best_distance) {
-            best = candidate;
-            best_distance = distance;
-        }
+        if (distance > best_distance || distance > limit) continue;
+        tie = distance == best_distance;
+        best_distance = distance;
+        best = candidate;
     }
-    return best;
+    return tie ? std::string() : best;  // between two as near as each other we would only guess
 }
 
 }  // namespace bolt

@@ -139,17 +139,28 @@ void add_visits(Plot& plot, const JointCurve& curve, const JointView& view, bool
     }
 }
 
+// A re-check that only saw the nut begin to move shows its breakaway, which is not what it was tightened with
+// (as game/lesson judges it).
+bool is_judged(const SessionData& session, const Visit& visit) {
+    const auto pass = static_cast<std::size_t>(visit.pass);
+    const std::vector<content::Pass>& passes = session.assembly.passes;
+    const bool check =
+        !is_loosening(session) && pass < passes.size() && passes[pass].kind == content::StepKind::recheck;
+    return !check || std::abs(visit.release.angle - visit.begin_angle) > to_radians(2.0);
+}
+
 void add_marks(Plot& plot, const SessionData& session, const JointCurve& curve, const JointView& view) {
     const bool loosening = is_loosening(session);
     const std::vector<content::Pass>& passes = session.assembly.passes;
     const Visit* highest = nullptr;
     for (const Visit& visit : curve.visits) {
         if (!visit.worked) continue;
-        if (highest == nullptr || std::abs(visit.peak.torque) >= std::abs(highest->peak.torque))
+        const auto pass = static_cast<std::size_t>(visit.pass);
+        if (is_judged(session, visit) &&
+            (highest == nullptr || std::abs(visit.peak.torque) >= std::abs(highest->peak.torque)))
             highest = &visit;
         const double at = visit.release.angle;
         if (!is_in_view(view, at, loosening)) continue;
-        const auto pass = static_cast<std::size_t>(visit.pass);
         const bool named = !session.pass_texts.empty() && pass < passes.size() &&
                            passes[pass].kind == content::StepKind::tighten && passes[pass].fraction < 1.0;
         plot.marks.push_back({{drawn_angle(view, at, loosening), clamp_kN(visit.release)},

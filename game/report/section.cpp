@@ -198,7 +198,7 @@ std::string legend() {
     box("s3", "yield");
     box("win", "torque window");
     box("wins", "angle window, along the axis");
-    out += item("<circle cx=\"11\" cy=\"7\" r=\"3.5\" class=\"mpeak\"/>", "highest torque");
+    out += item("<circle cx=\"11\" cy=\"7\" r=\"3.5\" class=\"mpeak\"/>", "highest torque, judged");
     out += item("<rect x=\"7.5\" y=\"3.5\" width=\"7\" height=\"7\" class=\"mclamp\"/>", "wrench released");
     return out + "</ul>\n";
 }

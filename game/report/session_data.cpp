@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "content/format/load.hpp"
+#include "game/lesson/plan.hpp"
 #include "haptics/joint/torque.hpp"
 
 namespace bolt::report {
@@ -40,7 +41,8 @@ Result<content::Assembly> stored_assembly(const record::Reader& session) {
     }
     for (const joint::Law law : {joint::Law::published, joint::Law::mechanistic})
         if (header.law == joint::name(law)) loaded.assembly.law = law;
-    return std::move(loaded.assembly);
+    const joint::Law law = loaded.assembly.law;
+    return lesson::under_law(std::move(loaded.assembly), law);
 }
 
 std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assembly,

@@ -31,7 +31,7 @@ struct SessionData {
     }
 };
 
-// The assembly that is stored in a session, with the session's law.
+// The assembly that is stored in a session as it was played: its law and what that law makes of the targets.
 Result<content::Assembly> stored_assembly(const record::Reader& session);
 
 Result<SessionData> read_session(const record::Reader& session);

@@ -37,6 +37,8 @@ TEST_CASE("nearest finds a slip of the finger and nothing when nothing is near")
     CHECK(nearest("frction_thread", names) == "friction_thread");
     CHECK(nearest("sise", names) == "size");
     CHECK(nearest("gasket", names).empty());
+    const std::vector<std::string> sizes = {"M4", "M5", "M8"};
+    CHECK(nearest("M9", sizes).empty());  // any of them
     CHECK(nearest(std::string(10'000, 'x'), names).empty());
 }
 

@@ -16,7 +16,7 @@ struct Mistake {
 // clang-format off
 const Mistake mistakes[] = {
     {R"("size": "M8")", R"("size": "M9")",
-     {R"(22:15: /joint_types/M8x30/size: "M9" is no thread size that we know; did you mean "M4"?)"}},
+     {R"(22:15: /joint_types/M8x30/size: "M9" is no thread size that we know; one of M4 to M39, a fine pitch as in "M16x1.5")"}},
     {R"("size": "M8")", R"("size": "M8x1.2")",
      {R"(22:15: /joint_types/M8x30/size: "M8x1.2" is no thread that we know; pitches of M8 in mm: 1.25, 1, 0.75)"}},
     {R"("size": "M8")", R"("size": 8)",

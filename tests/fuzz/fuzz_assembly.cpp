@@ -1,4 +1,5 @@
-// Feeds the assembly loader with what it never expects. It must end, and say where a text is wrong that it refuses.
+// Feeds the assembly loader with what it never expects. It must end, and say where a text is wrong that it
+// refuses.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,8 +1,6 @@
 // bolt-author: the tool of those who make assemblies.
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
-
+#include "game/cli/program.hpp"
 #include "tools/author/commands.hpp"
 
 int main(int argc, char** argv) {
@@ -14,13 +12,5 @@ int main(int argc, char** argv) {
     bolt::author::add_validate(app, exit_code);
     bolt::author::add_curve(app, exit_code);
     bolt::author::add_torque(app, exit_code);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {  // out of memory, say
-        (void)std::fprintf(stderr, "error: %s\n", error.what());
-        return 1;
-    }
-    return exit_code;
+    return bolt::cli::run_program(app, argc, argv, exit_code);
 }
