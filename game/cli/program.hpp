@@ -7,7 +7,8 @@
 
 namespace bolt::cli {
 
-// Parses and runs; the subcommands leave their result in exit_code. Usage errors are 2, whatever CLI11 calls them.
+// Parses and runs; the subcommands leave their result in exit_code. Usage errors are 2, whatever CLI11 calls
+// them.
 inline int run_program(CLI::App& app, int argc, char** argv, const int& exit_code) {
     try {
         app.parse(argc, argv);

@@ -14,14 +14,14 @@ namespace bolt::joint {
 // Metres. Bolt ISO 4014/4017, nut ISO 4032 (style 1), washer ISO 7089, hole ISO 273 medium, thread ISO 261.
 struct FastenerSize {
     std::string_view name;  // "M16"
-    double d = 0.0;               // nominal diameter
+    double d = 0.0;         // nominal diameter
     double coarse_pitch = 0.0;
     double fine_pitches[3] = {};  // 0 where there is none
-    double across_flats = 0.0;     // s of head and nut (M10, M12, M14, M22: ISO 272, not the old DIN 934)
-    double head_height = 0.0;      // k
-    double head_bearing = 0.0;     // d_w min of the bolt head
-    double nut_height = 0.0;       // m max
-    double nut_bearing = 0.0;      // d_w min of the nut
+    double across_flats = 0.0;    // s of head and nut (M10, M12, M14, M22: ISO 272, not the old DIN 934)
+    double head_height = 0.0;     // k
+    double head_bearing = 0.0;    // d_w min of the bolt head
+    double nut_height = 0.0;      // m max
+    double nut_bearing = 0.0;     // d_w min of the nut
     double washer_inner = 0.0;
     double washer_outer = 0.0;
     double washer_thickness = 0.0;

@@ -42,7 +42,8 @@ Wear wear_of(Lubrication lubrication) {
     return {-0.05, 2.0, 0.025};
 }
 
-// The coefficients of a design are those of the first tightening; wear shows from the second on, and comes in smoothly.
+// The coefficients of a design are those of the first tightening; wear shows from the second on, and comes in
+// smoothly.
 double wear_factor(const MechanisticParameters& p, double all_uses) {
     const double again = std::max(0.0, all_uses - 1.0);
     const double uses = again * again / (again + 0.5);

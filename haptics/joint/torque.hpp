@@ -23,12 +23,14 @@ TorqueLevers torque_levers(const Thread& thread, double mu_thread, double mu_bea
 // D_Km = (d_w + d_h)/2, VDI 2230: mean diameter of the bearing under the turned nut or head.
 inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w + d_h); }
 
-// tan(φ + ρ'), the slope on which the nut slides: φ lead angle, tan ρ' = share · μ_G/cos β. share in [−1, 1]: +1
-// tightening, −1 loosening. VDI 2230's closed forms write it as P/(π d2) + 1.155 μ_G, the first order of this; the
-// published table A1 is reproduced to its rounding by the exact tangent (within 0.9 % by the closed form).
+// tan(φ + ρ'), the slope on which the nut slides: φ lead angle, tan ρ' = share · μ_G/cos β. share in [−1, 1]:
+// +1 tightening, −1 loosening. VDI 2230's closed forms write it as P/(π d2) + 1.155 μ_G, the first order of
+// this; the published table A1 is reproduced to its rounding by the exact tangent (within 0.9 % by the closed
+// form).
 double sliding_slope(const Thread& thread, double mu_thread, double share = 1.0);
 
-// Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ + ρ')]²).
+// Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ +
+// ρ')]²).
 double equivalent_stress_ratio(const Thread& thread, double mu_thread, double kappa, double share = 1.0);
 
 struct AssemblyPreload {

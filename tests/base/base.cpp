@@ -11,7 +11,8 @@
 
 using namespace bolt;
 
-TEST_CASE("an error says file, line, column, pointer, what and expected, and leaves out what it does not know") {
+TEST_CASE(
+    "an error says file, line, column, pointer, what and expected, and leaves out what it does not know") {
     Error error;
     error.what = "is wrong";
     CHECK(error.message() == "is wrong");
@@ -45,7 +46,8 @@ TEST_CASE("nearest finds a slip of the finger and nothing when nothing is near")
 TEST_CASE("the generator is PCG32: its published first outputs") {
     // pcg32-demo of the reference implementation, seed 42, stream 54, round 1.
     Random random(42, 54);
-    const std::uint32_t published[] = {0xa15c02b7, 0x7b47f409, 0xba1d3330, 0x83d2f293, 0xbfa4784b, 0xcbed606e};
+    const std::uint32_t published[] = {0xa15c02b7, 0x7b47f409, 0xba1d3330,
+                                       0x83d2f293, 0xbfa4784b, 0xcbed606e};
     for (const std::uint32_t value : published) CHECK(random.bits() == value);
 }
 

@@ -22,7 +22,9 @@ TEST_CASE("a sleeve: when the member is as wide as the bearing the cone is a cyl
     CHECK(member_compliance({&layer, 1}, 0.0225, 0.0175, 0.0225) == doctest::Approx(sleeve).epsilon(1e-12));
 }
 
-TEST_CASE("the cone's closed form equals numerical integration, also cut by the outer diameter and over two layers") {
+TEST_CASE(
+    "the cone's closed form equals numerical integration, also cut by the outer diameter and over two "
+    "layers") {
     const Member layers[] = {{0.030, 110e9}, {0.012, 70e9}, {0.040, 205e9}};
     constexpr double d_w = 0.0225, hole = 0.0175;
     for (const double D_A : {0.0, 0.030, 0.040, 0.080}) {
@@ -47,5 +49,6 @@ TEST_CASE("longer grips, softer members and thinner shanks give") {
     CHECK(bolt_compliance(m16.thread, 205e9, 0.1, 0.0) > bolt_compliance(m16.thread, 205e9, 0.1, 0.05));
     CHECK(bolt_compliance(m16.thread, 205e9, 0.1, 0.05) > bolt_compliance(m16.thread, 205e9, 0.08, 0.05));
     const Member iron{0.1, 110e9}, steel{0.1, 205e9};
-    CHECK(member_compliance({&iron, 1}, 0.0225, 0.0175, 0.0) > member_compliance({&steel, 1}, 0.0225, 0.0175, 0.0));
+    CHECK(member_compliance({&iron, 1}, 0.0225, 0.0175, 0.0) >
+          member_compliance({&steel, 1}, 0.0225, 0.0175, 0.0));
 }

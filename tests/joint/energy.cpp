@@ -1,5 +1,6 @@
-// Invariants over random joints and random motions: what is put into a closed cycle of the nut never comes back whole,
-// clamp force is never negative, what is irreversible never goes back, and equal runs have equal bits.
+// Invariants over random joints and random motions: what is put into a closed cycle of the nut never comes
+// back whole, clamp force is never negative, what is irreversible never goes back, and equal runs have equal
+// bits.
 
 #include <doctest/doctest.h>
 
@@ -11,8 +12,8 @@ using namespace bolt::joint;
 namespace {
 
 struct Cycle {
-    double work = 0.0;       // N·m·rad put in over the closed cycle
-    double largest = 0.0;    // of |torque · dθ|, for scale
+    double work = 0.0;     // N·m·rad put in over the closed cycle
+    double largest = 0.0;  // of |torque · dθ|, for scale
     double friction = 0.0;
 };
 
@@ -41,7 +42,8 @@ Cycle random_cycle(const GroupParameters& group, Random& random, bool take_frict
             REQUIRE(s.stripped >= before.stripped);
             double torque = joints[0].torque;
             if (take_friction_off) torque = resistance(p, s).lead;
-            // Midpoint of the conservative part, end point of friction: an upper and not a lower estimate is no use.
+            // Midpoint of the conservative part, end point of friction: an upper and not a lower estimate is
+            // no use.
             const double work = torque * (next - angle);
             cycle.work += work;
             cycle.largest = std::max(cycle.largest, std::abs(work));
@@ -67,8 +69,9 @@ TEST_CASE("no closed cycle of the nut gives energy: 300 random joints and motion
 }
 
 TEST_CASE("also with the friction taken off: plasticity and embedding alone only take") {
-    // The clamp force is sampled at the end of a step, so a closed elastic cycle sums to zero only to the step's order;
-    // one step of the largest is allowed for that, and shrinking the steps must shrink what is found.
+    // The clamp force is sampled at the end of a step, so a closed elastic cycle sums to zero only to the
+    // step's order; one step of the largest is allowed for that, and shrinking the steps must shrink what is
+    // found.
     Random random(12);
     for (int trial = 0; trial < 200; ++trial) {
         CAPTURE(trial);

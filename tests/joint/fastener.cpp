@@ -17,10 +17,12 @@ TEST_CASE("M16x2 is the thread of ISO 724 and ISO 898-1") {
 }
 
 TEST_CASE("stress areas agree with ISO 898-1 to its rounding") {
-    const std::pair<const char*, double> published[] = {{"M4", 8.78}, {"M5", 14.2}, {"M6", 20.1}, {"M8", 36.6},
-        {"M10", 58.0}, {"M12", 84.3}, {"M14", 115}, {"M16", 157}, {"M18", 192}, {"M20", 245}, {"M22", 303},
-        {"M24", 353}, {"M27", 459}, {"M30", 561}, {"M33", 694}, {"M36", 817}, {"M39", 976}, {"M8x1", 39.2},
-        {"M10x1.25", 61.2}, {"M12x1.5", 88.1}, {"M16x1.5", 167}, {"M20x1.5", 272}, {"M24x2", 384}};
+    const std::pair<const char*, double> published[] = {
+        {"M4", 8.78},     {"M5", 14.2},     {"M6", 20.1},   {"M8", 36.6},       {"M10", 58.0},
+        {"M12", 84.3},    {"M14", 115},     {"M16", 157},   {"M18", 192},       {"M20", 245},
+        {"M22", 303},     {"M24", 353},     {"M27", 459},   {"M30", 561},       {"M33", 694},
+        {"M36", 817},     {"M39", 976},     {"M8x1", 39.2}, {"M10x1.25", 61.2}, {"M12x1.5", 88.1},
+        {"M16x1.5", 167}, {"M20x1.5", 272}, {"M24x2", 384}};
     for (const auto& [name, area] : published) {
         CAPTURE(name);
         CHECK(parse_thread(name).value().thread.A_s * 1e6 == doctest::Approx(area).epsilon(6e-3));
@@ -32,7 +34,8 @@ TEST_CASE("every name that is offered parses, and a slip is answered with the ne
     const auto slip = parse_thread("N16");
     REQUIRE_FALSE(slip.has_value());
     CHECK(slip.error().expected == "did you mean \"M16\"?");
-    for (const char* wrong : {"", "M", "M17", "16", "M16x", "M16x0", "M16x-1.5", "M16xnan", "M16x1.5mm", "M16x3"}) {
+    for (const char* wrong :
+         {"", "M", "M17", "16", "M16x", "M16x0", "M16x-1.5", "M16xnan", "M16x1.5mm", "M16x3"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_thread(wrong).has_value());
     }
@@ -74,7 +77,8 @@ AssemblyPreload preload_of(const test::Row& row) {
     const ThreadSize size = parse_thread(row.at("size")).value();
     const PropertyClass grade = property_class(row.at("class"), size.size.d).value();
     const double mu = test::number(row, "mu");
-    return assembly_preload(size.thread, grade, mu, mu, bearing_mean_diameter(size.size.head_bearing, size.size.hole));
+    return assembly_preload(size.thread, grade, mu, mu,
+                            bearing_mean_diameter(size.size.head_bearing, size.size.hole));
 }
 
 double half_unit(const std::string& printed) { return printed.find('.') == std::string::npos ? 0.5 : 0.05; }
@@ -124,7 +128,8 @@ TEST_CASE("stainless, elastic torsion: forces within 2 %, torques within 2.5 %")
         if (!row.at("FM_kN").empty())
             CHECK(p.force / 1e3 == doctest::Approx(test::number(row, "FM_kN")).epsilon(0.021));
         // M6 and M8 are printed for a slightly wider head: 1.3–2.3 % of torque.
-        if (!row.at("MA_Nm").empty()) CHECK(p.torque == doctest::Approx(test::number(row, "MA_Nm")).epsilon(0.025));
+        if (!row.at("MA_Nm").empty())
+            CHECK(p.torque == doctest::Approx(test::number(row, "MA_Nm")).epsilon(0.025));
     }
 }
 
@@ -132,8 +137,10 @@ TEST_CASE("the exact tangent and VDI's closed form agree to first order") {
     const ThreadSize m16 = parse_thread("M16").value();
     const double D_Km = bearing_mean_diameter(m16.size.head_bearing, m16.size.hole);
     for (const double mu : {0.08, 0.12, 0.24, 0.30}) {
-        const AssemblyPreload p = assembly_preload(m16.thread, property_class("8.8", 0.016).value(), mu, mu, D_Km);
-        const double closed = p.force * (0.16 * m16.thread.pitch + 0.58 * m16.thread.d2 * mu + 0.5 * D_Km * mu);
+        const AssemblyPreload p =
+            assembly_preload(m16.thread, property_class("8.8", 0.016).value(), mu, mu, D_Km);
+        const double closed =
+            p.force * (0.16 * m16.thread.pitch + 0.58 * m16.thread.d2 * mu + 0.5 * D_Km * mu);
         CHECK(p.torque == doctest::Approx(closed).epsilon(0.01));
     }
 }
@@ -141,8 +148,8 @@ TEST_CASE("the exact tangent and VDI's closed form agree to first order") {
 TEST_CASE("loosening over tightening torque of M16") {
     const ThreadSize m16 = parse_thread("M16").value();
     const double D_Km = bearing_mean_diameter(m16.size.head_bearing, m16.size.hole);
-    const std::pair<double, double> published[] = {{0.08, 0.646}, {0.12, 0.749}, {0.14, 0.781}, {0.20, 0.841},
-                                                   {0.30, 0.891}};
+    const std::pair<double, double> published[] = {
+        {0.08, 0.646}, {0.12, 0.749}, {0.14, 0.781}, {0.20, 0.841}, {0.30, 0.891}};
     for (const auto& [mu, ratio] : published) {
         const TorqueLevers levers = torque_levers(m16.thread, mu, mu, D_Km);
         CHECK(levers.loosen() / levers.tighten() == doctest::Approx(ratio).epsilon(0.01));

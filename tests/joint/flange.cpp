@@ -9,15 +9,17 @@ using namespace bolt;
 using namespace bolt::joint;
 
 TEST_CASE("kei against Abramowitz and Stegun, table 9.12") {
-    const std::pair<double, double> published[] = {{0.0, -0.7853981634}, {1.0, -0.4949946365}, {2.0, -0.2024000678},
-                                                   {3.0, -0.0511218840}, {4.0, 0.0021983995},  {5.0, 0.0111875865}};
+    const std::pair<double, double> published[] = {{0.0, -0.7853981634}, {1.0, -0.4949946365},
+                                                   {2.0, -0.2024000678}, {3.0, -0.0511218840},
+                                                   {4.0, 0.0021983995},  {5.0, 0.0111875865}};
     for (const auto& [x, value] : published) CHECK(std::abs(kelvin_kei(x) - value) < 1e-9);
 }
 
 TEST_CASE("own deflection is Hertz's closed form l2/8D") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     CHECK(plate.rigidity == doctest::Approx(110e9 * 0.024 * 0.024 * 0.024 / (12 * (1 - 0.0625))));
-    CHECK(plate.deflection_per_force(0.0) == doctest::Approx(square(plate.length()) / (8 * plate.rigidity)).epsilon(1e-9));
+    CHECK(plate.deflection_per_force(0.0) ==
+          doctest::Approx(square(plate.length()) / (8 * plate.rigidity)).epsilon(1e-9));
 }
 
 TEST_CASE("neighbours are pressed down near by and lifted further out") {
@@ -35,7 +37,8 @@ TEST_CASE("the coupling is symmetric and stores energy: positive for any forces"
     std::vector<std::vector<double>> dense(40, std::vector<double>(40, 0.0));
     for (std::size_t i = 0; i < 40; ++i) {
         dense[i][i] = m.own;
-        for (std::uint32_t k = m.row_begin[i]; k < m.row_begin[i + 1]; ++k) dense[i][m.column[k]] = m.value[k];
+        for (std::uint32_t k = m.row_begin[i]; k < m.row_begin[i + 1]; ++k)
+            dense[i][m.column[k]] = m.value[k];
     }
     for (std::size_t i = 0; i < 40; ++i)
         for (std::size_t j = 0; j < i; ++j) REQUIRE(dense[i][j] == dense[j][i]);

@@ -12,7 +12,8 @@ using namespace bolt::joint;
 
 namespace {
 
-// Largest jump of torque and of its slope between neighbouring samples of a path of the nut's angle over time.
+// Largest jump of torque and of its slope between neighbouring samples of a path of the nut's angle over
+// time.
 struct Jumps {
     double torque = 0.0, slope = 0.0, clamp = 0.0;
 };
@@ -43,7 +44,8 @@ Jumps jumps_of(const GroupParameters& group, const Path& path, double duration, 
 }
 
 JointDesign steady(JointDesign d) {
-    d.friction.static_ratio = 1.0;  // breakaway is tested apart; here the slope of the running torque is looked at
+    d.friction.static_ratio =
+        1.0;  // breakaway is tested apart; here the slope of the running torque is looked at
     d.running_torque = 0.0;
     return d;
 }
@@ -104,9 +106,10 @@ TEST_CASE("the refinement test can fail: the published law jumps and stays jumpi
     CHECK(fine.slope > 0.9 * coarse.slope);
 }
 
-TEST_CASE("running torque over clamp force is Motosh's, tightening and loosening, and their ratio as published") {
-    const std::pair<double, double> published[] = {{0.08, 0.646}, {0.12, 0.749}, {0.14, 0.781}, {0.20, 0.841},
-                                                   {0.30, 0.891}};
+TEST_CASE(
+    "running torque over clamp force is Motosh's, tightening and loosening, and their ratio as published") {
+    const std::pair<double, double> published[] = {
+        {0.08, 0.646}, {0.12, 0.749}, {0.14, 0.781}, {0.20, 0.841}, {0.30, 0.891}};
     for (const auto& [mu, ratio] : published) {
         JointDesign design = steady(test::m16_flange_joint(mu));
         design.friction.lubrication = Lubrication::mos2;
@@ -135,7 +138,8 @@ TEST_CASE("a first tightening of M16 class 8.8 at friction 0.12 passes VDI's 80.
     }
 }
 
-TEST_CASE("breakaway: after a rest the first torque is the static ratio's, and it is gone after some degrees") {
+TEST_CASE(
+    "breakaway: after a rest the first torque is the static ratio's, and it is gone after some degrees") {
     JointDesign design = test::m16_flange_joint();
     design.friction.static_ratio = 1.25;
     design.running_torque = 0.0;
@@ -146,7 +150,13 @@ TEST_CASE("breakaway: after a rest the first torque is the static ratio's, and i
     const MechanisticParameters& p = group.joints[0];
     const Resistance rested = resistance(group, 0, joints[0]);
     const double F = joints[0].clamp;
-    const double wear = resistance(p, [&] { MechanisticState s = joints[0].mechanistic; s.dwell = 0.0; return s; }()).loosen;
+    const double wear = resistance(p,
+                                   [&] {
+                                       MechanisticState s = joints[0].mechanistic;
+                                       s.dwell = 0.0;
+                                       return s;
+                                   }())
+                            .loosen;
     CHECK(rested.loosen / wear > 1.2);
     CHECK(-rested.loosen > F * p.levers.loosen());
     for (int i = 0; i < 2000; ++i) turn_nut(group, joints, 0, joints[0].nut.angle - 1e-4, -1.0, 1e-3);
@@ -170,18 +180,22 @@ TEST_CASE("snug to 80.9 kN: the elastic part of the law gives VDI's angles") {
             return joints[0].nut.angle;
         };
         const double first = angle_at(40e3), second = angle_at(70e3);
-        const double seat_part = group.joints[0].seat.scale * std::log(70.0 / 40.0) / group.joints[0].levers.lead;
+        const double seat_part =
+            group.joints[0].seat.scale * std::log(70.0 / 40.0) / group.joints[0].levers.lead;
         const double elastic = (second - first - seat_part) / 30e3 * 80.9e3;
         CHECK(to_degrees(elastic) == doctest::Approx(degrees).epsilon(0.05));
     }
 }
 
-TEST_CASE("yield begins at the elastic limit under tension and torsion, hardens, and re-tightens at the higher level") {
+TEST_CASE(
+    "yield begins at the elastic limit under tension and torsion, hardens, and re-tightens at the higher "
+    "level") {
     const GroupParameters group = test::single(steady(test::m16_flange_joint()));
     const MechanisticParameters& p = group.joints[0];
     std::vector<JointState> joints = initial_state(group, 1);
     const double q = equivalent_stress_ratio(p.thread, p.mu_thread, p.kappa);
-    while (joints[0].mechanistic.plastic == 0.0) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
+    while (joints[0].mechanistic.plastic == 0.0)
+        turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
     CHECK(joints[0].clamp * q == doctest::Approx(p.bolt.elastic_load).epsilon(1e-3));
     // 90 % of yield is just before it (class 8.8: S_p = 0.91 R_p0.2).
     CHECK(joints[0].clamp == doctest::Approx(80.9e3 * 0.91 / 0.90).epsilon(0.01));
@@ -196,7 +210,8 @@ TEST_CASE("yield begins at the elastic limit under tension and torsion, hardens,
     CHECK(joints[0].mechanistic.plastic - set < 0.02 * set);
     CHECK(joints[0].stage != Stage::yield);
     const double after = joints[0].mechanistic.plastic;
-    while (joints[0].mechanistic.plastic <= after) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
+    while (joints[0].mechanistic.plastic <= after)
+        turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
     CHECK(joints[0].clamp > 0.99 * peak);
 }
 
@@ -252,7 +267,8 @@ TEST_CASE("embedding takes f_Z/(delta_S + delta_P) of the clamp force, and no mo
     CHECK(loss == doctest::Approx(settled / p.seat.compliance).epsilon(0.05));
     CHECK(joints[0].mechanistic.embedding <= p.embedding);
     // It ends where the load that is left no longer flattens more.
-    CHECK(joints[0].mechanistic.embedding == doctest::Approx(p.embedding * joints[0].clamp / p.reference_load).epsilon(0.25));
+    CHECK(joints[0].mechanistic.embedding ==
+          doctest::Approx(p.embedding * joints[0].clamp / p.reference_load).epsilon(0.25));
 }
 
 TEST_CASE("prevailing torque is there from the first turn, both ways") {
@@ -267,7 +283,8 @@ TEST_CASE("prevailing torque is there from the first turn, both ways") {
     CHECK(r.loosen == doctest::Approx(-32.0).epsilon(1e-2));
 }
 
-TEST_CASE("re-use goes the way that was measured: oiled falls and stays, dry rises at once, MoS2 is used up") {
+TEST_CASE(
+    "re-use goes the way that was measured: oiled falls and stays, dry rises at once, MoS2 is used up") {
     // M8 10.9, 20 N m, twenty times: K = T/(F d) of the measured series and of the law.
     std::map<std::string, std::vector<double>> measured;
     for (const test::Row& row : test::read_table("oracles/repeated_tightening_m8.csv"))
@@ -294,7 +311,8 @@ TEST_CASE("re-use goes the way that was measured: oiled falls and stays, dry ris
             while (joints[0].clamp > 1.0) turn_nut(group, joints, 0, joints[0].nut.angle - 1e-3, -1.0, 1e-3);
             joints[0].torque = 0.0;
         }
-        const double ours = K.back() / K.front(), theirs = measured.at(name).back() / measured.at(name).front();
+        const double ours = K.back() / K.front(),
+                     theirs = measured.at(name).back() / measured.at(name).front();
         CHECK((ours > 1.0) == (theirs > 1.0));
         CHECK(ours == doctest::Approx(theirs).epsilon(0.25));
     }

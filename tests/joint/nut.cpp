@@ -95,7 +95,8 @@ TEST_CASE("backlash: inside the play there is no torque, at its edge the torque 
         step_group(tight.group, tight.joints, 0, spring(hand, play), 1e-3);
         if (tight.joints[0].nut.angle != nut) break;
         if (std::abs(hand - nut) <= play) CHECK(tight.joints[0].torque == 0.0);
-        CHECK(std::abs(tight.joints[0].torque - last) <= 2000.0 * 1.01e-4 + 2000.0 * (i == -200 ? 0.005 : 0.0) + 1e-9);
+        CHECK(std::abs(tight.joints[0].torque - last) <=
+              2000.0 * 1.01e-4 + 2000.0 * (i == -200 ? 0.005 : 0.0) + 1e-9);
         last = tight.joints[0].torque;
     }
 }

@@ -46,7 +46,8 @@ TEST_CASE("eq. 2, thread: 348.478 A h' - 3.645; the print takes cos 30 degrees =
     CHECK(-33.3e-3 * 9.8 * (0.5 + 0.3 * 0.86) * 14.7 == four(-3.6363));
 }
 
-TEST_CASE("eq. 2, sum: the print's -21.5557 A h' + 0.2254 is the difference of two torques that both resist") {
+TEST_CASE(
+    "eq. 2, sum: the print's -21.5557 A h' + 0.2254 is the difference of two torques that both resist") {
     CHECK(-369.2048 + 347.6491 == four(-21.5557));
     CHECK(3.8617 - 3.6363 == doctest::Approx(0.2254).epsilon(1e-3));
 }
@@ -79,7 +80,8 @@ TEST_CASE("the linear stage takes 4.178 degrees and meets the yield stage withou
           doctest::Approx(published_read(p, fresh, b.yield, on).torque).epsilon(1e-8));
 }
 
-TEST_CASE("the errors of the law are there: it jumps at the start of stages 2 and 3, and its slope falls to 0.27") {
+TEST_CASE(
+    "the errors of the law are there: it jumps at the start of stages 2 and 3, and its slope falls to 0.27") {
     const PublishedBoundaries b = published_boundaries(p);
     const PublishedState s;
     const auto torque = [&](double degrees) { return published_read(p, s, degrees, on).torque; };
@@ -124,7 +126,8 @@ TEST_CASE("the whole curve from the tool's entry point prints the oracle's figur
     int linear = 0;
     for (const CurveSample& s : run) {
         if (s.stage == Stage::linearity && linear++ > 0)
-            CHECK((s.torque - previous_torque) / to_degrees(s.angle - previous_angle) == doctest::Approx(14.354).epsilon(1e-3));
+            CHECK((s.torque - previous_torque) / to_degrees(s.angle - previous_angle) ==
+                  doctest::Approx(14.354).epsilon(1e-3));
         previous_angle = s.angle;
         previous_torque = s.torque;
     }

@@ -34,7 +34,8 @@ inline joint::JointDesign random_joint(Random& random) {
     d.friction.lubrication = static_cast<joint::Lubrication>(random.bits() % 4);
     const double grip = size * random.uniform(0.8, 8.0);
     d.members = {{0.5 * grip, random.uniform(60e9, 210e9)}, {0.5 * grip, random.uniform(60e9, 210e9)}};
-    d.bolt_length = grip + 2 * d.thread.size.washer_thickness + d.thread.size.nut_height + 3 * d.thread.thread.pitch;
+    d.bolt_length =
+        grip + 2 * d.thread.size.washer_thickness + d.thread.size.nut_height + 3 * d.thread.thread.pitch;
     d.misfit = random.uniform(1e-6, 30e-6);
     d.roughness_Rz = random.uniform(4e-6, 100e-6);
     d.embedding_time = random.uniform(0.5, 20.0);
@@ -44,6 +45,8 @@ inline joint::JointDesign random_joint(Random& random) {
     return d;
 }
 
-inline joint::GroupParameters single(const joint::JointDesign& d) { return joint::make_group({&d, 1}, nullptr, 1); }
+inline joint::GroupParameters single(const joint::JointDesign& d) {
+    return joint::make_group({&d, 1}, nullptr, 1);
+}
 
 }  // namespace bolt::test

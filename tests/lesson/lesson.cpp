@@ -29,8 +29,9 @@ struct Played {
     servo::State state;
 };
 
-Played play_through(const content::Assembly& given, const char* trainee, std::uint64_t seed, Mode mode = Mode::guided,
-                    Task task = Task::tighten, joint::Law law = joint::Law::mechanistic) {
+Played play_through(const content::Assembly& given, const char* trainee, std::uint64_t seed,
+                    Mode mode = Mode::guided, Task task = Task::tighten,
+                    joint::Law law = joint::Law::mechanistic) {
     const content::Assembly assembly = under_law(given, law);
     const servo::Setup setup = play::make_setup(assembly, law, {}, seed, 1e-3);
     Played played;
@@ -42,10 +43,11 @@ Played play_through(const content::Assembly& given, const char* trainee, std::ui
         const servo::Input input = hand.act(setup, played.state, lesson);
         const servo::Output output = servo::tick(setup, played.state, input);
         observe(lesson, played.state, input, output);
-        const double values[] = {output.force.x, output.force.y, output.force.z, output.torque.y,
+        const double values[] = {output.force.x,       output.force.y,   output.force.z, output.torque.y,
                                  output.wrench_torque, output.nut_angle, output.clamp};
         const auto* bytes = reinterpret_cast<const unsigned char*>(values);
-        for (std::size_t k = 0; k < sizeof values; ++k) played.hash = (played.hash ^ bytes[k]) * 1099511628211ULL;
+        for (std::size_t k = 0; k < sizeof values; ++k)
+            played.hash = (played.hash ^ bytes[k]) * 1099511628211ULL;
         for (Event& event : lesson.events) played.events.push_back(std::move(event));
         lesson.events.clear();
     }
@@ -69,7 +71,9 @@ TEST_CASE("the plan has every joint in every pass, in the assembly's order") {
     CHECK(off.front().joint == assembly.passes.back().order.back());
 }
 
-TEST_CASE("the expert tightens all twelve joints within their windows, feels every stage, and is alike over seeds") {
+TEST_CASE(
+    "the expert tightens all twelve joints within their windows, feels every stage, and is alike over "
+    "seeds") {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Played played = play_through(zq350(), "expert", seed);
         CAPTURE(seed);
@@ -133,7 +137,8 @@ TEST_CASE("loosening feels different: breakaway is below the tightening torque")
         CHECK(off.result.joints[i].torque < zq350().joints[i].spec.torque.target);
 }
 
-TEST_CASE("events come in order and tell a whole story: engage and release alternate, every step begins and ends") {
+TEST_CASE(
+    "events come in order and tell a whole story: engage and release alternate, every step begins and ends") {
     const Played played = play_through(zq350(), "clumsy", 3);
     std::uint64_t tick = 0;
     int held = -1, begun = 0, ended = 0;
@@ -181,8 +186,8 @@ TEST_CASE("a recorded lesson replays from its inputs to the same bits") {
     // From nothing but the file: the assembly's text, the seed and the inputs.
     const content::Loaded loaded = content::parse_assembly(reader->header().assembly_text, "session");
     REQUIRE(loaded.ok());
-    const servo::Setup setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, {}, reader->header().seed,
-                                        reader->header().dt);
+    const servo::Setup setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, {},
+                                                reader->header().seed, reader->header().dt);
     servo::State state = servo::initial_state(setup);
     std::uint64_t ticks = 0, wrong = 0;
     REQUIRE(reader->for_each_chunk([&](std::uint64_t, std::span<const record::TickRecord> chunk) {
@@ -191,7 +196,8 @@ TEST_CASE("a recorded lesson replays from its inputs to the same bits") {
             const record::TickRecord again = record::make_record(record::input_of(tick), output);
             ++ticks;
             if (again.wrench_torque != tick.wrench_torque || again.clamp != tick.clamp ||
-                again.nut_angle != tick.nut_angle || again.force[1] != tick.force[1] || again.joint != tick.joint)
+                again.nut_angle != tick.nut_angle || again.force[1] != tick.force[1] ||
+                again.joint != tick.joint)
                 ++wrong;
         }
     }));
@@ -216,9 +222,10 @@ TEST_CASE("summary: the fields that were promised, and the table names every joi
     play::TrainOptions options;
     options.trainee = operators::find_profile("expert").value();
     const std::string json = play::summary_json(zq350(), options, result);
-    for (const char* field : {"\"assembly\": \"zq350\"", "\"law\": \"mechanistic\"", "\"operator\": \"expert\"",
-                              "\"seed\": 1", "\"duration_s\"", "\"score\": 87.5", "\"torque_Nm\": 71.25",
-                              "\"angle_deg\": 33.5", "\"clamp_N\": 28123.0", "\"verdict\": \"OK\""}) {
+    for (const char* field :
+         {"\"assembly\": \"zq350\"", "\"law\": \"mechanistic\"", "\"operator\": \"expert\"", "\"seed\": 1",
+          "\"duration_s\"", "\"score\": 87.5", "\"torque_Nm\": 71.25", "\"angle_deg\": 33.5",
+          "\"clamp_N\": 28123.0", "\"verdict\": \"OK\""}) {
         CAPTURE(field);
         CHECK(json.find(field) != std::string::npos);
     }

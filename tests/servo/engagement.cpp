@@ -15,7 +15,8 @@ TEST_CASE("half play of a 24.2 mm jaw on a 24 mm hexagon is 0.83 degrees") {
 TEST_CASE("a right-hand thread: clockwise seen from the nut tightens, for any axis") {
     Random random(2);
     for (int trial = 0; trial < 50; ++trial) {
-        const Vec3 axis = glm::normalize(Vec3(random.normal(), random.normal(), random.normal()) + Vec3(0, 1e-3, 0));
+        const Vec3 axis =
+            glm::normalize(Vec3(random.normal(), random.normal(), random.normal()) + Vec3(0, 1e-3, 0));
         const Setup setup = test::two_joints({}, axis);
         const NutPlace& nut = setup.nuts[0];
         CHECK(glm::length(glm::cross(nut.e1, nut.e2) - nut.axis) < 1e-12);
@@ -25,7 +26,8 @@ TEST_CASE("a right-hand thread: clockwise seen from the nut tightens, for any ax
         const double a = tool_azimuth(setup, nut, tool, Grip::fingers);
         const Quat turn = glm::angleAxis(to_radians(-10.0), nut.axis);
         tool.handle = turn * tool.handle;
-        CHECK(to_degrees(tool_azimuth(setup, nut, tool, Grip::fingers) - a) == doctest::Approx(10.0).epsilon(1e-4));
+        CHECK(to_degrees(tool_azimuth(setup, nut, tool, Grip::fingers) - a) ==
+              doctest::Approx(10.0).epsilon(1e-4));
     }
 }
 
@@ -55,7 +57,9 @@ TEST_CASE("the jaw goes on every 60 degrees, and flipped in between: 30 degrees 
     CHECK(to_degrees(apart) == doctest::Approx(30.0).epsilon(0.01));
 }
 
-TEST_CASE("the jaw does not go on when off centre, tilted, too high or out of line; fingers are not so particular") {
+TEST_CASE(
+    "the jaw does not go on when off centre, tilted, too high or out of line; fingers are not so "
+    "particular") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
     const NutPlace& nut = setup.nuts[0];

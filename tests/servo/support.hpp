@@ -23,7 +23,8 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
 }
 
 // A tool at a place, its handle at `angle` about the nut's axis (tightening positive), upright or flipped.
-inline servo::DeviceSample tool_at(const servo::NutPlace& nut, const Vec3& position, double angle, bool flipped = false) {
+inline servo::DeviceSample tool_at(const servo::NutPlace& nut, const Vec3& position, double angle,
+                                   bool flipped = false) {
     const Vec3 x = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
     const Vec3 z = flipped ? -nut.axis : nut.axis;
     const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));

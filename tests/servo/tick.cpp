@@ -61,8 +61,8 @@ TEST_CASE("same inputs, same bits") {
         std::uint64_t hash = 14695981039346656037ULL;
         for (int i = 0; i < 5000; ++i) {
             const Output output = tick(setup, state, scripted(setup, state, i));
-            const double values[] = {output.force.x, output.force.y, output.torque.y, output.wrench_torque,
-                                     output.nut_angle, output.clamp};
+            const double values[] = {output.force.x,       output.force.y,   output.torque.y,
+                                     output.wrench_torque, output.nut_angle, output.clamp};
             const auto* bytes = reinterpret_cast<const unsigned char*>(values);
             for (std::size_t k = 0; k < sizeof values; ++k) hash = (hash ^ bytes[k]) * 1099511628211ULL;
         }
@@ -90,7 +90,9 @@ TEST_CASE("reach, engage, turn, let go: no step of force or torque above the sle
     CHECK(turned);
 }
 
-TEST_CASE("the nut's torque reaches the hand about the bolt's axis, against the pull, scaled into the device's range") {
+TEST_CASE(
+    "the nut's torque reaches the hand about the bolt's axis, against the pull, scaled into the device's "
+    "range") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
     const NutPlace& nut = setup.nuts[0];
@@ -123,7 +125,8 @@ TEST_CASE("a device without torque feels it as a force across the handle, agains
     REQUIRE(output.wrench_torque > 140.0);
     const ToolPose tool = pose_of(test::tool_at(nut, Vec3(0.0), angle));
     const Vec3 pull = glm::cross(-nut.axis, tool.handle);  // where the grip goes when tightening
-    CHECK(glm::dot(output.force, pull) == doctest::Approx(-output.wrench_torque * setup.torque_as_force).epsilon(0.05));
+    CHECK(glm::dot(output.force, pull) ==
+          doctest::Approx(-output.wrench_torque * setup.torque_as_force).epsilon(0.05));
     CHECK(glm::length(output.torque) == 0.0);
 }
 

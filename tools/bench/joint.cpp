@@ -19,7 +19,8 @@ JointDesign m16() {
     return d;
 }
 
-// The group's size is the argument; joints on a 60 mm grid, each tight, one nut turned on and off by its handle.
+// The group's size is the argument; joints on a 60 mm grid, each tight, one nut turned on and off by its
+// handle.
 void group_tick(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));
     std::vector<JointDesign> designs(n, m16());
@@ -43,12 +44,13 @@ void group_tick(benchmark::State& state) {
         benchmark::DoNotOptimize(joints.data());
     }
     state.SetComplexityN(state.range(0));
-    state.counters["per_joint"] = benchmark::Counter(static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate |
-                                                                                 benchmark::Counter::kInvert);
+    state.counters["per_joint"] = benchmark::Counter(
+        static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(group_tick)->Arg(1)->Arg(12)->Arg(100)->Arg(1000)->Complexity(benchmark::oN);
 
-// The baseline: the same closure solved by twenty Newton steps on the implicit equation, as one writes it first.
+// The baseline: the same closure solved by twenty Newton steps on the implicit equation, as one writes it
+// first.
 void seat_by_newton(benchmark::State& state) {
     const SeatSpring seat{5.5e-9, 6.5e-6, 31.4};
     double x = 0.0;

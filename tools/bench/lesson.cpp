@@ -24,7 +24,8 @@ void headless_lesson(benchmark::State& state) {
     options.trainee = operators::find_profile("expert").value();
     double seconds = 0.0;
     for (auto _ : state) {
-        const auto result = play::train(loaded.assembly, options, file, [](const play::Progress&) { return true; });
+        const auto result =
+            play::train(loaded.assembly, options, file, [](const play::Progress&) { return true; });
         if (!result) {
             state.SkipWithError(result.error().message().c_str());
             break;
