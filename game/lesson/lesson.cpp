@@ -11,7 +11,8 @@ namespace {
 
 constexpr double moved = to_radians(0.2);  // of nut angle: the wrench has moved it
 constexpr double past_breakaway = to_radians(2.0);
-constexpr double seated_torque = 0.4;   // N·m at the fingers: the nut sits
+constexpr double turning_speed = 0.01;  // rad/s
+
 constexpr double working_torque = 0.5;  // N·m: the wrench is used, not only touching
 
 const content::Specification& spec_of(const Lesson& lesson, std::size_t joint) {
@@ -34,7 +35,7 @@ bool reached(const Lesson& lesson, const Step& step, const servo::State& state) 
     const double turned = joint.nut.angle - track.begin_angle;
     switch (step.kind) {
         case StepKind::run_down:
-            return joint.stage != joint::Stage::navigation && track.peak_torque >= seated_torque;
+            return joint.stage != joint::Stage::navigation;
         case StepKind::tighten:
             return track.peak_torque >= low_edge(lesson, step);
         case StepKind::recheck:
@@ -64,17 +65,16 @@ void end_step(Lesson& lesson, const servo::State& state) {
     const Step step = *lesson.due();
     JointTrack& track = lesson.joints[step.joint];
     track.done_in_pass = step.pass;
-    const bool full = step.kind == StepKind::recheck || step.fraction > 0.999;
     if (step.kind == StepKind::loosen) {
         track.result.torque = track.peak_torque;
         track.result.angle = track.begin_angle - state.joints[step.joint].nut.angle;
-    } else if (step.kind == StepKind::tighten && full) {
+    } else if (step.kind == StepKind::tighten) {
         track.result.torque = track.peak_torque;
     } else if (step.kind == StepKind::recheck &&
                state.joints[step.joint].nut.angle - track.begin_angle > past_breakaway) {
-        // A nut that only began to move has shown its breakaway torque, which is not what it was tightened
-        // with.
-        track.result.torque = std::max(track.result.torque, track.peak_torque);
+        // Turned on, and not only seen to begin to move: that takes the breakaway torque, which tightens
+        // nothing.
+        track.result.torque = std::max(track.result.torque, track.turning_torque);
     }
     say(lesson, state.tick, "step_end", static_cast<int>(step.joint), track.peak_torque,
         std::string(name(step.kind)));
@@ -140,6 +140,7 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     if (!track.worked && (work > working_torque || (fingers && work > 0.01)))
         first_work(lesson, joint, state);
     track.peak_torque = std::max(track.peak_torque, work);
+    if (std::abs(state.joints[joint].nut.speed) > turning_speed) track.turning_torque = work;
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
         !fingers) {
         track.snug = true;

@@ -27,13 +27,14 @@ namespace bolt::lesson {
 // What the lesson remembers of a joint between ticks.
 struct JointTrack {
     JointResult result;
-    bool snug = false;         // the snug torque has been reached
-    double snug_angle = 0.0;   // rad, nut angle when it was reached first
-    double peak_torque = 0.0;  // N·m, of the step that is due
-    double begin_angle = 0.0;  // rad, nut angle when the step began
-    bool yielded = false;      // the yield stage has been felt
-    bool worked = false;       // the hand has done something with the nut in this visit
-    int done_in_pass = -1;     // last pass in which a step of this joint was done
+    bool snug = false;            // the snug torque has been reached
+    double snug_angle = 0.0;      // rad, nut angle when it was reached first
+    double peak_torque = 0.0;     // N·m, of the step that is due
+    double turning_torque = 0.0;  // N·m, when the nut last turned
+    double begin_angle = 0.0;     // rad, nut angle when the step began
+    bool yielded = false;         // the yield stage has been felt
+    bool worked = false;          // the hand has done something with the nut in this visit
+    int done_in_pass = -1;        // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };
 

@@ -13,9 +13,10 @@ namespace {
 using lesson::StepKind;
 using servo::Grip;
 
-constexpr double hover = 0.025;                // m above the nut before lowering and after lifting
-constexpr double arc = 0.05;                   // m, height of a reach between joints, at most
-constexpr double seated_torque = 0.45;         // N·m at which fingers call a nut seated
+constexpr double hover = 0.025;        // m above the nut before lowering and after lifting
+constexpr double arc = 0.05;           // m, height of a reach between joints, at most
+constexpr double seated_share = 0.55;  // of what fingers can give: a nut that takes more sits
+constexpr double finger_drag = 0.4;  // of what fingers can give: a nut that drags more is run down by wrench
 constexpr double spin_stroke = 200.0;          // degrees of one finger twist
 constexpr double loose_free = 40.0;            // degrees turned at next to no torque: the nut is free
 constexpr double no_torque = 1.0;              // N·m, next to none at a wrench
@@ -32,6 +33,7 @@ struct Intent {
     bool fingers = false;         // the nut is run down by hand
     bool loosening = false;
     bool wrong = false;           // it went to a wrong joint
+    bool until_seated = false;    // it runs the nut down until it sits
     bool checks = false;          // it only wants to see the nut begin to move
     bool stops_at_yield = false;  // it means to stop where the resistance stops growing
     double goal = 0.0;            // N·m at which it means to stop
@@ -113,6 +115,7 @@ struct Operator::Mind {
         enter(Phase::lift, seconds);
     }
 
+    [[nodiscard]] const lesson::Step* next_step() const;
     void decide();
     void choose_joint_and_goal(const lesson::Step& due);
     void choose_grip_angle();
@@ -121,9 +124,18 @@ struct Operator::Mind {
     Pose move(const Feeling& felt, Grip& grip);
 };
 
+// The step to work on. In assessment nobody says that a joint is not tight enough: who believes to be done
+// goes on.
+const lesson::Step* Operator::Mind::next_step() const {
+    const lesson::Step* due = lesson->due();
+    const bool believes = intent.finished && !intent.wrong && intent.step == lesson->current;
+    const bool left_alone = lesson->mode == lesson::Mode::assessment && believes;
+    return left_alone && lesson->current + 1 < lesson->steps.size() ? due + 1 : due;
+}
+
 // Which step is due, and how this person will go about it.
 void Operator::Mind::decide() {
-    const lesson::Step* due = lesson->due();
+    const lesson::Step* due = next_step();
     if (due == nullptr) {
         enter(Phase::done);
         return;
@@ -144,14 +156,16 @@ void Operator::Mind::decide() {
 }
 
 void Operator::Mind::choose_joint_and_goal(const lesson::Step& due) {
-    const bool retry = !step_is_past();
+    const bool retry = &due == lesson->due() && !step_is_past();
     const int tries = retry ? intent.tries + 1 : 0;
     const std::size_t joints = setup->nuts.size();
     intent = {};
-    intent.step = lesson->current;
+    intent.step = static_cast<std::size_t>(&due - lesson->steps.data());
     intent.tries = tries;
     intent.joint = due.joint;
-    intent.fingers = due.kind == StepKind::run_down;
+    const double drag = lesson->assembly->joints[due.joint].design.prevailing_torque;
+    intent.until_seated = due.kind == StepKind::run_down;
+    intent.fingers = intent.until_seated && drag < finger_drag * setup->finger_torque(setup->nuts[due.joint]);
     intent.loosening = due.kind == StepKind::loosen;
     intent.checks = due.kind == StepKind::recheck;
     begin_angle = joint().nut.angle;
@@ -165,6 +179,7 @@ void Operator::Mind::choose_joint_and_goal(const lesson::Step& due) {
     if (random.chance(profile.overdoes)) stop *= 1.25;
     stop += 0.04 * tries;  // it was not enough: a little more
     intent.goal = (intent.wrong ? 0.3 : 1.0) * due.torque * stop;
+    if (intent.until_seated) intent.goal = 1.3 * drag + 2.0;
     // Tightening into yield: who can feel it goes on until it comes, and knows the torques to reach and not
     // to pass.
     const content::Specification& spec = lesson->assembly->joints[intent.joint].spec;
@@ -203,8 +218,9 @@ void Operator::Mind::pull(const Feeling& felt) {
     const double scale = intent.loosening ? setup->wrench.stiffness * to_radians(1.0) : intent.goal;
     const double missing = intent.loosening ? 1.0 : 1.0 - load / intent.goal;
     const double rate = scale * std::max(profile.final_rate, profile.load_rate * missing);
-    const double speed = std::min(profile.pull_speed * std::min(1.0, elapsed() / 0.15),
-                                  rate / setup->wrench.stiffness + nut_speed);
+    const double fastest = profile.pull_speed * (intent.checks ? 0.2 : 1.0);
+    const double speed =
+        std::min(fastest * std::min(1.0, elapsed() / 0.15), rate / setup->wrench.stiffness + nut_speed);
     handle += (intent.loosening ? -1.0 : 1.0) * speed * setup->dt;
 
     if (intent.loosening) {
@@ -215,7 +231,8 @@ void Operator::Mind::pull(const Feeling& felt) {
         const double coming = profile.anticipation * profile.reaction * std::max(felt.torque_rate, 0.0);
         intent.finished = load + coming >= intent.goal ||
                           (intent.stops_at_yield && felt.yields && load >= intent.least) ||
-                          (intent.checks && joint().nut.angle - begin_angle > seen_turn);
+                          (intent.checks && joint().nut.angle - begin_angle > seen_turn) ||
+                          (intent.until_seated && felt.seated);
     }
     if (intent.finished || std::abs(handle - stroke_begin) >= profile.stroke)
         enter(Phase::ease, unwinding_time);
@@ -223,7 +240,7 @@ void Operator::Mind::pull(const Feeling& felt) {
 
 void Operator::Mind::spin(const Feeling& felt) {
     handle += profile.spin_speed * setup->dt * minimum_jerk(elapsed() / 0.1);
-    intent.finished = felt.torque > seated_torque;
+    intent.finished = felt.torque > seated_share * setup->finger_torque(nut());
     if (intent.finished || handle - stroke_begin > to_radians(spin_stroke))
         enter(Phase::spin_back, intent.finished ? 0.3 : 0.12);
 }
@@ -324,7 +341,10 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
 
     servo::Input input;
     input.enabled = true;
-    if (const lesson::Step* due = lesson.due()) input.guide = static_cast<std::int16_t>(due->joint);
+    // Only a guided lesson leads the hand.
+    const lesson::Step* due = lesson.due();
+    if (due != nullptr && lesson.mode == lesson::Mode::guided)
+        input.guide = static_cast<std::int16_t>(due->joint);
     Pose pose = m.move(m.nerves.feel(m.joint()), input.grip);
     if (m.phase != Phase::done) {
         pose.position += m.tremor.at(m.time) * m.profile.tremor;

@@ -40,12 +40,17 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
         const double target = assembly.joints[i].spec.torque.target;
         joint::JointState& joint = state.joints[i];
         int steps = 0;
-        while (joint.torque < target && joint.condition == joint::Condition::sound && ++steps < longest) {
+        // Into yield as the specification has it: where the yield stage begins, and not on to a torque.
+        const bool into_yield = assembly.joints[i].spec.strategy == content::Strategy::yield;
+        const auto tight = [&] {
+            return joint.torque >= target || (into_yield && joint.stage == joint::Stage::yield);
+        };
+        while (!tight() && joint.condition == joint::Condition::sound && ++steps < longest) {
             const bool near = joint.stage != joint::Stage::navigation;
             const double step = (near ? 0.1 : 1.0) * speed * setup.dt;
             joint::turn_nut(setup.group, state.joints, i, joint.nut.angle + step, 1.0, setup.dt);
         }
-        if (joint.torque < target)
+        if (!tight())
             return fail(ErrorCode::bad_content,
                         fmt::format("joint {} cannot be tightened to {:.1f} N·m: it is {}",
                                     assembly.joints[i].design.id, target, joint::name(joint.condition)));

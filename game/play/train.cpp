@@ -67,8 +67,11 @@ Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOp
     operators::Operator trainee(options.trainee, options.seed, setup);
     const auto second = static_cast<std::uint64_t>(std::lround(1.0 / options.dt));
     const auto last = static_cast<std::uint64_t>(options.longest / options.dt);
+    const auto patience = static_cast<std::uint64_t>(options.patience / options.dt);
+    std::size_t step = lesson.current;
+    std::uint64_t since = 0;
     bool go_on = true;
-    while (go_on && lesson.due() != nullptr && state.tick < last) {
+    while (go_on && state.tick - since < patience && lesson.due() != nullptr && state.tick < last) {
         const servo::Input input = trainee.act(setup, state, lesson);
         const servo::Output output = servo::tick(setup, state, input);
         lesson::observe(lesson, state, input, output);
@@ -78,6 +81,10 @@ Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOp
         if (!lesson.events.empty())
             if (Status kept = pass_on_events(lesson, state, writer, progress, watch, go_on); !kept)
                 return fail(kept.error());
+        if (lesson.current != step) {
+            step = lesson.current;
+            since = state.tick;
+        }
         if (state.tick % second == 0) go_on = watch(progress) && go_on;
     }
     lesson::LessonResult result = lesson::judge(lesson, state, options.dt);

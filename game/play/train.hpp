@@ -20,7 +20,8 @@ struct TrainOptions {
     operators::Profile trainee;
     std::uint64_t seed = 1;
     double dt = 0.001;
-    double longest = 7200.0;  // s of virtual time after which the lesson is given up
+    double longest = 14400.0;  // s of virtual time after which the lesson is given up
+    double patience = 900.0;   // s without a step done, likewise
 };
 
 struct Progress {

@@ -207,9 +207,7 @@ void advance(const MechanisticParameters& p, MechanisticState& s, double angle, 
     const double turned = std::abs(angle - s.angle);
     s.dwell = turned > 0.0 ? s.dwell * std::exp(-turned / p.breakaway_angle)
                            : s.dwell + (1.0 - s.dwell) * -std::expm1(-dt / p.healing_time);
-    // One use: the reference load over the angle in which the elastic joint takes it up.
-    const double use_angle = p.reference_load * p.seat.compliance / p.levers.lead;
-    s.uses += s.clamp / p.reference_load * turned / use_angle;
+    const double clamp_before = s.clamp;
     s.angle = angle;
     s.share = share;
 
@@ -233,6 +231,9 @@ void advance(const MechanisticParameters& p, MechanisticState& s, double angle, 
         s.clamp = load.force;
         s.stiffness = load.stiffness;
     }
+    // One use of the faces: the reference load taken up once by turning the nut, in as many pulls as it
+    // takes.
+    if (turned > 0.0) s.uses += std::max(0.0, s.clamp - clamp_before) / p.reference_load;
     s.stage = stage_of(p, s, ratio);
 }
 

@@ -54,7 +54,7 @@ struct MechanisticState {
     double plastic = 0.0;     // m, permanent elongation of the bolt, never falls
     double stripped = 0.0;    // m, travel of sheared nut threads, never falls
     double embedding = 0.0;   // m, flattened roughness, never falls
-    double uses = 0.0;        // tightenings to the reference load that the faces have slid through
+    double uses = 0.0;        // tightenings to the reference load that the faces have been through
     double dwell = 1.0;       // 0…1, breakaway state
     double share = 0.0;       // −1…1, how much of the friction carries torque now (+1: slides tightening)
     double clamp = 0.0;       // N

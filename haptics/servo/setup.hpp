@@ -38,13 +38,18 @@ struct Setup {
     std::vector<NutPlace> nuts;
     Wrench wrench;
     double finger_stiffness = 5.0;   // N·m/rad
-    double finger_torque = 0.8;      // N·m at which fingertips slip on the nut
+    double finger_force = 65.0;      // N across the flats at which fingertips slip on the nut
     double hold_stiffness = 1000.0;  // N/m, engaged tool against the nut's centre
     double hold_torsion = 5.0;       // N·m/rad, against tilting
     double torque_scale = 1.0;       // device torque / true torque
     double torque_as_force = 0.0;    // N at the grip per N·m, for devices without torque
     force::Guiding guiding;
     force::OutputLimits limits;
+
+    // N·m that fingertips can put on a nut.
+    [[nodiscard]] double finger_torque(const NutPlace& nut) const {
+        return 0.5 * finger_force * nut.across_flats;
+    }
 };
 
 struct Description {

@@ -16,14 +16,15 @@ joint::Handle handle_of(const Setup& setup, const Engagement& e) {
         handle.stiffness = setup.wrench.stiffness;
     } else {
         handle.stiffness = setup.finger_stiffness;
-        handle.torque_limit = setup.finger_torque;
+        handle.torque_limit = setup.finger_torque(setup.nuts[static_cast<std::size_t>(std::max(e.joint, 0))]);
     }
     return handle;
 }
 
 // Fingertips that slip do not wind up: the grip moves on so that it just holds its limit.
 void let_slip(const Setup& setup, Engagement& e, double nut_angle) {
-    const double most = setup.finger_torque / setup.finger_stiffness;
+    const double most =
+        setup.finger_torque(setup.nuts[static_cast<std::size_t>(e.joint)]) / setup.finger_stiffness;
     e.hand_angle = nut_angle + std::clamp(e.hand_angle - nut_angle, -most, most);
 }
 

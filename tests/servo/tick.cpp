@@ -138,7 +138,7 @@ TEST_CASE("fingers run the nut down, slip at its seat, and leave it there") {
     for (int i = 0; i < 6000; ++i) {
         const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
         output = tick(setup, state, test::holding(Grip::fingers, test::tool_at(nut, at, 3e-3 * i)));
-        REQUIRE(output.wrench_torque <= setup.finger_torque * 1.0001);
+        REQUIRE(output.wrench_torque <= setup.finger_torque(nut) * 1.0001);
     }
     CHECK(output.stage != joint::Stage::navigation);
     CHECK(output.nut_angle == doctest::Approx(2 * pi).epsilon(0.1));  // 2 mm of gap, 2 mm of pitch
