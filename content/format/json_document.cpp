@@ -6,6 +6,7 @@
 #include <deque>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "content/format/json_pointer.hpp"
 #include "content/format/json_syntax.hpp"
@@ -35,7 +36,7 @@ struct JsonDocument::Content {
     std::string file;
     std::vector<Entry> entries;
     std::vector<std::size_t> line_starts{0};
-    std::size_t size = 0;
+    std::vector<std::uint32_t> inner_bytes;  // offsets of the bytes that begin no character, rising
 };
 
 // Builds values and places as nlohmann's parser reads. The parser does not say where a token starts; it
@@ -88,7 +89,10 @@ class JsonBuilder {
     }
 
     bool parse_error(std::size_t, const std::string&, const json::exception&) {
-        const SyntaxMistake mistake = explain_syntax(text_, end_, before_);
+        Stopped where{end_, before_, {}, suspect_};
+        if (!stack_.empty()) where.open = document_.content_->entries[stack_.back().entry].value_offset;
+        const SyntaxMistake mistake =
+            explain_syntax(text_, where, [&](std::size_t offset) { return document_.place(offset); });
         return stop(mistake.offset, mistake.what, mistake.expected);
     }
 
@@ -185,7 +189,9 @@ class JsonBuilder {
     }
 
     bool close() {
-        next_token();
+        const std::size_t closer = next_token();
+        const std::size_t opener = document_.content_->entries[stack_.back().entry].value_offset;
+        if (!suspect_ && closes_another(text_, opener, closer)) suspect_ = opener;
         stack_.pop_back();
         value_read();
         return true;
@@ -197,6 +203,7 @@ class JsonBuilder {
     std::size_t end_;  // byte behind the last token read
     Before before_ = Before::start;
     std::vector<Open> stack_;
+    std::optional<std::size_t> suspect_;  // the first bracket that another's seems to have closed
     std::size_t key_offset_ = 0;
     std::string key_;
     json* slot_ = nullptr;        // where the value of the key goes
@@ -206,9 +213,11 @@ class JsonBuilder {
 JsonDocument::JsonDocument(std::string_view text, std::string_view file)
     : content_(std::make_unique<Content>()) {
     content_->file = file;
-    content_->size = text.size();
-    for (std::size_t i = 0; i < text.size(); ++i)
+    for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '\n') content_->line_starts.push_back(i + 1);
+        if ((static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U)
+            content_->inner_bytes.push_back(static_cast<std::uint32_t>(i));
+    }
     content_->line_starts[0] = byte_order_mark(text);  // invisible in every editor
 }
 
@@ -265,8 +274,17 @@ Error JsonDocument::error_at(std::size_t offset, std::string what, std::string e
     error.expected = std::move(expected);
     error.file = content_->file;
     error.line = static_cast<int>(line - starts.begin()) + 1;
-    error.column = static_cast<int>(offset - std::min(*line, offset)) + 1;
+    const auto& inner = content_->inner_bytes;
+    const std::size_t start = std::min(*line, offset);
+    const auto skipped = std::lower_bound(inner.begin(), inner.end(), offset) -
+                         std::lower_bound(inner.begin(), inner.end(), start);
+    error.column = static_cast<int>(offset - start) - static_cast<int>(skipped) + 1;
     return error;
+}
+
+std::string JsonDocument::place(std::size_t offset) const {
+    const Error error = error_at(offset, {}, {});
+    return fmt::format("{}:{}", error.line, error.column);
 }
 
 Error JsonDocument::error(std::string_view pointer, Part part, std::string what, std::string expected) const {

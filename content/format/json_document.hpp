@@ -37,7 +37,8 @@ class JsonDocument {
     // not.
     [[nodiscard]] std::size_t offset(std::string_view pointer, Part part = Part::value) const;
 
-    // A mistake at a JSON pointer, with its line and column.
+    // A mistake at a JSON pointer, with its line and column. Columns count characters as an editor does: code
+    // points, a tab is one.
     [[nodiscard]] Error error(std::string_view pointer, Part part, std::string what,
                               std::string expected) const;
 
@@ -49,6 +50,7 @@ class JsonDocument {
     struct Content;
     JsonDocument(std::string_view text, std::string_view file);
     [[nodiscard]] Error error_at(std::size_t offset, std::string what, std::string expected) const;
+    [[nodiscard]] std::string place(std::size_t offset) const;  // "line:column"
 
     std::unique_ptr<Content> content_;
 };

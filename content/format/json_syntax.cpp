@@ -63,13 +63,16 @@ std::size_t number_length(std::string_view s) {
     return whole;
 }
 
+using Place = std::function<std::string(std::size_t)>;
+
 // The mistake inside the text that opens at `p`, if there is one.
-std::optional<SyntaxMistake> string_mistake(std::string_view text, std::size_t p) {
+std::optional<SyntaxMistake> string_mistake(std::string_view text, std::size_t p, const Place& place) {
     for (std::size_t i = p + 1; i < text.size(); ++i) {
         const auto byte = static_cast<unsigned char>(text[i]);
         if (text[i] == '"') return std::nullopt;
         if (text[i] == '\n' || text[i] == '\r')
-            return SyntaxMistake{p, "this text is not closed on its line", "expected a '\"' at its end"};
+            return SyntaxMistake{i, fmt::format("the text begun at {} is not closed on its line", place(p)),
+                                 "expected a '\"' at its end"};
         if (byte < 0x20)
             return SyntaxMistake{i, fmt::format("control character 0x{:02X} in a text", byte),
                                  fmt::format("write it as \\u{:04X}", byte)};
@@ -102,7 +105,20 @@ std::optional<SyntaxMistake> string_mistake(std::string_view text, std::size_t p
                 "write \\\\ for a backslash, or one of \\\" \\/ \\b \\f \\n \\r \\t \\uXXXX"};
         }
     }
-    return SyntaxMistake{p, "this text is not closed", "expected a '\"' at its end"};
+    return SyntaxMistake{text.size(), fmt::format("the text begun at {} is not closed", place(p)),
+                         "expected a '\"' at its end"};
+}
+
+// Where the text begins whose closing quote is the byte before `end`, if there is one.
+std::optional<std::size_t> text_before(std::string_view text, std::size_t end) {
+    if (end < 2 || text[end - 1] != '"') return std::nullopt;
+    for (std::size_t i = end - 1; i > 0; --i) {
+        if (text[i - 1] != '"') continue;
+        std::size_t escapes = 0;
+        while (escapes + 1 < i && text[i - 2 - escapes] == '\\') ++escapes;
+        if (escapes % 2 == 0) return i - 1;
+    }
+    return std::nullopt;
 }
 
 // A number that goes on where JSON's ends: 013, 1.2.3, 5mm, 13,2.
@@ -150,22 +166,28 @@ Wanted wanted_after(Before before) {
     return {};
 }
 
-SyntaxMistake token_mistake(std::string_view text, std::size_t p, const Wanted& wanted) {
+SyntaxMistake token_mistake(std::string_view text, std::size_t p, const Wanted& wanted, const Place& place) {
     const char c = text[p];
     if (c == '/' || c == '#')
         return {p, "JSON has no comments", "move it into \"sources\" or the lesson, or remove it"};
     if (c == '\'') return {p, "single quotes", "expected double quotes (\")"};
     if (c == '"') {
         if (!wanted.key && !wanted.value) return {p, "something is missing before this text", wanted.words};
-        if (auto mistake = string_mistake(text, p)) return *mistake;
+        if (auto mistake = string_mistake(text, p, place)) return *mistake;
         return {p, "this text cannot stand here", wanted.words};
     }
     const std::string_view word = word_at(text, p);
     if (word.empty()) return {p, fmt::format("{} cannot stand here", shown(c)), wanted.words};
     if (wanted.key)
         return {p, fmt::format("{} without quotes", in_quotes(word)), "expected a name in double quotes"};
-    if (!wanted.value)
-        return {p, fmt::format("something is missing before {}", in_quotes(word)), wanted.words};
+    if (!wanted.value) {
+        // A word right behind a closing quote: that quote was meant to open the next text.
+        const auto begun = text_before(text, p);
+        return {
+            p, fmt::format("something is missing before {}", in_quotes(word)),
+            begun ? fmt::format("{}, or a '\"' that closes the text begun at {}", wanted.words, place(*begun))
+                  : wanted.words};
+    }
     if (number_length(word) == word.size())
         return {p, fmt::format("the number {} is too large", word.substr(0, 40)), "expected less than 1e308"};
     static const std::array<std::string, 3> literals = {"true", "false", "null"};
@@ -201,18 +223,41 @@ std::size_t token_end(std::string_view text, std::size_t start) {
     return start + std::max<std::size_t>(number > 0 ? number : word.size(), 1);
 }
 
-SyntaxMistake explain_syntax(std::string_view text, std::size_t end, Before before) {
+bool closes_another(std::string_view text, std::size_t opener, std::size_t closer) {
+    const auto indent = [&](std::size_t at) {
+        const std::size_t line = text.rfind('\n', at) + 1;  // npos + 1 is 0
+        std::size_t first = line;
+        while (first < at && (text[first] == ' ' || text[first] == '\t')) ++first;
+        return std::pair(first - line, first == at);
+    };
+    const auto [closer_indent, first_on_line] = indent(closer);
+    return first_on_line && text.substr(opener, closer - opener).find('\n') != std::string_view::npos &&
+           closer_indent < indent(opener).first;
+}
+
+SyntaxMistake explain_syntax(std::string_view text, const Stopped& where, const Place& place) {
+    const Before before = where.before;
     Wanted wanted = wanted_after(before);
-    std::size_t p = skip_space(text, end);
+    std::size_t p = skip_space(text, where.end);
     // In a list a comma between digits may be meant.
     if (before == Before::object_value ||
         (before == Before::array_value && p < text.size() && text[p] != ','))
-        if (auto mistake = number_mistake(text, end)) return *mistake;
+        if (auto mistake = number_mistake(text, where.end)) return *mistake;
+    const auto unclosed = [&](SyntaxMistake mistake) {
+        if (!where.open) return mistake;
+        mistake.what +=
+            fmt::format(", and the '{}' opened at {} is not closed", text[*where.open], place(*where.open));
+        if (where.suspect)
+            mistake.expected += fmt::format(
+                "; by the indentation it is the '{}' opened at {} that lacks its '{}'", text[*where.suspect],
+                place(*where.suspect), text[*where.suspect] == '{' ? '}' : ']');
+        return mistake;
+    };
     const auto too_early = [&] {
         std::size_t last = text.size();
         while (last > 0 && std::string_view(" \t\r\n").find(text[last - 1]) != std::string_view::npos) --last;
         if (last <= byte_order_mark(text)) return SyntaxMistake{last, "the file is empty", wanted.words};
-        return SyntaxMistake{last, "the file ends too early", wanted.words};
+        return unclosed({last, "the file ends too early", wanted.words});
     };
     if (p >= text.size()) return too_early();
     // The separator is read over; what is wrong then stands behind it.
@@ -228,7 +273,11 @@ SyntaxMistake explain_syntax(std::string_view text, std::size_t end, Before befo
             return {comma, fmt::format("nothing follows this comma but '{}'", text[p]), "remove the comma"};
     }
     if (p >= text.size()) return too_early();
-    return token_mistake(text, p, wanted);
+    SyntaxMistake mistake = token_mistake(text, p, wanted, place);
+    // A bracket of the other kind, a name in a list, an object among names: what is around was to end before.
+    const bool closing = text[p] == '}' || text[p] == ']', opening = text[p] == '{' || text[p] == '[';
+    const bool name_in_list = text[p] == ':' && before == Before::array_value;
+    return closing || name_in_list || (opening && wanted.key) ? unclosed(std::move(mistake)) : mistake;
 }
 
 std::optional<SyntaxMistake> explain_encoding(std::string_view text) {

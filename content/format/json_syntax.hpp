@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,8 +18,19 @@ struct SyntaxMistake {
 // What the parser had read when it stopped.
 enum class Before { start, object_open, array_open, key, object_value, array_value, end };
 
-// The mistake in `text` behind byte `end`, which is where the last good token ended.
-SyntaxMistake explain_syntax(std::string_view text, std::size_t end, Before before);
+struct Stopped {
+    std::size_t end = 0;  // byte behind the last good token
+    Before before = Before::start;
+    std::optional<std::size_t> open;     // the innermost bracket that is open
+    std::optional<std::size_t> suspect;  // an earlier one that another's closing bracket seems to have closed
+};
+
+// The mistake in `text` where the parser stopped. `place` writes an offset as "line:column".
+SyntaxMistake explain_syntax(std::string_view text, const Stopped& where,
+                             const std::function<std::string(std::size_t)>& place);
+
+// By its indentation the closing bracket belongs to one further out: the opening one has lost its own.
+bool closes_another(std::string_view text, std::size_t opener, std::size_t closer);
 
 // The first byte that no content file may hold: not UTF-8, or NUL.
 std::optional<SyntaxMistake> explain_encoding(std::string_view text);

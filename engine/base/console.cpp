@@ -1,6 +1,8 @@
 #include "engine/base/console.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 namespace bolt {
 
@@ -14,6 +16,14 @@ int complain(const Error& error) {
 int complain(std::span<const Error> errors) {
     for (const Error& error : errors) (void)complain(error);
     return errors.empty() ? 0 : static_cast<int>(errors.front().code);
+}
+
+Status say(std::string_view text) {
+    const bool written =
+        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (written) return {};
+    return fail(ErrorCode::failed,
+                std::string("the standard output cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace bolt

@@ -43,8 +43,11 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t lim
 }
 
 Status write_file(const std::filesystem::path& path, std::string_view text) {
+    std::error_code status;
+    const std::filesystem::file_status target = std::filesystem::status(path, status);
+    const bool special = std::filesystem::exists(target) && !std::filesystem::is_regular_file(target);
     std::filesystem::path part = path;
-    part += ".part";
+    if (!special) part += ".part";  // a device or a pipe is written to, never replaced
     std::FILE* file = std::fopen(part.c_str(), "wb");
     if (file == nullptr)
         return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(errno));
@@ -53,14 +56,20 @@ Status write_file(const std::filesystem::path& path, std::string_view text) {
     const bool closed = std::fclose(file) == 0;
     if (!written || !closed) {
         const int reason = written ? errno : write_errno;
-        (void)std::remove(part.c_str());
+        if (!special) (void)std::remove(part.c_str());
         return file_error(path, ErrorCode::failed,
                           std::string("cannot be written: ") + std::strerror(reason));
     }
-    std::error_code status;
+    if (special) return {};
     std::filesystem::rename(part, path, status);
     if (status) return file_error(path, ErrorCode::failed, "cannot be written: " + status.message());
     return {};
+}
+
+Status keep_apart(const std::filesystem::path& input, const std::filesystem::path& output) {
+    std::error_code none;
+    if (!std::filesystem::equivalent(input, output, none) || none) return {};
+    return fail(ErrorCode::usage, output.string() + " is what is being read", "another file to write to");
 }
 
 }  // namespace bolt

@@ -18,21 +18,23 @@ struct Options {
 };
 
 int run(const Options& options) {
+    for (const std::string& input : {options.session, options.measured})
+        if (Status apart = keep_apart(input, options.html); !apart) return complain(apart.error());
     Result<record::Reader> reader = record::Reader::open(options.session);
     if (!reader) return complain(reader.error());
     Result<compare::Measured> measured = compare::read_measured(options.measured);
     if (!measured) return complain(measured.error());
     Result<compare::Comparison> comparison = compare::compare(*reader, *measured, options.joint);
     if (!comparison) return complain(comparison.error());
-    (void)std::fputs(compare::console_text(*comparison).c_str(), stdout);
+    if (Status said = say(compare::console_text(*comparison)); !said) return complain(said.error());
 
     const std::filesystem::path page(options.html);
     std::error_code ignored;  // a folder that cannot be made shows as a page that cannot be written
     if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path(), ignored);
     if (Status kept = write_file(page, compare::comparison_page(*comparison)); !kept)
         return complain(kept.error());
-    (void)std::fputs((page.string() + "\n").c_str(), stdout);
-    return 0;
+    const Status said = say(page.string() + "\n");
+    return said ? 0 : complain(said.error());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "engine/base/console.hpp"
@@ -20,6 +21,7 @@ namespace {
 int run_report(const std::vector<std::string>& files, const std::string& html) {
     std::vector<record::Reader> readers;
     for (const std::string& file : files) {
+        if (Status apart = keep_apart(file, html); !apart) return complain(apart.error());
         Result<record::Reader> reader = record::Reader::open(file);
         if (!reader) return complain(reader.error());
         if (!reader->complete())
@@ -29,15 +31,17 @@ int run_report(const std::vector<std::string>& files, const std::string& html) {
         readers.push_back(std::move(*reader));
     }
     std::vector<const record::Reader*> sessions;
+    sessions.reserve(readers.size());
     for (const record::Reader& reader : readers) sessions.push_back(&reader);
     Result<std::string> page = report::make_report(sessions);
     if (!page) return complain(page.error());
     if (Status kept = write_file(html, *page); !kept) return complain(kept.error());
-    (void)std::fputs((html + "\n").c_str(), stdout);
-    return 0;
+    const Status said = say(html + "\n");
+    return said ? 0 : complain(said.error());
 }
 
 int run_export(const std::string& file, const std::string& csv, std::uint64_t every) {
+    if (Status apart = keep_apart(file, csv); !apart) return complain(apart.error());
     Result<record::Reader> reader = record::Reader::open(file);
     if (!reader) return complain(reader.error());
     (void)std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error that we report

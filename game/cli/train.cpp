@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -144,7 +145,9 @@ int run(const Options& options) {
                 .c_str(),
             stderr);
     }
-    (void)std::signal(SIGINT, [](int) { interrupted = 1; });
+    for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, [](int) { interrupted = 1; });
+    // The page and the summary of an earlier lesson would speak of another session.
+    for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(out / stale, made);
     ProgressLine line(options.quiet);
     const std::filesystem::path session = out / "session.boltwright";
     Result<lesson::LessonResult> result =
@@ -156,13 +159,27 @@ int run(const Options& options) {
     if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, *play, *result)); !kept)
         return complain(kept.error());
     if (Status kept = write_report(session, out / "report.html"); !kept) return complain(kept.error());
-    (void)std::fputs(play::summary_table(assembly, *result).c_str(), stdout);
-    (void)std::fputs(fmt::format("{}, {}, {}\n", session.string(), (out / "summary.json").string(),
-                                 (out / "report.html").string())
-                         .c_str(),
-                     stdout);
+    std::string closing = play::summary_table(assembly, *result);
+    closing += fmt::format("{}, {}, {}\n", session.string(), (out / "summary.json").string(),
+                           (out / "report.html").string());
+    if (Status said = say(closing); !said) return complain(said.error());
     return interrupted != 0 || !result->finished ? static_cast<int>(ErrorCode::failed) : 0;
 }
+
+}  // namespace
+
+namespace {
+
+// CLI11 reads "-1" as the largest number there is.
+const CLI::Validator whole_number(
+    [](const std::string& text) {
+        std::uint64_t value = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = problem == std::errc{} && end == text.data() + text.size();
+        return whole ? std::string()
+                     : "a whole number from 0 to 18446744073709551615 is expected, not " + text;
+    },
+    "WHOLE NUMBER");
 
 }  // namespace
 
@@ -174,7 +191,10 @@ void add_train(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     train->add_option("--variant", options->variant,
                       "Material variant of the assembly; its default if not given");
-    train->add_option("--mode", options->mode)
+    train
+        ->add_option("--mode", options->mode,
+                     "guided: the hand is led to the nut, a step stays until it is done; practice: not led; "
+                     "assessment: a joint that is left counts as it was left")
         ->check(CLI::IsMember({"guided", "practice", "assessment"}))
         ->capture_default_str();
     train->add_option("--task", options->task, "Tighten the joints, or loosen joints that are tight")
@@ -189,6 +209,7 @@ void add_train(CLI::App& app, int& exit_code) {
     train->add_option("--operator", options->trainee, "Simulated trainee: expert, novice or clumsy")
         ->capture_default_str();
     train->add_option("--seed", options->seed, "Seed of the trainee and of the joints' scatter")
+        ->check(whole_number)
         ->capture_default_str();
     train->add_option("--out", options->out, "Folder for session, summary and report")->capture_default_str();
     train->add_flag("--quiet", options->quiet, "No progress");

@@ -15,8 +15,8 @@ namespace bolt::operators {
 class Operator {
   public:
     Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup);
-    Operator(Operator&&) noexcept;
-    Operator& operator=(Operator&&) noexcept;
+    Operator(Operator&& other) noexcept;
+    Operator& operator=(Operator&& other) noexcept;
     ~Operator();
 
     // The input for the next tick, from what can be seen and felt after the last one. Same seed, same inputs.

@@ -31,10 +31,10 @@ struct Progress {
     const lesson::Event* event = nullptr;  // what just happened; null: a second has passed
 };
 
-// Writes the session to `file` as it goes. `progress` may return false to stop: the session is then closed as
+// Writes the session to `file` as it goes. `watch` may return false to stop: the session is then closed as
 // it is.
-Result<lesson::LessonResult> train(const content::Assembly& assembly, const TrainOptions& options,
+Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOptions& options,
                                    const std::filesystem::path& file,
-                                   const std::function<bool(const Progress&)>& progress);
+                                   const std::function<bool(const Progress&)>& watch);
 
 }  // namespace bolt::play

@@ -1,8 +1,11 @@
 #include "game/record/database.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstring>
 #include <limits>
 #include <system_error>
@@ -143,7 +146,11 @@ Result<Database> Database::open_with(const std::string& file, std::string name, 
 }
 
 Result<Database> Database::create(const std::filesystem::path& path, std::string name) {
-    return open_with(path.string(), std::move(name), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+    // SQLite tries again to read what it cannot make, and then says that there is nothing to read.
+    const int made = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    if (made < 0) return file_error(name, "cannot be made: " + std::generic_category().message(errno));
+    (void)::close(made);
+    return open(path, std::move(name));
 }
 
 Result<Database> Database::open(const std::filesystem::path& path, std::string name) {

@@ -66,7 +66,7 @@ class Database {
   public:
     // `name` is what errors call the file.
     static Result<Database> create(const std::filesystem::path& path,
-                                   std::string name);  // makes a missing file
+                                   std::string name);  // makes it; an error if it is there
     static Result<Database> open(const std::filesystem::path& path, std::string name);  // to write on
     // Never changes the file. What a killed writer left in the -wal file beside it is seen, in a folder where
     // nothing can be written too.

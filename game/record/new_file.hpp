@@ -5,13 +5,19 @@
 #include <string>
 
 #include "engine/base/result.hpp"
+#include "game/record/file_lock.hpp"
 #include "game/record/session.hpp"
 #include "game/record/tables.hpp"
 
 namespace bolt::record {
 
-// Makes a session without ticks at `path`, closed, in write-ahead mode, and the folder for it; `seals` gets
-// its seals. It is made under another name first: if that fails, an old file at `path` is still there.
+// Makes the folder for a session at `path` and keeps other programs from recording there.
+Result<FileLock> claim_place(const std::filesystem::path& path, const std::string& file);
+
+// Makes a session without ticks at `path`, closed, in write-ahead mode; `seals` gets its seals. The place has
+// to be claimed. It is made under another name first: if that fails, an old file at `path` is still there. At
+// every moment there is a whole session at `path`, the old or the new one, if there was one; the old one is
+// kept as session.hpp says.
 Status make_new_file(const std::filesystem::path& path, const std::string& file, const Header& header,
                      Seals& seals);
 

@@ -8,7 +8,11 @@
 // 'complete'.
 //
 // While it is recorded, and after a kill, the newest part is in a -wal file beside it; finish() leaves one
-// file.
+// file. A -shm and a .lock file are also there as long as it is recorded; what a kill leaves of them is in
+// nobody's way.
+//
+// What was recorded is not thrown away by the next recording: "a.previous.session" is the session that was
+// "a.session" before, complete or cut short, until the one after that takes its place.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +49,11 @@ struct Header {
 // collected.
 class Writer {
   public:
-    // Replaces an existing file at `path`, unless it is open elsewhere, and makes a missing folder.
+    // Makes a missing folder. A file that is at `path` is kept beside it as <stem>.previous<extension>, all
+    // of it in one file, in place of the one kept before; only a session that was cut short before its first
+    // commit, which holds no tick, is replaced without being kept. If another writer, in this or in another
+    // program, is recording into `path`, or the file is open elsewhere, that is an error and harms nothing:
+    // of several that create at the same time one succeeds, and has the file until finish() or its end.
     static Result<Writer> create(const std::filesystem::path& path, const Header& header);
     Writer(Writer&& other) noexcept;
     Writer& operator=(Writer&& other) noexcept;

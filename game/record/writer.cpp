@@ -7,6 +7,7 @@
 
 #include "game/record/chunk.hpp"
 #include "game/record/database.hpp"
+#include "game/record/file_lock.hpp"
 #include "game/record/format.hpp"
 #include "game/record/new_file.hpp"
 #include "game/record/session.hpp"
@@ -15,7 +16,8 @@
 namespace bolt::record {
 
 struct Writer::State {
-    State(Database opened, std::string name) : database(std::move(opened)), file(std::move(name)) {}
+    State(FileLock taken, Database opened, std::string name)
+        : lock(std::move(taken)), database(std::move(opened)), file(std::move(name)) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     // Left without finish(): what was collected is kept, and there is nobody left to tell if it cannot be.
@@ -28,7 +30,8 @@ struct Writer::State {
     Status leave_single_file();
     void update(const lesson::JointResult& result);
 
-    std::optional<Database> database;  // none after finish()
+    std::optional<FileLock> lock;  // goes last; neither is there after finish()
+    std::optional<Database> database;
     std::string file;
     double dt = 0.0;
     std::size_t chunk_ticks = 0;
@@ -114,6 +117,8 @@ Result<Writer> Writer::create(const std::filesystem::path& path, const Header& h
     if (status) return file_error(file, "is no place for a file: " + status.message());
 
     Seals seals;
+    auto lock = claim_place(real, file);
+    if (!lock) return fail(lock.error());
     if (auto replaced = make_new_file(real, file, header, seals); !replaced) return fail(replaced.error());
     auto database = Database::open(real, file);
     if (!database) return fail(database.error());
@@ -125,7 +130,7 @@ Result<Writer> Writer::create(const std::filesystem::path& path, const Header& h
         !done)
         return fail(done.error());
 
-    auto state = std::make_unique<State>(std::move(*database), file);
+    auto state = std::make_unique<State>(std::move(*lock), std::move(*database), file);
     state->dt = header.dt;
     state->chunk_ticks = *chunk_ticks;
     state->seals = seals;
@@ -161,6 +166,7 @@ Status Writer::finish(const lesson::LessonResult& result) {
     if (auto done = state.commit(&result); !done) return done;
     Status single = state.leave_single_file();
     state.database.reset();
+    state.lock.reset();
     state.refusal =
         single ? file_error(state.file, "is complete, nothing more can be recorded").value() : single.error();
     return single;

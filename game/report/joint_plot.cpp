@@ -18,6 +18,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double lead_in = 12.0;   // degrees drawn before the first contact, at least
 constexpr double longest = 540.0;  // degrees drawn before the end, at most
+constexpr double longest_free = 180.0;  // degrees drawn of a loose nut, at most
 
 constexpr std::string_view stage_styles[] = {"s0", "s1", "s2", "s3"};
 // The last pass stands out, those before step back.
@@ -87,15 +88,28 @@ bool is_in_view(const JointView& view, double nut_angle, bool loosening) {
     return at >= view.shown.low - 1e-6 && at <= view.shown.high + 1e-6;
 }
 
-// Highest and lowest of what is drawn.
-Range extent(const JointCurve& curve, const JointView& view, bool loosening, Value value) {
+// Highest and lowest of what is drawn of one joint.
+Range extent(const SessionData& session, std::size_t joint, Value value) {
+    const bool loosening = is_loosening(session);
+    const JointView view = joint_view(session, joint);
     Range range{0.0, 0.0};
-    for (const Visit& visit : curve.visits) {
+    for (const Visit& visit : session.curves[joint].visits) {
         for (const CurvePoint& p : visit.points) {
             if (!is_in_view(view, p.angle, loosening)) continue;
             range.low = std::min(range.low, value(p));
             range.high = std::max(range.high, value(p));
         }
+    }
+    return range;
+}
+
+// Loosened joints are compared with each other, as nothing else is asked of them: they share their axes.
+Range shared_extent(const SessionData& session, std::size_t joint, Value value) {
+    if (!is_loosening(session)) return extent(session, joint, value);
+    Range range{0.0, 0.0};
+    for (std::size_t j = 0; j < session.curves.size(); ++j) {
+        const Range one = extent(session, j, value);
+        range = {std::min(range.low, one.low), std::max(range.high, one.high)};
     }
     return range;
 }
@@ -139,44 +153,100 @@ void add_visits(Plot& plot, const JointCurve& curve, const JointView& view, bool
     }
 }
 
-// A re-check that only saw the nut begin to move shows its breakaway, which is not what it was tightened with
-// (as game/lesson judges it).
-bool is_judged(const SessionData& session, const Visit& visit) {
+const content::Pass* pass_of(const SessionData& session, const Visit& visit) {
     const auto pass = static_cast<std::size_t>(visit.pass);
-    const std::vector<content::Pass>& passes = session.assembly.passes;
-    const bool check =
-        !is_loosening(session) && pass < passes.size() && passes[pass].kind == content::StepKind::recheck;
-    return !check || std::abs(visit.release.angle - visit.begin_angle) > to_radians(2.0);
+    const bool told = !session.pass_texts.empty() && pass < session.assembly.passes.size();
+    return told && !is_loosening(session) ? &session.assembly.passes[pass] : nullptr;
 }
 
-void add_marks(Plot& plot, const SessionData& session, const JointCurve& curve, const JointView& view) {
-    const bool loosening = is_loosening(session);
+bool is_recheck(const SessionData& session, const Visit& visit) {
+    const content::Pass* pass = pass_of(session, visit);
+    return pass != nullptr && pass->kind == content::StepKind::recheck;
+}
+
+bool turned_on(const Visit& visit) {
+    return std::abs(visit.release.angle - visit.begin_angle) > to_radians(2.0);
+}
+
+// As game/lesson judges it: the last pass to the full target, and re-checks that turned the nut on. One that
+// only saw it begin to move shows its breakaway, which is not what it was tightened with.
+bool is_judged(const SessionData& session, const Visit& visit) {
+    const content::Pass* pass = pass_of(session, visit);
+    if (pass == nullptr) return true;
+    if (pass->kind == content::StepKind::recheck) return turned_on(visit);
+    const auto full = [](const content::Pass& p) {
+        return p.kind == content::StepKind::tighten && p.fraction > 0.999;
+    };
     const std::vector<content::Pass>& passes = session.assembly.passes;
-    const Visit* highest = nullptr;
+    const auto last = std::find_if(passes.rbegin(), passes.rend(), full);
+    return last != passes.rend() && pass == &*last;
+}
+
+// The sample that shows the torque of the joint's result; none if no visit of that kind does.
+const CurvePoint* judged_point(const SessionData& session, std::size_t joint, bool any_visit) {
+    const double torque = session.joints[joint].torque;
+    if (!(torque > 0.0)) return nullptr;
+    double least = 0.02 + 1e-4 * torque;  // N·m by which it may differ: the samples are single precision
+    const CurvePoint* found = nullptr;
+    const auto look = [&](const CurvePoint& p) {
+        const double off = std::abs(std::abs(p.torque) - torque);
+        if (off > least) return;
+        least = off;
+        found = &p;
+    };
+    for (const Visit& visit : session.curves[joint].visits) {
+        if (!visit.worked || !(any_visit || is_judged(session, visit))) continue;
+        look(visit.peak);
+        for (const CurvePoint& p : visit.points) look(p);
+    }
+    return found;
+}
+
+void add_judged(Plot& plot, const SessionData& session, std::size_t joint, const JointView& view) {
+    const bool loosening = is_loosening(session);
+    const CurvePoint* judged = judged_point(session, joint, false);
+    // A joint that was never brought to its target in full is judged by what it has seen so far.
+    if (judged == nullptr) judged = judged_point(session, joint, true);
+    if (judged == nullptr || !is_in_view(view, judged->angle, loosening)) return;
+    plot.marks.push_back({{drawn_angle(view, judged->angle, loosening), torque_of(*judged)},
+                          Shape::dot,
+                          "mpeak",
+                          number(torque_of(*judged), 1),
+                          false,
+                          false});
+}
+
+void add_releases(Plot& plot, const SessionData& session, const JointCurve& curve, const JointView& view) {
+    const bool loosening = is_loosening(session);
     for (const Visit& visit : curve.visits) {
-        if (!visit.worked) continue;
-        const auto pass = static_cast<std::size_t>(visit.pass);
-        if (is_judged(session, visit) &&
-            (highest == nullptr || std::abs(visit.peak.torque) >= std::abs(highest->peak.torque)))
-            highest = &visit;
         const double at = visit.release.angle;
-        if (!is_in_view(view, at, loosening)) continue;
-        const bool named = !session.pass_texts.empty() && pass < passes.size() &&
-                           passes[pass].kind == content::StepKind::tighten && passes[pass].fraction < 1.0;
+        if (!visit.worked || !is_in_view(view, at, loosening)) continue;
+        const content::Pass* pass = pass_of(session, visit);
+        const bool named =
+            pass != nullptr && pass->kind == content::StepKind::tighten && pass->fraction < 1.0;
         plot.marks.push_back({{drawn_angle(view, at, loosening), clamp_kN(visit.release)},
                               Shape::square,
                               "mclamp",
-                              named ? pass_label(passes[pass]) : "",
+                              named ? pass_label(*pass) : "",
                               true,
                               true});
     }
-    if (highest == nullptr || !is_in_view(view, highest->peak.angle, loosening)) return;
-    plot.marks.push_back({{drawn_angle(view, highest->peak.angle, loosening), torque_of(highest->peak)},
-                          Shape::dot,
-                          "mpeak",
-                          number(torque_of(highest->peak), 1),
+}
+
+// Highest torque of re-checks that did not turn the nut on.
+void add_breakaway(Plot& plot, const SessionData& session, const JointCurve& curve, const JointView& view) {
+    const Visit* highest = nullptr;
+    for (const Visit& visit : curve.visits)
+        if (visit.worked && is_recheck(session, visit) && !turned_on(visit) &&
+            (highest == nullptr || visit.peak.torque > highest->peak.torque))
+            highest = &visit;
+    if (highest == nullptr || !is_in_view(view, highest->peak.angle, false)) return;
+    plot.marks.push_back({{drawn_angle(view, highest->peak.angle, false), torque_of(highest->peak)},
+                          Shape::ring,
+                          "mbreak",
+                          fmt::format("breakaway {}", number(torque_of(highest->peak), 1)),
                           false,
-                          false});
+                          true});
 }
 
 // The whole run, small, under the target window where the curve leaves room.
@@ -221,14 +291,14 @@ JointView joint_view(const SessionData& session, std::size_t joint) {
         const double touch = drawn_angle(view, contact->from, loosening);
         from = std::max({start, touch - std::max(lead_in, 0.12 * (end - touch)), end - longest});
     }
-    if (loosening) {  // once the nut is free nothing more happens
+    if (loosening) {  // once the nut is free nothing more happens, however far it is turned
         const auto free = std::find_if(curve.stages.begin(), curve.stages.end(), [](const StageSpan& s) {
             return s.stage == joint::Stage::navigation;
         });
-        if (free != curve.stages.end()) {
-            const double loose = drawn_angle(view, free->from, loosening);
-            end = std::min(end, loose + std::max(lead_in, 0.12 * loose));
-        }
+        const double loose =
+            free == curve.stages.end() ? end : drawn_angle(view, free->from, loosening);
+        view.cut_after = end - loose > longest_free;
+        if (view.cut_after) end = loose + longest_free;
     }
     view.cut = from > start + 1.0;
     const double margin = std::max(0.5, 0.04 * (end - from));
@@ -248,10 +318,11 @@ Plot joint_plot(const SessionData& session, std::size_t joint) {
     plot.x.ticks.range = view.shown;
     plot.x.label = loosening ? "angle turned back, °" : fmt::format("nut angle from {}, °", view.zero_name);
     if (view.cut) plot.x.label += fmt::format(" (drawn from {}°)", number(view.shown.low, 0));
-    Range torque = extent(curve, view, loosening, torque_of);
+    if (view.cut_after) plot.x.label += fmt::format(" (drawn to {}°)", number(view.shown.high, 0));
+    Range torque = shared_extent(session, joint, torque_of);
     if (!loosening) torque.high = std::max(torque.high, spec.torque.high);
     plot.y = value_axis(torque, "torque, N·m");
-    Range clamp = extent(curve, view, loosening, clamp_kN);
+    Range clamp = shared_extent(session, joint, clamp_kN);
     if (!loosening) clamp.high = std::max(clamp.high, target_clamp(session.assembly, joint) * 1e-3);
     clamp.high *= 1.3;  // the forces follow the torque: apart they can be told from each other
     plot.y2 = value_axis(clamp, "clamp, kN");
@@ -267,7 +338,9 @@ Plot joint_plot(const SessionData& session, std::size_t joint) {
     }
     if (!loosening) add_targets(plot, spec);
     add_visits(plot, curve, view, loosening, last_pass_of(session));
-    add_marks(plot, session, curve, view);
+    add_releases(plot, session, curve, view);
+    add_breakaway(plot, session, curve, view);
+    add_judged(plot, session, joint, view);
     return plot;
 }
 
@@ -284,7 +357,7 @@ std::string joint_figure(const SessionData& session, std::size_t joint) {
 std::string run_down_text(const RunDown& run) {
     if (run.angle < to_radians(15.0)) return {};
     const std::string low = number(run.torque_low, 2), high = number(run.torque_high, 2);
-    return fmt::format("Run-down of {} turns in {}, {} N·m.", number(run.angle / (2.0 * pi), 1),
+    return fmt::format("Run-down of {} turns in {}, wrench torque {} N·m.", number(run.angle / (2.0 * pi), 1),
                        duration_text(run.time), low == high ? high : low + "…" + high);
 }
 

@@ -14,6 +14,7 @@ struct JointView {
     Range shown;            // degrees from zero
     std::string zero_name;  // "snug", "first contact", "start"
     bool cut = false;       // the run-down is left out
+    bool cut_after = false;  // what was turned of a loose nut is not all drawn
 };
 JointView joint_view(const SessionData& session, std::size_t joint);
 

@@ -61,6 +61,8 @@ bool PassOrder::in_turn() const {
                         [](const Turn& t) { return t.out_of_turn || t.again; });
 }
 
+bool PassOrder::as_asked() const { return !asked.empty() && in_turn() && left_out() == 0; }
+
 std::size_t PassOrder::left_out() const {
     return static_cast<std::size_t>(
         std::count_if(asked.begin(), asked.end(), [&](std::size_t j) { return place_followed(j) == 0; }));
@@ -83,6 +85,23 @@ std::size_t PassOrder::place_followed(std::size_t joint) const {
 std::size_t PassOrder::visits(std::size_t joint) const {
     return static_cast<std::size_t>(
         std::count_if(followed.begin(), followed.end(), [&](const Turn& t) { return t.joint == joint; }));
+}
+
+std::vector<OrderDrawing> order_drawings(const std::vector<PassOrder>& orders) {
+    std::vector<OrderDrawing> drawings;
+    for (const PassOrder& order : orders) {
+        if (order.followed.empty()) continue;
+        const auto same = std::find_if(drawings.begin(), drawings.end(), [&](const OrderDrawing& d) {
+            return d.order.as_asked() && order.as_asked() && d.order.asked == order.asked;
+        });
+        if (same == drawings.end()) {
+            drawings.push_back({order, 1});
+            continue;
+        }
+        same->order.label += ", " + order.label;
+        ++same->passes;
+    }
+    return drawings;
 }
 
 std::string pass_label(const content::Pass& pass) {

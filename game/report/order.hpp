@@ -20,6 +20,7 @@ struct PassOrder {
     std::vector<Turn> followed;  // visits that did some work, in time
 
     [[nodiscard]] bool in_turn() const;          // nothing out of turn or repeated
+    [[nodiscard]] bool as_asked() const;         // an order was asked, and followed from first to last
     [[nodiscard]] std::size_t left_out() const;  // asked, but not visited
     // Place in the order, counted from 1; 0 if not in it.
     [[nodiscard]] std::size_t place_asked(std::size_t joint) const;
@@ -31,6 +32,14 @@ struct PassOrder {
 // One for each pass of the assembly. A session that tells no passes apart gives one, without an order asked
 // if the assembly has several.
 std::vector<PassOrder> pass_orders(const SessionData& session);
+
+// Passes that were begun, with those together that followed the same order as asked: one drawing each. The
+// label of several names them all.
+struct OrderDrawing {
+    PassOrder order;
+    std::size_t passes = 1;
+};
+std::vector<OrderDrawing> order_drawings(const std::vector<PassOrder>& orders);
 
 std::string pass_label(const content::Pass& pass);
 

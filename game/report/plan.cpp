@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "game/report/place.hpp"
 #include "game/report/text.hpp"
 
 namespace bolt::report {
@@ -36,18 +37,55 @@ Paper paper_of(const content::Assembly& assembly) {
     return {right, glm::cross(right, axis)};
 }
 
-// An arrow from disc to disc. Its head is off the middle, where the lines of a cross pattern meet.
-void draw_arrow(Svg& svg, Point a, Point b, double radius, std::string_view style, bool head) {
-    const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
+struct Arrow {
+    Point from, to;  // centres of two discs
+    [[nodiscard]] double length() const { return std::hypot(to.x - from.x, to.y - from.y); }
+    [[nodiscard]] Point at(double share) const {
+        return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+    }
+};
+
+// Where along an arrow its head is clear of every disc and of the heads so far, else where it is clearest: not
+// in the middle if that can be, where the lines of a cross pattern meet.
+Point head_place(const Arrow& arrow, const PlanLayout& layout, const std::vector<Point>& heads) {
+    constexpr double reach = 6.0;  // of a head about its middle
+    Point best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (const double share : {0.64, 0.68, 0.72, 0.6, 0.76, 0.56, 0.8, 0.5, 0.84, 0.4, 0.35, 0.3, 0.25}) {
+        const Point p = arrow.at(share);
+        const auto far = [&](Point other) { return std::hypot(p.x - other.x, p.y - other.y); };
+        double clear = 0.0;  // what is missing is negative
+        for (const Point& disc : layout.at) clear = std::min(clear, far(disc) - layout.radius - reach);
+        for (const Point& head : heads) clear = std::min(clear, far(head) - 2.0 * reach);
+        if (clear > most + 1e-9) {
+            most = clear;
+            best = p;
+        }
+    }
+    return best;
+}
+
+void draw_arrow(Svg& svg, const Arrow& arrow, double radius, std::string_view style) {
+    const double length = arrow.length();
     if (length < 2.0 * radius + 1.0) return;
-    const double ux = dx / length, uy = dy / length;
-    svg.line({a.x + ux * radius, a.y + uy * radius}, {b.x - ux * radius, b.y - uy * radius}, style);
-    if (!head) return;
-    const Point tip{a.x + 0.64 * dx + 4.0 * ux, a.y + 0.64 * dy + 4.0 * uy};
+    svg.line(arrow.at(radius / length), arrow.at(1.0 - radius / length), style);
+}
+
+void draw_head(Svg& svg, const Arrow& arrow, Point at) {
+    const double length = arrow.length();
+    const double ux = (arrow.to.x - arrow.from.x) / length, uy = (arrow.to.y - arrow.from.y) / length;
+    const Point tip{at.x + 4.0 * ux, at.y + 4.0 * uy};
     const Point corners[] = {tip,
                              {tip.x - 8.0 * ux - 3.2 * uy, tip.y - 8.0 * uy + 3.2 * ux},
                              {tip.x - 8.0 * ux + 3.2 * uy, tip.y - 8.0 * uy - 3.2 * ux}};
     svg.path(corners, "ah", true);
+}
+
+std::vector<Arrow> arrows(const std::vector<std::size_t>& joints, const PlanLayout& layout) {
+    std::vector<Arrow> found;
+    for (std::size_t i = 1; i < joints.size(); ++i)
+        if (joints[i] != joints[i - 1]) found.push_back({layout.at[joints[i - 1]], layout.at[joints[i]]});
+    return found;
 }
 
 std::vector<std::size_t> joints_followed(const PassOrder& order) {
@@ -56,35 +94,97 @@ std::vector<std::size_t> joints_followed(const PassOrder& order) {
     return joints;
 }
 
-void draw_order_joint(Svg& svg, const SessionData& session, const PassOrder& order, const PlanLayout& layout,
-                      std::size_t joint) {
+constexpr double small_print = 12.0;  // letters on a narrow screen
+constexpr double large_print = 13.0;
+
+// About a thing of that half width and half height: on the preferred side, on the other, to the right, to the
+// left.
+std::vector<Spot> spots_about(Point at, double half_width, double half_height, bool under_first) {
+    const Spot above{{at.x, at.y - half_height - 4.0}, Anchor::middle};
+    const Spot below{{at.x, at.y + half_height + 12.0}, Anchor::middle};
+    const Spot right{{at.x + half_width + 4.0, at.y + 4.0}};
+    const Spot left{{at.x - half_width - 4.0, at.y + 4.0}, Anchor::end};
+    const Spot far_above{{at.x, above.at.y - 13.0}, Anchor::middle};
+    const Spot far_below{{at.x, below.at.y + 13.0}, Anchor::middle};
+    if (under_first) return {below, far_below, above, far_above, right, left};
+    return {above, far_above, below, far_below, right, left};
+}
+
+void put_words(Svg& svg, Placer& placer, const std::vector<Spot>& spots, std::string_view style,
+               std::string_view words, double size) {
+    const Spot spot = placer.choose(spots, words, size);
+    svg.text(spot.at, fmt::format("{}{}", style, anchor_style(spot.anchor)), words);
+}
+
+bool is_out_of_turn(const PassOrder& order, std::size_t joint) {
+    return std::any_of(order.followed.begin(), order.followed.end(),
+                       [&](const Turn& t) { return t.joint == joint && t.out_of_turn; });
+}
+
+// What is wrong with a joint's turn; empty if nothing is.
+std::string fault_text(const PassOrder& order, std::size_t joint) {
+    const std::size_t asked = order.place_asked(joint), visits = order.visits(joint);
+    const bool out_of_turn = is_out_of_turn(order, joint);
+    std::string text;
+    if (asked > 0 && (out_of_turn || order.place_followed(joint) == 0)) text = fmt::format("asked {}", asked);
+    if (visits > 1) text += fmt::format("{}{}×", text.empty() ? "" : ", ", visits);
+    return (out_of_turn ? "▲ " : "") + text;
+}
+
+void draw_order_joint(Svg& svg, const PassOrder& order, const PlanLayout& layout, std::size_t joint) {
     const Point at = layout.at[joint];
-    const std::size_t asked = order.place_asked(joint), followed = order.place_followed(joint);
-    const auto wrong = [&](const Turn& t) { return t.joint == joint && t.out_of_turn; };
-    const bool out_of_turn = std::any_of(order.followed.begin(), order.followed.end(), wrong);
-    svg.circle(at, layout.radius, followed == 0 ? "dn" : out_of_turn ? "dw" : "dd");
+    const std::size_t followed = order.place_followed(joint);
+    svg.circle(at, layout.radius, followed == 0 ? "dn" : is_out_of_turn(order, joint) ? "dw" : "dd");
     svg.text({at.x, at.y + 4.0}, "no mid", followed == 0 ? "–" : fmt::format("{}", followed));
-    // Words stand on the outer side, away from the lines.
-    const bool under = at.y > 0.5 * layout.height;
-    const double near = layout.radius + (under ? 12.0 : 4.0), far = near + 11.0;
-    svg.text({at.x, at.y + (under ? near : -near)}, "sm mid", session.joints[joint].id);
-    const std::size_t visits = order.visits(joint);
-    std::string below;
-    if (out_of_turn || (followed == 0 && asked > 0)) below = fmt::format("asked {}", asked);
-    if (visits > 1) below += fmt::format("{}{}×", below.empty() ? "" : ", ", visits);
-    if (below.empty()) return;
-    svg.text({at.x, at.y + (under ? far : -far)}, "wn mid", (out_of_turn ? "▲ " : "") + below);
+}
+
+// Names and faults, clear of the discs: on the outer side if there is room, away from the lines.
+void draw_order_words(Svg& svg, const SessionData& session, const PassOrder& order,
+                      const PlanLayout& layout) {
+    Placer placer({0.0, 0.0, layout.width, layout.height});
+    const double r = layout.radius;
+    for (const Point& at : layout.at) placer.take({at.x - r, at.y - r, 2.0 * r, 2.0 * r});
+    const auto spots = [&](std::size_t joint) {
+        return spots_about(layout.at[joint], r, r, layout.at[joint].y > 0.5 * layout.height);
+    };
+    for (std::size_t j = 0; j < layout.at.size(); ++j)
+        put_words(svg, placer, spots(j), "sm", session.joints[j].id, small_print);
+    for (std::size_t j = 0; j < layout.at.size(); ++j)
+        if (const std::string fault = fault_text(order, j); !fault.empty())
+            put_words(svg, placer, spots(j), "wn", fault, small_print);
 }
 
 // Height of a bar such that those above and below, with their words, do not touch.
 double bar_room(const PlanLayout& layout) {
-    constexpr double words_wide = 40.0, words_high = 32.0;
+    constexpr double words_wide = 46.0, words_high = 40.0;
     double room = 56.0;
     for (std::size_t i = 0; i < layout.at.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
             if (std::abs(layout.at[i].x - layout.at[k].x) < words_wide)
                 room = std::min(room, std::abs(layout.at[i].y - layout.at[k].y) - words_high);
     return std::max(room, 12.0);
+}
+
+constexpr double rows_left = 56.0, rows_right = 72.0, rows_width = 480.0;
+
+// Of all forces that the rows show.
+Ticks clamp_ticks(const SessionData& session) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+    for (std::size_t j = 0; j < session.joints.size(); ++j)
+        for (const double force : {session.joints[j].clamp, session.joints[j].clamp_at_release,
+                                   target_clamp(session.assembly, j)}) {
+            const bool shown = session.joints[j].overall != Verdict::none && std::isfinite(force);
+            lowest = shown ? std::min(lowest, force) : lowest;
+            highest = shown ? std::max(highest, force) : highest;
+        }
+    // Dots, not bars: where all lie close together the axis need not start at zero.
+    const double from_zero = lowest > 0.5 * highest ? 0.98 * lowest : 0.0;
+    return covering_ticks(1e-3 * from_zero, 1.02e-3 * highest, 6);
+}
+
+// The force when released and the force in the end can be told from each other.
+bool is_apart(const Scale& kN, const lesson::JointResult& r) {
+    return r.overall != Verdict::none && std::abs(kN(1e-3 * r.clamp) - kN(1e-3 * r.clamp_at_release)) > 2.5;
 }
 
 }  // namespace
@@ -118,12 +218,17 @@ PlanLayout plan_layout(const content::Assembly& assembly, double width, double m
 std::string order_plan(const SessionData& session, const PassOrder& order) {
     const PlanLayout layout = plan_layout(session.assembly, 340.0, 40.0);
     Svg svg(layout.width, layout.height, fmt::format("Order of the joints, {}", order.label));
-    const std::vector<std::size_t> followed = joints_followed(order);
-    for (std::size_t i = 1; i < order.asked.size(); ++i)
-        draw_arrow(svg, layout.at[order.asked[i - 1]], layout.at[order.asked[i]], layout.radius, "oa", false);
-    for (std::size_t i = 1; i < followed.size(); ++i)
-        draw_arrow(svg, layout.at[followed[i - 1]], layout.at[followed[i]], layout.radius, "of", true);
-    for (std::size_t j = 0; j < layout.at.size(); ++j) draw_order_joint(svg, session, order, layout, j);
+    if (!order.as_asked())
+        for (const Arrow& arrow : arrows(order.asked, layout)) draw_arrow(svg, arrow, layout.radius, "oa");
+    const std::vector<Arrow> followed = arrows(joints_followed(order), layout);
+    for (const Arrow& arrow : followed) draw_arrow(svg, arrow, layout.radius, "of");
+    for (std::size_t j = 0; j < layout.at.size(); ++j) draw_order_joint(svg, order, layout, j);
+    std::vector<Point> heads;
+    for (const Arrow& arrow : followed) {
+        heads.push_back(head_place(arrow, layout, heads));
+        draw_head(svg, arrow, heads.back());
+    }
+    draw_order_words(svg, session, order, layout);
     return svg.finish();
 }
 
@@ -132,36 +237,34 @@ std::string clamp_plan(const SessionData& session) {
     const PlanLayout layout = plan_layout(session.assembly, 480.0, 52.0);
     const double bar_height = bar_room(layout);
     Svg svg(layout.width, layout.height, "Clamp force of each joint against its target");
+    Placer placer({0.0, 0.0, layout.width, layout.height});
     for (std::size_t j = 0; j < layout.at.size(); ++j) {
         const lesson::JointResult& r = session.joints[j];
         const double share = r.clamp / target_clamp(session.assembly, j);
         const double height = bar_height * std::clamp(std::isfinite(share) ? share / full : 0.0, 0.0, 1.0);
         const Point at = layout.at[j];
         const double bottom = at.y + 0.5 * bar_height, mark = bottom - bar_height / full;
-        svg.rect({at.x - 0.5 * bar_width, bottom - bar_height, bar_width, bar_height}, "bf");
-        svg.rect({at.x - 0.5 * bar_width, bottom - height, bar_width, height},
+        const Box frame{at.x - 0.5 * bar_width, bottom - bar_height, bar_width, bar_height};
+        svg.rect(frame, "bf");
+        svg.rect({frame.x, bottom - height, bar_width, height},
                  fmt::format("bar {}", verdict_style(r.overall)));
         svg.line({at.x - 0.5 * bar_width - 3.0, mark}, {at.x + 0.5 * bar_width + 3.0, mark}, "tgt");
-        svg.text({at.x, bottom + 13.0}, "no mid", number(r.clamp * 1e-3, 1));
-        svg.text({at.x, bottom - bar_height - 5.0}, "sm mid", r.id);
+        placer.take(frame);
     }
+    for (std::size_t j = 0; j < layout.at.size(); ++j)
+        put_words(svg, placer, spots_about(layout.at[j], 0.5 * bar_width, 0.5 * bar_height, false), "sm",
+                  session.joints[j].id, small_print);
+    for (std::size_t j = 0; j < layout.at.size(); ++j)
+        put_words(svg, placer, spots_about(layout.at[j], 0.5 * bar_width, 0.5 * bar_height, true), "no",
+                  number(session.joints[j].clamp * 1e-3, 1), large_print);
     return svg.finish();
 }
 
 std::string clamp_rows(const SessionData& session) {
-    constexpr double row = 20.0, top = 14.0, left = 56.0, right = 72.0, width = 480.0, bottom = 40.0;
+    constexpr double row = 20.0, top = 14.0, left = rows_left, right = rows_right, width = rows_width,
+                     bottom = 40.0;
     const Summary summary = summarise(session);
-    double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
-    for (std::size_t j = 0; j < session.joints.size(); ++j)
-        for (const double force : {session.joints[j].clamp, session.joints[j].clamp_at_release,
-                                   target_clamp(session.assembly, j)}) {
-            const bool shown = session.joints[j].overall != Verdict::none && std::isfinite(force);
-            lowest = shown ? std::min(lowest, force) : lowest;
-            highest = shown ? std::max(highest, force) : highest;
-        }
-    // Dots, not bars: where all lie close together the axis need not start at zero.
-    const double from_zero = lowest > 0.5 * highest ? 0.98 * lowest : 0.0;
-    const Ticks ticks = covering_ticks(1e-3 * from_zero, 1.02e-3 * highest, 6);
+    const Ticks ticks = clamp_ticks(session);
     const Scale x{ticks.range, width - left - right, false};
     const double foot = top + row * static_cast<double>(session.joints.size());
     Svg svg(width, foot + bottom, "Clamp force of each joint when released and in the end");
@@ -184,14 +287,22 @@ std::string clamp_rows(const SessionData& session) {
         svg.text({left - 8.0, y + 4.0}, "no end", r.id);
         svg.line({target, y - 6.0}, {target, y + 6.0}, "tgt");
         if (r.overall == Verdict::none) continue;
-        svg.line({released, y}, {end, y}, "cln");
-        svg.circle({released, y}, 3.2, "mclamp");
+        if (is_apart(x, r)) {
+            svg.line({released, y}, {end, y}, "cln");
+            svg.circle({released, y}, 3.2, "mclamp");
+        }
         svg.circle({end, y}, 4.0, fmt::format("bar {}", verdict_style(r.overall)));
         svg.text({width - 4.0, y + 4.0}, "no end", number(1e-3 * r.clamp, 1) + " kN");
     }
     svg.line({left, foot}, {width - right, foot}, "ax");
     svg.text({left + 0.5 * (width - left - right), foot + 32.0}, "lb mid", "clamp force, kN");
     return svg.finish();
+}
+
+bool released_apart(const SessionData& session) {
+    const Scale x{clamp_ticks(session).range, rows_width - rows_left - rows_right, false};
+    return std::any_of(session.joints.begin(), session.joints.end(),
+                       [&](const lesson::JointResult& r) { return is_apart(x, r); });
 }
 
 }  // namespace bolt::report

@@ -23,5 +23,6 @@ std::string clamp_plan(const SessionData& session);
 
 // One row a joint: force when released and in the end, against the target and the mean.
 std::string clamp_rows(const SessionData& session);
+bool released_apart(const SessionData& session);  // some row shows that the two differ
 
 }  // namespace bolt::report

@@ -1,16 +1,21 @@
 #include "game/report/plot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "game/report/decimate.hpp"
+#include "game/report/place.hpp"
 #include "game/report/text.hpp"
 
 namespace bolt::report {
 
 namespace {
 
-constexpr double letter = 5.8;  // width of a letter of the small print, in a wide typeface
+constexpr double small_print = 12.0;  // letters on a narrow screen
+constexpr double large_print = 13.0;
+constexpr double head_high = 20.0;  // base line above the area: names of the axes, second row of the bands
 
 struct Mapping {
     Scale x, y, y2;
@@ -24,13 +29,8 @@ Mapping mapping_of(const Plot& plot, const Box& area) {
 }
 
 bool has_band_labels(const Plot& plot) {
-    return std::any_of(plot.bands.begin(), plot.bands.end(), [](const Band& b) { return !b.label.empty(); });
-}
-
-// Letters of a UTF-8 text, roughly: what does not continue a sequence.
-double width_of(std::string_view text) {
-    const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
-    return letter * static_cast<double>(std::count_if(text.begin(), text.end(), starts));
+    return std::any_of(plot.bands.begin(), plot.bands.end(),
+                       [](const Band& b) { return !b.of_y && !b.label.empty(); });
 }
 
 void draw_band(Svg& svg, const Band& band, const Mapping& map, const Box& area) {
@@ -47,12 +47,69 @@ void draw_band(Svg& svg, const Band& band, const Mapping& map, const Box& area) 
              band.style);
 }
 
-// Above the area, where no curve runs.
-void draw_band_label(Svg& svg, const Band& band, const Mapping& map, const Box& area) {
-    const double from = std::clamp(map.x(band.range.low), 0.0, area.width);
-    const double to = std::clamp(map.x(band.range.high), 0.0, area.width);
-    if (band.of_y || band.label.empty() || width_of(band.label) > to - from) return;
-    svg.text({area.x + from + 1.0, area.y - 5.0}, "st", band.label);
+struct BandName {
+    const Band* band = nullptr;
+    double from = 0.0, to = 0.0;  // of the band, within the area
+    double at = 0.0;              // where the name starts
+    [[nodiscard]] double width() const { return text_width(band->label, small_print); }
+    [[nodiscard]] double middle() const { return 0.5 * (from + to); }
+};
+
+// Bands too narrow for their name, one of each name that stands nowhere else: the widest.
+std::vector<BandName> unnamed(const std::vector<BandName>& all) {
+    std::vector<BandName> narrow;
+    for (const BandName& name : all) {
+        const auto same = [&](const BandName& other) { return other.band->label == name.band->label; };
+        const auto fits = [&](const BandName& o) { return same(o) && o.width() <= o.to - o.from; };
+        if (std::any_of(all.begin(), all.end(), fits)) continue;
+        const auto found = std::find_if(narrow.begin(), narrow.end(), same);
+        if (found == narrow.end())
+            narrow.push_back(name);
+        else if (name.to - name.from > found->to - found->from)
+            *found = name;
+    }
+    std::sort(narrow.begin(), narrow.end(),
+              [](const BandName& a, const BandName& b) { return a.middle() < b.middle(); });
+    return narrow;
+}
+
+// Side by side between the names of the axes, each as near to its band as the others let it.
+void spread(std::vector<BandName>& names, Range room) {
+    constexpr double gap = 6.0;
+    double free = room.low;
+    for (BandName& name : names) {
+        name.at = std::max(free, name.middle() - 0.5 * name.width());
+        free = name.at + name.width() + gap;
+    }
+    double end = room.high;
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
+        name->at = std::min(name->at, end - name->width());
+        end = name->at - gap;
+    }
+}
+
+// Above the area, where no curve runs: over its band where it fits, else in a second row with a line to the
+// band.
+void draw_band_names(Svg& svg, const Plot& plot, const Mapping& map, const Box& area) {
+    std::vector<BandName> all;
+    for (const Band& band : plot.bands) {
+        const double from = std::clamp(map.x(band.range.low), 0.0, area.width);
+        const double to = std::clamp(map.x(band.range.high), 0.0, area.width);
+        if (!band.of_y && !band.label.empty() && to > from) all.push_back({&band, from, to, from + 1.0});
+    }
+    for (const BandName& name : all)
+        if (name.width() <= name.to - name.from)
+            svg.text({area.x + name.at, area.y - 5.0}, "st", name.band->label);
+    std::vector<BandName> narrow = unnamed(all);
+    const double left = text_width(plot.y.label, large_print) - 34.0 + 6.0;
+    const double right = plot.y2 ? text_width(plot.y2->label, large_print) - 32.0 + 6.0 : 0.0;
+    spread(narrow, {left, area.width - right});
+    for (const BandName& name : narrow) {
+        if (name.at < left - 0.5) continue;  // no room at all
+        const double foot = std::clamp(name.middle(), name.at + 3.0, name.at + name.width() - 6.0);
+        svg.line({area.x + name.middle(), area.y}, {area.x + foot, area.y - head_high + 3.0}, "ld");
+        svg.text({area.x + name.at, area.y - head_high}, "st", name.band->label);
+    }
 }
 
 void draw_rule(Svg& svg, const Rule& rule, const Mapping& map, const Box& area) {
@@ -75,13 +132,17 @@ void draw_line(Svg& svg, const Line& line, const Mapping& map) {
     svg.path(decimate(points, 1.0), line.style);
 }
 
-void draw_mark(Svg& svg, const Mark& mark, const Mapping& map, const Box& area) {
+std::optional<Point> place_of(const Mark& mark, const Mapping& map, const Box& area) {
     const Point in = map(mark.at, mark.second_axis);  // within the area, but drawn whole on its border
     const auto outside = [](double v, double size) { return !(v >= -0.5 && v <= size + 0.5); };
-    if (outside(in.x, area.width) || outside(in.y, area.height)) return;
-    const Point p{area.x + in.x, area.y + in.y};
-    const double right = area.x + area.width, bottom = area.y + area.height;
-    constexpr double r = 3.2;
+    if (outside(in.x, area.width) || outside(in.y, area.height)) return std::nullopt;
+    return Point{area.x + in.x, area.y + in.y};
+}
+
+constexpr double mark_radius = 3.2;
+
+void draw_mark(Svg& svg, const Mark& mark, Point p) {
+    constexpr double r = mark_radius;
     switch (mark.shape) {
         case Shape::dot:
         case Shape::ring:
@@ -96,16 +157,46 @@ void draw_mark(Svg& svg, const Mark& mark, const Mapping& map, const Box& area) 
             break;
         }
     }
-    if (mark.label.empty()) return;
+}
+
+void draw_mark_label(Svg& svg, const Mark& mark, Point p, const Box& area, Placer& placer) {
+    const Spot above_left{{p.x - 6.0, p.y - 6.0}, Anchor::end}, above_right{{p.x + 6.0, p.y - 6.0}};
+    const Spot below_left{{p.x - 8.0, p.y + 13.0}, Anchor::end}, below_right{{p.x + 8.0, p.y + 11.0}};
+    const Spot far_left{{p.x - 8.0, p.y + 26.0}, Anchor::end};
     if (mark.quiet) {
-        const bool fits = p.x + 8.0 + width_of(mark.label) < right;
-        const double low = std::min(p.y + 9.0, bottom - 4.0);
-        svg.text({fits ? p.x + 8.0 : p.x - 7.0, fits ? low : p.y - 6.0}, fits ? "sm" : "sm end", mark.label);
+        const Spot spots[] = {below_right, above_left, below_left, above_right, far_left};
+        const Spot spot = placer.choose(spots, mark.label, small_print);
+        svg.text(spot.at, fmt::format("sm{}", anchor_style(spot.anchor)), mark.label);
         return;
     }
-    const bool left = in.x > 0.5 * area.width;
-    const double y = std::max(p.y - 6.0, area.y + 10.0);
-    svg.text({left ? p.x - 6.0 : p.x + 6.0, y}, left ? "mk end" : "mk", mark.label);
+    const bool left = p.x - area.x > 0.5 * area.width;
+    const Spot spots[] = {left ? above_left : above_right, left ? above_right : above_left,
+                          left ? below_left : below_right, left ? below_right : below_left, far_left};
+    const Spot spot = placer.choose(spots, mark.label, large_print);
+    svg.text(spot.at, fmt::format("mk{}", anchor_style(spot.anchor)), mark.label);
+}
+
+// Labels after all marks, so that they keep clear of them; the loud ones first.
+void draw_marks(Svg& svg, const Plot& plot, const Mapping& map, const Box& area) {
+    Placer placer(area);
+    for (const Line& line : plot.lines)
+        for (Point p : within(line.points, map.x.range)) {
+            p = map(p, line.second_axis);
+            if (std::isfinite(p.x) && std::isfinite(p.y))
+                placer.take({area.x + p.x - 1.0, area.y + p.y - 1.0, 2.0, 2.0});
+        }
+    for (const Mark& mark : plot.marks) {
+        const std::optional<Point> p = place_of(mark, map, area);
+        if (!p) continue;
+        draw_mark(svg, mark, *p);
+        placer.take({p->x - mark_radius, p->y - mark_radius, 2.0 * mark_radius, 2.0 * mark_radius});
+    }
+    for (const bool quiet : {false, true})
+        for (const Mark& mark : plot.marks) {
+            const std::optional<Point> p = place_of(mark, map, area);
+            if (p && mark.quiet == quiet && !mark.label.empty())
+                draw_mark_label(svg, mark, *p, area, placer);
+        }
 }
 
 void draw_grid(Svg& svg, const Plot& plot, const Mapping& map, const Box& area) {
@@ -113,7 +204,7 @@ void draw_grid(Svg& svg, const Plot& plot, const Mapping& map, const Box& area) 
 }
 
 void draw_axes(Svg& svg, const Plot& plot, const Mapping& map, const Box& area) {
-    const double head = has_band_labels(plot) ? 20.0 : 9.0;
+    const double head = has_band_labels(plot) ? head_high : 9.0;
     const double right = area.x + area.width, bottom = area.y + area.height;
     svg.line({area.x, bottom}, {right, bottom}, "ax");
     for (const double at : plot.x.ticks.at) {
@@ -149,9 +240,9 @@ void draw_into(Svg& svg, const Plot& plot) {
     for (const Rule& rule : plot.rules) draw_rule(svg, rule, map, area);
     for (const Line& line : plot.lines) draw_line(svg, line, map);
     svg.leave();
-    for (const Band& band : plot.bands) draw_band_label(svg, band, map, area);
+    draw_band_names(svg, plot, map, area);
     draw_axes(svg, plot, map, area);
-    for (const Mark& mark : plot.marks) draw_mark(svg, mark, map, area);
+    draw_marks(svg, plot, map, area);
 }
 
 std::string draw(const Plot& plot) {

@@ -27,7 +27,7 @@ struct Line {
 struct Band {
     Range range;
     std::string_view style;
-    std::string label;  // left out where it does not fit
+    std::string label;  // bands of the same name that are too narrow for it share one
     bool of_y = false;
     bool strip = false;  // of x: only along the axis, so that it hides nothing
 };
@@ -48,7 +48,7 @@ struct Mark {
     std::string_view style;
     std::string label;
     bool second_axis = false;
-    bool quiet = false;  // small print to the lower right; else bold, above, on the side with more room
+    bool quiet = false;  // small print to the lower right; else bold, above; elsewhere where that is taken
 };
 
 struct Plot {

@@ -33,7 +33,7 @@ struct NutStep {
 
 // `inertia` (kg·m²) of nut and wrench about the bolt must be at least dt² times the steepest fall of the
 // loosening torque; coupling_inertia() gives one that is.
-NutStep step_nut(const Resistance& r, double inertia, NutMotion nut, const Handle& handle, double dt);
+NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt);
 
 // The inertia that makes the coupling spring resolve within a step.
 inline double coupling_inertia(double stiffness, double dt) { return stiffness * dt * dt; }

@@ -40,14 +40,16 @@ PlasticCurve PlasticCurve::make(const Thread& thread, const PropertyClass& bolt,
     return c;
 }
 
-double PlasticCurve::load(double u) const {
+double PlasticCurve::load(double elongation) const {
+    const double u = elongation;
     if (u < uniform)
         return elastic_load + (ultimate_load - elastic_load) * rise(u, scale) / rise(uniform, scale);
     if (u >= fracture) return 0.0;
     return ultimate_load - (ultimate_load - neck_load) * (u - uniform) / (fracture - uniform);
 }
 
-double PlasticCurve::slope(double u) const {
+double PlasticCurve::slope(double elongation) const {
+    const double u = elongation;
     if (u <= 0.0) return std::numeric_limits<double>::infinity();
     if (u < uniform) {
         const double x = power(u / scale);

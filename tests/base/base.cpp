@@ -91,6 +91,12 @@ TEST_CASE("files: written whole or not at all, read with a reason when not") {
     // A full disk leaves what stood there before.
     REQUIRE(write_file(folder / "a", "two\n").has_value());
     CHECK_FALSE(std::filesystem::exists(folder / "a.part"));
+    // What is no regular file stays what it is.
+    std::filesystem::create_symlink("/dev/null", folder / "null");
+    CHECK(write_file(folder / "null", "x").has_value());
+    CHECK(std::filesystem::is_symlink(folder / "null"));
+    CHECK_FALSE(keep_apart(folder / "a", folder / "." / "a").has_value());
+    CHECK(keep_apart(folder / "a", folder / "b").has_value());
     std::filesystem::remove_all(folder);
 }
 

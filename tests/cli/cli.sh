@@ -99,6 +99,22 @@ expect 1 'm8_releasable|loosen' "$bin/boltwright" compare a/session.boltwright "
 printf 'angle,torque\n1,2\n' > wrong.csv
 expect 3 'wrong.csv:1' "$bin/boltwright" compare a/session.boltwright wrong.csv
 
+expect 2 'is what is being read' "$bin/boltwright" report a/session.boltwright --html a/session.boltwright
+expect 2 'is what is being read' "$bin/boltwright" export a/session.boltwright --csv ./a/session.boltwright
+expect 0 'b/session' "$bin/boltwright" report a/session.boltwright --html b/session.html
+expect 2 'whole number' "$bin/boltwright" train --seed -1
+expect 2 'whole number' "$bin/boltwright" train --seed 18446744073709551616
+expect 1 'standard output' bash -c "'$bin/bolt-author' torque --size M16 --class 8.8 > /dev/full"
+expect 1 'standard output' bash -c "'$bin/bolt-author' validate zq350 > /dev/full"
+expect 1 'standard output' bash -c "'$bin/boltwright' train cover-m8 --headless --quiet --out full > /dev/full"
+mkfifo pipe && (cat pipe > piped.html &) && expect 0 '' "$bin/boltwright" report a/session.boltwright --html pipe
+check "a pipe stays a pipe" test -p pipe
+
+# A locking nut is run down with the wrench.
+mkdir locking && sed 's/"lubrication": "oiled"/"lubrication": "oiled", "prevailing_torque_Nm": 4/' \
+    pump-cover/assembly.json > locking/assembly.json
+expect 0 'score' "$bin/boltwright" train locking --headless --quiet --out locked
+
 # What is wrong is said, with the right exit code.
 expect 2 '' "$bin/boltwright"
 expect 2 '' "$bin/boltwright" train --mode hard

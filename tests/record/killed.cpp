@@ -35,6 +35,9 @@ void check_left(const std::filesystem::path& path, std::uint64_t reported) {
         CHECK(reader->tick_count() == old_ticks);  // the session that was to be replaced
         return;
     }
+    const auto previous = Reader::open(path.parent_path() / "a.previous.session");
+    if (!previous) FAIL_CHECK(previous.error().message());
+    if (previous) CHECK((previous->complete() && previous->tick_count() == old_ticks));
     const std::uint64_t appended = reported == 0 ? 0 : reported - 1;
     CHECK(reader->tick_count() <= script_ticks);
     CHECK(reader->tick_count() + script_second >= appended);
@@ -45,14 +48,13 @@ void check_left(const std::filesystem::path& path, std::uint64_t reported) {
 }  // namespace
 
 TEST_CASE("a process killed at any file operation leaves a session that opens") {
-    const TempFolder folder;
-    const auto path = folder / "a.session";
     int survived = -1;
     int cut_short = 0;
     for (int at = 0; survived < 0; ++at) {
         REQUIRE(at < 2000);
         CAPTURE(at);
-        for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(path.string() + suffix);
+        const TempFolder folder;
+        const auto path = folder / "a.session";
         script_session(path, old_ticks);
         const ChildEnd end = run_child([&](const auto& report) {
             const FaultyDisk disk(Fault::kill, at);
@@ -70,6 +72,43 @@ TEST_CASE("a process killed at any file operation leaves a session that opens") 
     // with.
     CHECK(survived > 40);
     CHECK(cut_short > 20);
+}
+
+TEST_CASE("a process killed while it replaces a cut-short session loses nothing of it") {
+    constexpr std::size_t cut_ticks = 20;
+    int survived = -1;
+    int kept = 0;
+    for (int at = 0; survived < 0; ++at) {
+        REQUIRE(at < 200);
+        CAPTURE(at);
+        const TempFolder folder;
+        const auto path = folder / "a.session";
+        leave_cut_short(path, at % 2 == 0);
+        const ChildEnd end = run_child([&](const auto&) {
+            const FaultyDisk disk(Fault::kill, at);
+            return create_script(path) ? 0 : 1;
+        });
+        if (!end.killed) {
+            CHECK(end.code == 0);
+            survived = at;
+        }
+        // Twice: what died in the middle is also in nobody's way.
+        for (int next = 0; next < 2; ++next) {
+            CAPTURE(next);
+            const auto now = Reader::open(path);
+            if (!now) FAIL_CHECK(now.error().message());
+            const bool is_old = now && now->tick_count() == cut_ticks;
+            const auto old = is_old ? Reader::open(path) : Reader::open(folder / "a.previous.session");
+            if (!old) FAIL_CHECK(old.error().message());
+            if (!old) continue;
+            CHECK(old->tick_count() == cut_ticks);
+            CHECK(script_mismatch(*old).empty());
+            if (!is_old) ++kept;
+            if (next == 0) CHECK(create_script(path));
+        }
+    }
+    CHECK(survived > 10);
+    CHECK(kept > survived);
 }
 
 TEST_CASE("a process killed at a random moment loses at most the last second") {

@@ -30,19 +30,6 @@ void run_sql(const std::filesystem::path& path, const char* sql) {
     sqlite3_close(database);
 }
 
-// A session as a killed process leaves it: the files of one that is still being recorded.
-void leave_cut_short(const std::filesystem::path& path, bool with_index) {
-    const std::filesystem::path live = path.string() + ".live";
-    auto writer = create_script(live);
-    REQUIRE(writer);
-    REQUIRE(play_script(*writer, 25));
-    for (const char* suffix : {"", "-wal", "-shm"})
-        if (with_index || std::string(suffix) != "-shm")
-            put_bytes(path.string() + suffix, bytes_of(live.string() + suffix));
-    REQUIRE(writer->finish({}));
-    std::filesystem::remove(live);
-}
-
 }  // namespace
 
 TEST_CASE("what is no session is refused in words") {

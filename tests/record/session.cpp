@@ -1,11 +1,18 @@
 #include "game/record/session.hpp"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sched.h>
 #include <sqlite3.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <limits>
 
+#include "tests/record/child.hpp"
 #include "tests/record/support.hpp"
 
 using namespace bolt;
@@ -36,9 +43,9 @@ std::size_t files_in(const TempFolder& folder) {
 }  // namespace
 
 TEST_CASE("a session gives back every bit of its ticks, whole seconds or not") {
-    const TempFolder folder;
     for (const double dt : {0.001, 0.00025, 1.0, 2.5, 0.3}) {
         for (const std::size_t count : {0U, 1U, 999U, 1000U, 1001U, 4001U}) {
+            const TempFolder folder;
             CAPTURE(dt);
             CAPTURE(count);
             if (dt >= 1.0 && count > 1) continue;  // a commit a tick
@@ -221,9 +228,12 @@ TEST_CASE("a session that is being recorded is not replaced") {
     REQUIRE(play_script(writer, 15));
     const auto second = Writer::create(folder / "a.session", sample_header(0.1));
     REQUIRE_FALSE(second);
-    CHECK(second.error().what.find("open elsewhere") != std::string::npos);
+    CHECK(second.error().what == "another program is recording into this file");
+    CHECK(second.error().file == (folder / "a.session").string());
+    CHECK(files_in(folder) == 4);  // with its -wal, -shm and .lock
     REQUIRE(writer.finish({}));
     CHECK(opened(folder / "a.session").tick_count() == 15);
+    CHECK(files_in(folder) == 1);
 }
 
 TEST_CASE("a session is made in a folder that is not there yet") {
@@ -260,6 +270,57 @@ TEST_CASE("where no session can be made the error names the file") {
     }
     CHECK(std::filesystem::is_directory(folder / "folder"));
     CHECK(std::filesystem::is_fifo(folder / "pipe"));
+}
+
+TEST_CASE("where nothing can be written the error says why") {
+    const auto reason_at = [](const std::filesystem::path& path) {
+        const auto writer = Writer::create(path, sample_header(0.001));
+        return writer ? std::string("it was made") : writer.error().what;
+    };
+    // The kernel's own folders take no files, not even root's.
+    for (const std::filesystem::path path : {"/sys/a.session", "/proc/a.session"}) {
+        CAPTURE(path);
+        errno = 0;
+        REQUIRE(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600) < 0);
+        CHECK(reason_at(path) ==
+              std::string("nothing can be written in its folder: ") + std::strerror(errno));
+    }
+    const TempFolder folder;
+    put_bytes(folder / "file", "");
+    CHECK(reason_at(folder / "file/a.session") == "its folder cannot be made: Not a directory");
+
+    const auto status_of = [&](const std::filesystem::path& path, const char* expected) {
+        const std::string reason = reason_at(path);
+        if (reason == expected) return 0;
+        (void)std::fputs((reason + "\n").c_str(), stderr);
+        return 1;
+    };
+    constexpr int cannot_be_shown = 77;
+    std::filesystem::create_directory(folder / "closed");
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+    std::filesystem::permissions(folder / "closed", std::filesystem::perms(0555));
+    const ChildEnd denied = run_child([&](const auto&) {
+        constexpr uid_t nobody = 65534;  // root may write everywhere
+        if (::getuid() == 0 && ::setuid(nobody) != 0) return cannot_be_shown;
+        if (status_of(folder / "closed/a.session",
+                      "nothing can be written in its folder: Permission denied") != 0)
+            return 1;
+        return status_of(folder / "closed/new/a.session", "its folder cannot be made: Permission denied");
+    });
+    if (denied.code == cannot_be_shown) MESSAGE("no user without rights: not shown");
+    CHECK((denied.code == 0 || denied.code == cannot_be_shown));
+
+    const ChildEnd read_only = run_child([&](const auto&) {
+        if (::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0 && ::unshare(CLONE_NEWNS) != 0)
+            return cannot_be_shown;
+        (void)::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+        if (::mount("none", (folder / "closed").c_str(), "tmpfs", MS_RDONLY, nullptr) != 0)
+            return cannot_be_shown;
+        return status_of(folder / "closed/a.session",
+                         "nothing can be written in its folder: Read-only file system");
+    });
+    if (read_only.code == cannot_be_shown) MESSAGE("no read-only file system to be had: not shown");
+    CHECK((read_only.code == 0 || read_only.code == cannot_be_shown));
 }
 
 TEST_CASE("a tick that no session has is refused") {

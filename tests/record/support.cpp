@@ -213,6 +213,17 @@ std::filesystem::path script_session(const std::filesystem::path& path, std::siz
     return path;
 }
 
+void leave_cut_short(const std::filesystem::path& path, bool with_index) {
+    const std::filesystem::path live = path.string() + ".live";
+    auto writer = create_script(live);
+    if (!writer || !play_script(*writer, 25)) std::abort();
+    for (const char* suffix : {"", "-wal", "-shm"})
+        if (with_index || std::string(suffix) != "-shm")
+            put_bytes(path.string() + suffix, bytes_of(live.string() + suffix));
+    if (!writer->finish({})) std::abort();
+    std::filesystem::remove(live);
+}
+
 std::string script_mismatch(const Reader& reader) {
     const std::vector<TickRecord> ticks = all_ticks(reader);
     if (ticks.size() != reader.tick_count()) return "the ticks cannot be read";

@@ -47,6 +47,8 @@ void put_bytes(const std::filesystem::path& path, const std::string& bytes);
 inline constexpr std::size_t script_second = 10;
 std::filesystem::path script_session(const std::filesystem::path& path,
                                      std::size_t ticks);  // recorded and finished
+// A session of 20 ticks as a killed process leaves it: the files of one that is still being recorded.
+void leave_cut_short(const std::filesystem::path& path, bool with_index);
 // Records up to `ticks` ticks and calls `after` with the number of those that are in; the first error ends
 // it.
 Status play_script(Writer& writer, std::size_t ticks, const std::function<void(std::size_t)>& after = {});

@@ -19,8 +19,9 @@ int run_new(const std::string& given, const std::string& title) {
         folder.has_filename() ? folder.filename() : folder.parent_path().filename();
     const std::string name = title.empty() ? last.string() : title;
     if (Status made = content::create_assembly(folder, name); !made) return complain(made.error());
-    fmt::print("{}\nCheck it with: bolt-author validate {}\n", (folder / "assembly.json").string(), given);
-    return 0;
+    const Status said = say(fmt::format("{}\nCheck it with: bolt-author validate {}\n",
+                                        (folder / "assembly.json").string(), given));
+    return said ? 0 : complain(said.error());
 }
 
 int run_validate(const std::vector<std::string>& assemblies, const std::string& variant) {
@@ -31,9 +32,11 @@ int run_validate(const std::vector<std::string>& assemblies, const std::string& 
             worst = std::max(worst, complain(loaded.errors));
             continue;
         }
-        fmt::print("{}: {} joints, {} passes, variant {}: no mistakes\n", loaded.assembly.file,
-                   loaded.assembly.joints.size(), loaded.assembly.passes.size(),
-                   loaded.assembly.variant.empty() ? "-" : loaded.assembly.variant);
+        const Status said =
+            say(fmt::format("{}: {} joints, {} passes, variant {}: no mistakes\n", loaded.assembly.file,
+                            loaded.assembly.joints.size(), loaded.assembly.passes.size(),
+                            loaded.assembly.variant.empty() ? "-" : loaded.assembly.variant));
+        if (!said) return complain(said.error());
     }
     return worst;
 }

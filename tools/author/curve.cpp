@@ -75,10 +75,8 @@ int run_curve(const Options& options) {
         const Status kept = write_file(options.csv, text);
         return kept ? 0 : complain(kept.error());
     }
-    if (std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return 0;
-    Error error;
-    error.what = "the curve cannot be written to the standard output";
-    return complain(error);
+    const Status said = say(text);
+    return said ? 0 : complain(said.error());
 }
 
 }  // namespace

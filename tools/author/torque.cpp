@@ -36,6 +36,7 @@ int run(const Options& options) {
     const joint::AssemblyPreload preload = joint::assembly_preload(
         size->thread, *bolt, options.mu, options.mu,
         joint::bearing_mean_diameter(size->size.head_bearing, size->size.hole), options.utilisation);
+    std::string text;
     if (options.json) {
         const nlohmann::ordered_json json = {{"size", name},
                                              {"class", bolt->name},
@@ -43,12 +44,14 @@ int run(const Options& options) {
                                              {"utilisation", options.utilisation},
                                              {"preload_kN", preload.force / 1e3},
                                              {"torque_Nm", preload.torque}};
-        fmt::print("{}\n", json.dump());
+        text = json.dump() + "\n";
     } else {
-        fmt::print("{} {}, mu {:g}, {:.0f} % of yield\npreload_kN {:.1f}\ntorque_Nm {:.1f}\n", name,
-                   bolt->name, options.mu, 100.0 * options.utilisation, preload.force / 1e3, preload.torque);
+        text = fmt::format("{} {}, mu {:g}, {:.0f} % of yield\npreload_kN {:.1f}\ntorque_Nm {:.1f}\n", name,
+                           bolt->name, options.mu, 100.0 * options.utilisation, preload.force / 1e3,
+                           preload.torque);
     }
-    return 0;
+    const Status said = say(text);
+    return said ? 0 : complain(said.error());
 }
 
 }  // namespace
