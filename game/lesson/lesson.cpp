@@ -13,6 +13,7 @@ constexpr double moved = to_radians(0.2);  // of nut angle: the wrench has moved
 constexpr double past_breakaway = to_radians(2.0);
 constexpr double turning_speed = 0.01;  // rad/s
 
+constexpr std::uint64_t hand_in_ticks = 3000;
 constexpr double working_torque = 0.5;  // N·m: the wrench is used, not only touching
 
 const content::Specification& spec_of(const Lesson& lesson, std::size_t joint) {
@@ -36,8 +37,12 @@ bool reached(const Lesson& lesson, const Step& step, const servo::State& state) 
     switch (step.kind) {
         case StepKind::run_down:
             return joint.stage != joint::Stage::navigation;
-        case StepKind::tighten:
-            return track.peak_torque >= low_edge(lesson, step);
+        case StepKind::tighten: {
+            if (track.peak_torque < low_edge(lesson, step)) return false;
+            const content::Specification& spec = spec_of(lesson, step.joint);
+            const bool into_yield = spec.strategy == content::Strategy::yield && step.fraction > 0.999;
+            return !into_yield || track.yielded || track.peak_torque > spec.torque.high;
+        }
         case StepKind::recheck:
             return turned > moved || track.peak_torque >= low_edge(lesson, step);
         case StepKind::loosen:
@@ -70,11 +75,6 @@ void end_step(Lesson& lesson, const servo::State& state) {
         track.result.angle = track.begin_angle - state.joints[step.joint].nut.angle;
     } else if (step.kind == StepKind::tighten) {
         track.result.torque = track.peak_torque;
-    } else if (step.kind == StepKind::recheck &&
-               state.joints[step.joint].nut.angle - track.begin_angle > past_breakaway) {
-        // Turned on, and not only seen to begin to move: that takes the breakaway torque, which tightens
-        // nothing.
-        track.result.torque = std::max(track.result.torque, track.turning_torque);
     }
     say(lesson, state.tick, "step_end", static_cast<int>(step.joint), track.peak_torque,
         std::string(name(step.kind)));
@@ -113,6 +113,7 @@ void release(Lesson& lesson, const servo::State& state) {
     track.result.clamp_at_release = state.joints[joint].clamp;
     if (track.worked && lesson.grip == servo::Grip::wrench) ++track.result.strokes;
     lesson.held = -1;
+    lesson.released_at = state.tick;
     const Step* due = lesson.due();
     if (due != nullptr && due->joint == joint && reached(lesson, *due, state)) end_step(lesson, state);
 }
@@ -122,7 +123,8 @@ void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
     lesson.joints[joint].worked = true;
     const Step* due = lesson.due();
     if (due == nullptr || due->joint == joint) return;
-    const bool left = lesson.mode == Mode::assessment && lesson.joints[due->joint].peak_torque > 0.0;
+    const bool left =
+        lesson.mode == Mode::assessment && lesson.joints[due->joint].peak_torque > working_torque;
     const bool next =
         lesson.current + 1 < lesson.steps.size() && lesson.steps[lesson.current + 1].joint == joint;
     if (left && next) {
@@ -130,6 +132,21 @@ void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
         return;
     }
     work_out_of_turn(lesson, joint, state);
+}
+
+// What the nut was turned with, whichever step it was: once past the breakaway of the pull. Taken off its
+// seat, a nut begins anew.
+void note_turning(const Lesson& lesson, JointTrack& track, const joint::JointState& joint, double work) {
+    if (lesson.task != Task::tighten) return;
+    if (joint.stage == joint::Stage::navigation) {
+        track.snug = track.yielded = false;
+        track.turned_torque = track.result.torque = track.result.angle = 0.0;
+    }
+    if (joint.nut.speed < turning_speed) {
+        track.pull_begin = joint.nut.angle;
+    } else if (joint.nut.angle - track.pull_begin > past_breakaway) {
+        track.turned_torque = std::max(track.turned_torque, work);
+    }
 }
 
 void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const servo::Output& output) {
@@ -140,7 +157,7 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     if (!track.worked && (work > working_torque || (fingers && work > 0.01)))
         first_work(lesson, joint, state);
     track.peak_torque = std::max(track.peak_torque, work);
-    if (std::abs(state.joints[joint].nut.speed) > turning_speed) track.turning_torque = work;
+    note_turning(lesson, track, state.joints[joint], work);
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
         !fingers) {
         track.snug = true;
@@ -156,9 +173,18 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     const joint::Condition condition = state.joints[joint].condition;
     if (condition != track.result.condition) {
         track.result.condition = condition;
+        track.result.torque = std::max(track.result.torque, track.peak_torque);
         say(lesson, state.tick, "mistake", static_cast<int>(joint), torque,
             fmt::format("{} is {}", track.result.id, joint::name(condition)));
     }
+}
+
+// An assessment is handed in by letting go of the last joint for a while.
+void hand_in(Lesson& lesson, const servo::State& state) {
+    if (lesson.mode != Mode::assessment || lesson.held >= 0 || lesson.current + 1 != lesson.steps.size())
+        return;
+    const bool worked = lesson.joints[lesson.due()->joint].peak_torque > working_torque;
+    if (worked && state.tick - lesson.released_at > hand_in_ticks) end_step(lesson, state);
 }
 
 }  // namespace
@@ -177,12 +203,13 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
     return lesson;
 }
 
-void observe(Lesson& lesson, const servo::State& state, const servo::Input& input,
-             const servo::Output& output) {
+void observe(Lesson& lesson, const servo::State& state, const servo::Output& output) {
     if (state.tick == 1) begin_step(lesson, state);
-    if (lesson.held >= 0 && output.joint != lesson.held) release(lesson, state);
-    if (output.joint >= 0 && lesson.held < 0) take(lesson, output.joint, input.grip, state);
+    const bool other_grip = lesson.held >= 0 && state.engagement.grip != lesson.grip;
+    if (lesson.held >= 0 && (output.joint != lesson.held || other_grip)) release(lesson, state);
+    if (output.joint >= 0 && lesson.held < 0) take(lesson, output.joint, state.engagement.grip, state);
     if (lesson.held >= 0) watch(lesson, static_cast<std::size_t>(lesson.held), state, output);
+    hand_in(lesson, state);
     // A broken bolt is never tight: its step cannot be done, and the lesson goes on to the next.
     const Step* due = lesson.due();
     if (due != nullptr && lesson.held < 0 &&

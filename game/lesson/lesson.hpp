@@ -27,14 +27,15 @@ namespace bolt::lesson {
 // What the lesson remembers of a joint between ticks.
 struct JointTrack {
     JointResult result;
-    bool snug = false;            // the snug torque has been reached
-    double snug_angle = 0.0;      // rad, nut angle when it was reached first
-    double peak_torque = 0.0;     // N·m, of the step that is due
-    double turning_torque = 0.0;  // N·m, when the nut last turned
-    double begin_angle = 0.0;     // rad, nut angle when the step began
-    bool yielded = false;         // the yield stage has been felt
-    bool worked = false;          // the hand has done something with the nut in this visit
-    int done_in_pass = -1;        // last pass in which a step of this joint was done
+    bool snug = false;           // the snug torque has been reached
+    double snug_angle = 0.0;     // rad, nut angle when it was reached first
+    double peak_torque = 0.0;    // N·m, of the step that is due
+    double turned_torque = 0.0;  // N·m, highest with which the nut turned on since it was last off its seat
+    double pull_begin = 0.0;     // rad, nut angle where the pull that turns it began
+    double begin_angle = 0.0;    // rad, nut angle when the step began
+    bool yielded = false;        // the yield stage has been felt
+    bool worked = false;         // the hand has done something with the nut in this visit
+    int done_in_pass = -1;       // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };
 
@@ -47,7 +48,8 @@ struct Lesson {
     std::vector<JointTrack> joints;
     int held = -1;  // joint in the hand at the last tick
     servo::Grip grip = servo::Grip::none;
-    std::vector<Event> events;  // since they were last taken
+    std::uint64_t released_at = 0;  // tick
+    std::vector<Event> events;      // since they were last taken
 
     [[nodiscard]] const Step* due() const { return current < steps.size() ? &steps[current] : nullptr; }
 };
@@ -56,8 +58,7 @@ struct Lesson {
 Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 
 // After each tick.
-void observe(Lesson& lesson, const servo::State& state, const servo::Input& input,
-             const servo::Output& output);
+void observe(Lesson& lesson, const servo::State& state, const servo::Output& output);
 
 // The state of one joint's result now, with verdicts; and of the whole, with the score and its reasons.
 JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::State& state);

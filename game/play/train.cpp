@@ -74,7 +74,7 @@ Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOp
     while (go_on && state.tick - since < patience && lesson.due() != nullptr && state.tick < last) {
         const servo::Input input = trainee.act(setup, state, lesson);
         const servo::Output output = servo::tick(setup, state, input);
-        lesson::observe(lesson, state, input, output);
+        lesson::observe(lesson, state, output);
         if (Status kept = writer.append(record::make_record(input, output)); !kept) return fail(kept.error());
         Progress progress{static_cast<double>(state.tick) * options.dt, lesson.current, lesson.steps.size(),
                           nullptr};

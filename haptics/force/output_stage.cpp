@@ -27,10 +27,12 @@ OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const
     const bool sound = finite(wanted.force) && finite(wanted.torque);
     if (!sound) ++state.faults;
     if (!enabled || !sound) {
-        // Down from the greatest output in `release`, whatever the slew limits say.
+        // Down from the greatest output in whole steps within `release`, whatever the slew limits say.
+        const double steps = std::max(1.0, std::floor(limits.release / dt + 1e-9));
+        const double share = (1.0 + 1e-9) / steps;
         state.strength = 0.0;
-        state.force = towards(state.force, Vec3(0.0), limits.force * dt / limits.release);
-        state.torque = towards(state.torque, Vec3(0.0), limits.torque * dt / limits.release);
+        state.force = towards(state.force, Vec3(0.0), limits.force * share);
+        state.torque = towards(state.torque, Vec3(0.0), limits.torque * share);
     } else {
         state.strength = std::min(1.0, state.strength + dt / limits.ramp_up);
         const Vec3 force = at_most(wanted.force, limits.force) * state.strength;
@@ -41,6 +43,9 @@ OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const
     // Last of all, so that nothing above can be wrong enough to matter.
     state.force = at_most(state.force, limits.force);
     state.torque = at_most(state.torque, limits.torque);
+    if (!finite(state.force) || !finite(state.torque)) {
+        state = {Vec3(0.0), Vec3(0.0), 0.0, state.faults + 1};
+    }
     return {state.force, state.torque};
 }
 

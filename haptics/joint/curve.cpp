@@ -13,7 +13,7 @@ double signed_torque(const GroupParameters& group, const JointState& joint, Dire
     return published_read(group.published, joint.published, to_degrees(joint.nut.angle), direction).torque;
 }
 
-bool spent(const JointState& joint) { return joint.condition == Condition::broken; }
+bool spent(const JointState& joint) { return joint.condition != Condition::sound; }
 
 // Turns on until the torque is there; gives up where the joint no longer can.
 void tighten_to(const GroupParameters& group, std::vector<JointState>& joints, double torque,

@@ -46,14 +46,11 @@ GroupParameters make_group(std::span<const JointDesign> designs, const FlangePla
                            std::uint64_t seed) {
     GroupParameters group;
     std::vector<Vec3> seats;
+    for (const JointDesign& design : designs) seats.push_back(design.seat);
+    if (flange != nullptr && designs.size() > 1) group.coupling = couple(*flange, seats);
     for (std::size_t i = 0; i < designs.size(); ++i) {
         Random random(seed, i);
-        group.joints.push_back(derive(designs[i], random));
-        seats.push_back(designs[i].seat);
-    }
-    if (flange != nullptr && designs.size() > 1) {
-        group.coupling = couple(*flange, seats);
-        for (MechanisticParameters& p : group.joints) p.seat.compliance += group.coupling.own;
+        group.joints.push_back(derive(designs[i], random, group.coupling.own));
     }
     return group;
 }
@@ -81,6 +78,9 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
     Resistance r;
     r.tighten = std::abs(on.torque);
     r.loosen = -std::abs(off.torque);
+    if (on.stage == Stage::yield)
+        r.loosen_slope = -to_degrees(published_lever(group.published, Direction::loosen) /
+                                     published_degrees_per_newton(group.published));
     if (on.stage == Stage::linearity) {
         r.tighten_slope = to_degrees(published_linear_slope(group.published));
         r.loosen_slope = -to_degrees(published_lever(group.published, Direction::loosen) /
@@ -93,12 +93,19 @@ void step_group(const GroupParameters& group, std::span<JointState> joints, int 
                 double dt) {
     int moved = -1;
     double angle = 0.0, share = 0.0;
-    for (JointState& joint : joints) joint.torque = 0.0;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        joints[i].torque = 0.0;
+        if (static_cast<int>(i) != driven || !handle.engaged)
+            joints[i].nut.speed = 0.0;  // friction stops a free nut at once
+    }
     if (driven >= 0 && static_cast<std::size_t>(driven) < joints.size()) {
         const auto i = static_cast<std::size_t>(driven);
         const double inertia = coupling_inertia(std::max(handle.stiffness, 1.0), dt);
         NutStep step = step_nut(resistance(group, i, joints[i]), inertia, joints[i].nut, handle, dt);
-        if (step.nut.angle < 0.0) step.nut = {};  // at the end of the bolt the hand holds it
+        if (step.nut.angle < 0.0) {  // the end of the bolt: it stops there and the hand winds up
+            step.nut = {};
+            step.torque = wound_torque(handle, 0.0);
+        }
         joints[i].nut = step.nut;
         joints[i].torque = step.torque;
         moved = driven;

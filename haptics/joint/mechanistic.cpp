@@ -76,7 +76,7 @@ double meet(double low, double high, const Balance& balance) {
         (value > 0.0 ? high : low) = F;
         const double newton = F - value / slope;
         const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-        if (std::abs(next - F) <= 1e-13 * high) return next;
+        if (std::abs(next - F) <= 1e-10 * high) return next;
         F = next;
     }
     return F;
@@ -130,7 +130,7 @@ Stage stage_of(const MechanisticParameters& p, const MechanisticState& s, double
 
 }  // namespace
 
-MechanisticParameters derive(const JointDesign& design, Random& random) {
+MechanisticParameters derive(const JointDesign& design, Random& random, double own) {
     const FastenerSize& size = design.thread.size;
     MechanisticParameters p;
     p.thread = design.thread.thread;
@@ -145,7 +145,7 @@ MechanisticParameters derive(const JointDesign& design, Random& random) {
     p.gap = design.start_gap;
 
     const double h_rms = design.roughness_Rz / 5.5;  // usual for turned and milled faces
-    p.seat.compliance = joint_compliance(design);
+    p.seat.compliance = joint_compliance(design) + own;
     p.seat.scale = 0.5 * h_rms + design.misfit;
     const double seat_area = 0.25 * pi * (square(size.nut_bearing) - square(size.hole));
     p.seat.touch_force = 0.2e6 * seat_area;  // 0.2 MPa: fingers feel the seat; ours

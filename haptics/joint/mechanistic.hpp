@@ -47,7 +47,8 @@ struct MechanisticParameters {
 };
 
 // `random` gives this bolt its friction and its drag's ripple. Equal seeds give equal bolts.
-MechanisticParameters derive(const JointDesign& design, Random& random);
+// `own` is what the flange gives under this joint alone, m/N; 0 for a joint by itself.
+MechanisticParameters derive(const JointDesign& design, Random& random, double own = 0.0);
 
 struct MechanisticState {
     double angle = 0.0;       // rad, nut from hand-started

@@ -7,6 +7,9 @@ namespace bolt::joint {
 
 namespace {
 
+// kg·m², of a nut alone.
+constexpr double nut_inertia = 1e-5;
+
 // Torque on the nut as it depends on the speed after the step: at_rest − dt · stiffness · ω.
 struct Drive {
     double at_rest = 0.0;
@@ -31,6 +34,13 @@ double share_of(const Resistance& r, double torque, double speed) {
 
 }  // namespace
 
+double wound_torque(const Handle& handle, double nut_angle) {
+    if (!handle.engaged) return 0.0;
+    const double gap = handle.angle - nut_angle;
+    const double torque = handle.stiffness * (gap - std::clamp(gap, -handle.half_play, handle.half_play));
+    return handle.torque_limit > 0.0 ? std::clamp(torque, -handle.torque_limit, handle.torque_limit) : torque;
+}
+
 NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt) {
     // A thread that would run by itself is held by the fingers that started it: the nut rests at zero torque.
     Resistance r = given;
@@ -39,20 +49,30 @@ NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const H
 
     NutStep step;
     const double gap = handle.engaged ? handle.angle - nut.angle : 0.0;
-    const double wound = gap - std::clamp(gap, -handle.half_play, handle.half_play);
+    double wound = gap - std::clamp(gap, -handle.half_play, handle.half_play);
     Drive drive{handle.stiffness * wound, wound == 0.0 ? 0.0 : handle.stiffness};
-    double speed = next_speed(r, inertia, nut, drive, dt);
+    const double mass = wound == 0.0 ? std::min(inertia, nut_inertia) : inertia;
+    double speed = next_speed(r, mass, nut, drive, dt);
+    if (wound == 0.0 && handle.engaged && std::abs(gap - dt * speed) > handle.half_play) {
+        // It would leave the play within the step: the edge that it meets pushes in this step already.
+        // Without this the nut comes back from each edge faster than it came.
+        const double edge = std::copysign(handle.half_play, gap - dt * speed);
+        wound = gap - edge;
+        drive = {handle.stiffness * wound, handle.stiffness};
+        speed = next_speed(r, mass, nut, drive, dt);
+        wound = std::copysign(1.0, edge);  // the side that pushes, for the test below
+    }
     step.torque = drive.at_rest - dt * drive.stiffness * speed;
 
     const double limit = handle.torque_limit;
     if (limit > 0.0 && std::abs(step.torque) > limit) {
         drive = {std::copysign(limit, wound), 0.0};
-        speed = next_speed(r, inertia, nut, drive, dt);
+        speed = next_speed(r, mass, nut, drive, dt);
         step.torque = drive.at_rest;
         step.slipped = true;
     } else if (step.torque * wound < 0.0) {  // a jaw pushes; it does not pull
         drive = {};
-        speed = next_speed(r, inertia, nut, drive, dt);
+        speed = next_speed(r, mass, nut, drive, dt);
         step.torque = 0.0;
     }
     step.nut = {nut.angle + dt * speed, speed};

@@ -31,9 +31,13 @@ struct NutStep {
     bool slipped = false;  // the grip's torque limit was reached
 };
 
-// `inertia` (kg·m²) of nut and wrench about the bolt must be at least dt² times the steepest fall of the
-// loosening torque; coupling_inertia() gives one that is.
+// `inertia` (kg·m²) of nut and wrench about the bolt while the jaw pushes; inside its play the nut is alone
+// and carries next to none. A loosening torque that falls faster than inertia/dt² + stiffness is caught, not
+// followed.
 NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt);
+
+// N·m that the handle gives a nut that stands at this angle.
+double wound_torque(const Handle& handle, double nut_angle);
 
 // The inertia that makes the coupling spring resolve within a step.
 inline double coupling_inertia(double stiffness, double dt) { return stiffness * dt * dt; }

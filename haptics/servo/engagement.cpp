@@ -10,6 +10,9 @@ namespace {
 constexpr double centring = 1.5e-3;       // m off the axis at which a jaw still slides on
 constexpr double squareness = 0.9976;     // cos 4°
 constexpr double finger_reach = 0.012;    // m
+constexpr double tilted_off = 0.866;      // cos 30°: beyond it a jaw no longer holds
+constexpr double along_axis = 0.8;        // of the handle's direction: its angle about the bolt means little
+constexpr double leap = 0.35;             // rad in a tick: no hand turns so fast
 constexpr double hold_relaxation = 0.05;  // s
 
 struct Offset {
@@ -22,6 +25,11 @@ Offset offset_of(const Vec3& from_centre, const NutPlace& nut) {
     return {axial, glm::length(from_centre - axial * nut.axis)};
 }
 
+bool tilted_away(const NutPlace& nut, const ToolPose& tool, Grip grip) {
+    if (std::abs(glm::dot(tool.handle, nut.axis)) > along_axis) return true;
+    return grip == Grip::wrench && std::abs(glm::dot(tool.normal, nut.axis)) < tilted_off;
+}
+
 bool pulled_away(const NutPlace& nut, const Offset& o, Grip grip) {
     if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) > 2.0 * finger_reach;
     return std::abs(o.axial) > 0.6 * nut.height || o.radial > 0.3 * nut.across_flats;
@@ -29,6 +37,7 @@ bool pulled_away(const NutPlace& nut, const Offset& o, Grip grip) {
 
 bool takes_hold(const Setup& setup, const NutPlace& nut, const Offset& o, const ToolPose& tool, Grip grip,
                 double misalignment) {
+    if (tilted_away(nut, tool, grip)) return false;
     if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) < finger_reach;
     return std::abs(o.axial) < 0.35 * nut.height && o.radial < centring &&
            std::abs(glm::dot(tool.normal, nut.axis)) > squareness &&
@@ -39,16 +48,18 @@ bool takes_hold(const Setup& setup, const NutPlace& nut, const Offset& o, const 
 
 ToolPose pose_of(const DeviceSample& sample) {
     ToolPose tool;
-    for (int i = 0; i < 3; ++i)
-        tool.position[i] = std::isfinite(sample.position[i]) ? static_cast<double>(sample.position[i]) : 1e6;
+    for (int i = 0; i < 3; ++i) {
+        tool.position[i] = static_cast<double>(sample.position[i]);
+        tool.valid = tool.valid && std::abs(tool.position[i]) < 1e3;  // also false for NaN
+    }
     const Quat q(static_cast<double>(sample.orientation[0]), static_cast<double>(sample.orientation[1]),
                  static_cast<double>(sample.orientation[2]), static_cast<double>(sample.orientation[3]));
     const double norm = std::sqrt(glm::dot(q, q));
-    if (std::isfinite(norm) && norm > 0.5 && norm < 2.0) {  // a lying device keeps the default orientation
-        const Quat unit = q / norm;
-        tool.handle = unit * Vec3(1, 0, 0);
-        tool.normal = unit * Vec3(0, 0, 1);
-    }
+    tool.valid = tool.valid && norm > 0.5 && norm < 2.0;
+    if (!tool.valid) return {Vec3(0.0), Vec3(1, 0, 0), Vec3(0, 0, 1), false};
+    const Quat unit = q / norm;
+    tool.handle = unit * Vec3(1, 0, 0);
+    tool.normal = unit * Vec3(0, 0, 1);
     return tool;
 }
 
@@ -67,19 +78,25 @@ double tool_azimuth(const Setup& setup, const NutPlace& nut, const ToolPose& too
 
 void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool,
                        Grip grip, Engagement& e) {
+    if (!tool.valid) {
+        e = {};
+        return;
+    }
     if (e.joint >= 0) {
         const NutPlace& nut = setup.nuts[static_cast<std::size_t>(e.joint)];
         const double nut_angle = joints[static_cast<std::size_t>(e.joint)].nut.angle;
         const Offset o = offset_of(tool.position - nut_centre(nut, nut_angle), nut);
-        if (grip != e.grip || pulled_away(nut, o, grip)) {
-            e = Engagement{};
-        } else {
-            const double azimuth = tool_azimuth(setup, nut, tool, grip);
-            e.hand_angle += wrap(azimuth - e.azimuth, 2.0 * pi);
+        const double azimuth = tool_azimuth(setup, nut, tool, grip);
+        const double turned = wrap(azimuth - e.azimuth, 2.0 * pi);
+        if (grip == e.grip && !pulled_away(nut, o, grip) && !tilted_away(nut, tool, grip) &&
+            std::abs(turned) < leap) {
+            e.hand_angle += turned;
             e.azimuth = azimuth;
             e.held_at *= 1.0 - setup.dt / hold_relaxation;
             return;
         }
+        e = {};
+        return;  // what was let go in this tick is not taken again in it
     }
     if (grip == Grip::none) return;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {

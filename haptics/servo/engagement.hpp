@@ -12,6 +12,7 @@ struct ToolPose {
     Vec3 position{0.0};
     Vec3 handle{1.0, 0.0, 0.0};  // x axis of the tool
     Vec3 normal{0.0, 0.0, 1.0};  // z axis of the tool
+    bool valid = true;           // false: the sample was no pose, and holds nothing
 };
 
 ToolPose pose_of(const DeviceSample& sample);
@@ -30,7 +31,8 @@ Vec3 nut_centre(const NutPlace& nut, double nut_angle);
 // Angle of the jaw (or of the fingers) about the bolt, rad, tightening positive.
 double tool_azimuth(const Setup& setup, const NutPlace& nut, const ToolPose& tool, Grip grip);
 
-// Lets go when the grip changes or the tool is pulled away; takes hold when it fits.
+// Lets go when the grip changes, the tool is pulled away or tilted off, its angle leaps further than a hand
+// can turn in a tick, or the sample is no pose; takes hold when it fits.
 void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool,
                        Grip grip, Engagement& engagement);
 

@@ -41,7 +41,10 @@ force::OutputCommand held(const Setup& setup, const State& state, const ToolPose
     command.force += glm::cross(nut.axis, tool.handle) * (torque * setup.torque_as_force);
     if (state.engagement.grip == Grip::wrench) {
         const Vec3 square_to = glm::dot(tool.normal, nut.axis) < 0.0 ? -nut.axis : nut.axis;
-        command.torque += setup.hold_torsion * glm::cross(tool.normal, square_to);
+        // The joint's torque goes first; keeping the wrench square takes what range is left.
+        const double room = std::max(0.0, setup.limits.torque - std::abs(torque * setup.torque_scale));
+        const Vec3 torsion = setup.hold_torsion * glm::cross(tool.normal, square_to);
+        command.torque += torsion * std::min(1.0, room / std::max(glm::length(torsion), 1e-9));
     }
     return command;
 }
@@ -74,7 +77,7 @@ Output tick(const Setup& setup, State& state, const Input& input) {
         output.wrench_torque = joint.torque;
         output.nut_angle = joint.nut.angle;
         output.clamp = joint.clamp;
-    } else if (input.guide >= 0 && static_cast<std::size_t>(input.guide) < setup.nuts.size()) {
+    } else if (tool.valid && input.guide >= 0 && static_cast<std::size_t>(input.guide) < setup.nuts.size()) {
         const auto i = static_cast<std::size_t>(input.guide);
         wanted.force = force::guiding_force(setup.guiding, tool.position,
                                             nut_centre(setup.nuts[i], state.joints[i].nut.angle));

@@ -42,7 +42,7 @@ Played play_through(const content::Assembly& given, const char* trainee, std::ui
     while (lesson.due() != nullptr && played.state.tick < 3'600'000) {
         const servo::Input input = hand.act(setup, played.state, lesson);
         const servo::Output output = servo::tick(setup, played.state, input);
-        observe(lesson, played.state, input, output);
+        observe(lesson, played.state, output);
         const double values[] = {output.force.x,       output.force.y,   output.force.z, output.torque.y,
                                  output.wrench_torque, output.nut_angle, output.clamp};
         const auto* bytes = reinterpret_cast<const unsigned char*>(values);

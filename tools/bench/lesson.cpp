@@ -55,7 +55,7 @@ void headless_lesson_unrecorded(benchmark::State& state) {
         while (lesson.due() != nullptr && servo.tick < 7'200'000) {
             const servo::Input input = trainee.act(setup, servo, lesson);
             const servo::Output output = servo::tick(setup, servo, input);
-            lesson::observe(lesson, servo, input, output);
+            lesson::observe(lesson, servo, output);
             lesson.events.clear();
         }
         seconds += static_cast<double>(servo.tick) * 1e-3;

@@ -1,0 +1,239 @@
+// The lesson's state machine, fed with ticks written by hand.
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+
+#include "game/lesson/lesson.hpp"
+
+using namespace bolt;
+using namespace bolt::lesson;
+
+namespace {
+
+// Two joints; one pass to half and one in full. Every call is a run of ticks.
+struct Script {
+    content::Assembly assembly;
+    Lesson lesson;
+    servo::State state;
+
+    explicit Script(Mode mode = Mode::guided, content::Strategy strategy = content::Strategy::torque) {
+        for (const char* id : {"A", "B"}) {
+            content::AssemblyJoint joint;
+            joint.design.id = id;
+            joint.spec.torque = {70.0, 63.0, 77.0};
+            joint.spec.snug_torque = 10.0;
+            joint.spec.strategy = strategy;
+            assembly.joints.push_back(joint);
+        }
+        content::Pass run{content::StepKind::run_down, 1.0, {0, 1}};
+        content::Pass half{content::StepKind::tighten, 0.5, {0, 1}};
+        content::Pass full{content::StepKind::tighten, 1.0, {0, 1}};
+        assembly.passes = {run, half, full};
+        lesson = begin(assembly, mode, Task::tighten);
+        state.joints.resize(2);
+    }
+
+    void tick(int joint, servo::Grip grip, double torque, double speed = 0.0) {
+        servo::Output output;
+        output.joint = static_cast<std::int16_t>(joint);
+        state.engagement.joint = joint;
+        state.engagement.grip = joint >= 0 ? grip : servo::Grip::none;
+        if (joint >= 0) {
+            joint::JointState& j = state.joints[static_cast<std::size_t>(joint)];
+            j.nut.speed = speed;
+            j.nut.angle += speed * 1e-3;
+            j.torque = output.wrench_torque = torque;
+            output.nut_angle = j.nut.angle;
+            output.stage = j.stage;
+            output.clamp = j.clamp;
+        }
+        ++state.tick;
+        observe(lesson, state, output);
+    }
+    void idle(int ticks = 1) {
+        for (int i = 0; i < ticks; ++i) tick(-1, servo::Grip::none, 0.0);
+    }
+    void seat(int joint) {
+        tick(joint, servo::Grip::fingers, 0.1, 1.0);
+        state.joints[static_cast<std::size_t>(joint)].stage = joint::Stage::transition;
+        tick(joint, servo::Grip::fingers, 0.6);
+        idle();
+    }
+    // A pull to `torque` that turns the nut by 0.1 rad, then off.
+    void pull(int joint, double torque) {
+        for (int i = 0; i <= 100; ++i) tick(joint, servo::Grip::wrench, torque * i / 100.0, 1.0);
+        state.joints[static_cast<std::size_t>(joint)].stage = joint::Stage::linearity;
+        tick(joint, servo::Grip::wrench, torque);
+        idle();
+    }
+    void seat_both() {
+        idle();
+        seat(0);
+        seat(1);
+    }
+    [[nodiscard]] int count(const char* kind) const {
+        int n = 0;
+        for (const Event& event : lesson.events) n += event.kind == kind ? 1 : 0;
+        return n;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a nut that is not on its seat yet is not run down") {
+    Script s;
+    s.idle();
+    s.tick(0, servo::Grip::fingers, 0.1, 1.0);
+    s.idle();
+    CHECK(s.lesson.current == 0);
+    s.seat(0);
+    CHECK(s.lesson.current == 1);
+}
+
+TEST_CASE(
+    "tightening below the window's low edge leaves the step due; reaching it ends the step at letting go") {
+    Script s;
+    s.seat_both();
+    REQUIRE(s.lesson.current == 2);
+    s.pull(0, 31.0);  // half of 63 is 31.5
+    CHECK(s.lesson.current == 2);
+    s.pull(0, 32.0);
+    CHECK(s.lesson.current == 3);
+}
+
+TEST_CASE("a step ends when the hand lets go, not before") {
+    Script s;
+    s.seat_both();
+    for (int i = 0; i <= 100; ++i) s.tick(0, servo::Grip::wrench, 0.4 * i, 1.0);
+    CHECK(s.lesson.current == 2);
+    s.idle();
+    CHECK(s.lesson.current == 3);
+}
+
+TEST_CASE("by strategy yield a full step waits for yield, and gives up past the window") {
+    Script s(Mode::guided, content::Strategy::yield);
+    s.seat_both();
+    s.pull(0, 35.0);
+    s.pull(1, 35.0);
+    REQUIRE(s.lesson.current == 4);
+    s.pull(0, 70.0);
+    CHECK(s.lesson.current == 4);
+    s.state.joints[0].stage = joint::Stage::yield;
+    s.tick(0, servo::Grip::wrench, 71.0, 1.0);
+    s.idle();
+    CHECK(s.lesson.current == 5);
+    s.state.joints[1].stage = joint::Stage::linearity;
+    s.pull(1, 78.0);
+    CHECK(s.lesson.current == 6);
+}
+
+TEST_CASE(
+    "work out of turn is an order error once a visit, work on what is done a re-hit; a touch is neither") {
+    Script s;
+    s.seat_both();
+    s.tick(1, servo::Grip::wrench, 0.2);
+    s.idle();
+    CHECK(s.lesson.joints[1].result.order_errors == 0);
+    s.pull(1, 20.0);
+    CHECK(s.lesson.joints[1].result.order_errors == 1);
+    s.pull(0, 35.0);
+    s.pull(0, 36.0);
+    CHECK(s.lesson.joints[0].result.rehits == 1);
+    CHECK(s.count("mistake") == 2);
+}
+
+TEST_CASE("pulled too far out of its step: the torque is not forgotten") {
+    Script s;
+    s.seat_both();
+    s.pull(0, 95.0);
+    s.pull(1, 35.0);
+    s.pull(0, 70.0);
+    s.pull(1, 70.0);
+    REQUIRE(s.lesson.due() == nullptr);
+    CHECK(judge_joint(s.lesson, 0, s.state).torque == doctest::Approx(95.0));
+    CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::high);
+    CHECK(judge_joint(s.lesson, 1, s.state).overall == Verdict::ok);
+}
+
+TEST_CASE("a nut that is taken off its seat begins anew: torque, snug and yield") {
+    Script s;
+    s.seat_both();
+    s.pull(0, 95.0);
+    s.state.joints[0].stage = joint::Stage::navigation;
+    s.tick(0, servo::Grip::wrench, -0.1, -1.0);
+    CHECK_FALSE(s.lesson.joints[0].snug);
+    CHECK(s.lesson.joints[0].turned_torque == 0.0);
+    s.idle();
+    s.state.joints[0].stage = joint::Stage::transition;
+    const double before = s.state.joints[0].nut.angle;
+    s.pull(0, 70.0);
+    CHECK(s.lesson.joints[0].snug_angle > before);
+    CHECK(judge_joint(s.lesson, 0, s.state).torque == doctest::Approx(70.0));
+}
+
+TEST_CASE("breakaway alone does not count as tightening torque") {
+    Script s;
+    s.seat_both();
+    s.pull(0, 70.0);
+    for (int i = 0; i < 20; ++i) s.tick(0, servo::Grip::wrench, 84.0, 1.0);  // a degree
+    s.tick(0, servo::Grip::wrench, 10.0);
+    s.idle();
+    CHECK(s.lesson.joints[0].turned_torque < 71.0);
+}
+
+TEST_CASE(
+    "in assessment a joint left for the next counts as left, a brush does not, and the last is handed in") {
+    Script s(Mode::assessment);
+    s.seat_both();
+    s.tick(0, servo::Grip::wrench, 0.3);
+    s.idle();
+    s.pull(1, 20.0);
+    CHECK(s.lesson.current == 2);  // only brushed: still due
+    s.pull(0, 20.0);
+    CHECK(s.lesson.current == 2);
+    s.pull(1, 35.0);
+    CHECK(s.lesson.current == 4);
+    s.pull(0, 70.0);
+    s.pull(1, 40.0);
+    REQUIRE(s.lesson.current == 5);
+    s.idle(2000);
+    CHECK(s.lesson.current == 5);
+    s.idle(1500);
+    CHECK(s.lesson.due() == nullptr);
+    CHECK(judge_joint(s.lesson, 1, s.state).overall == Verdict::low);
+}
+
+TEST_CASE("the other modes never end a step that is not done") {
+    for (const Mode mode : {Mode::guided, Mode::practice}) {
+        Script s(mode);
+        s.seat_both();
+        s.pull(0, 20.0);
+        s.pull(1, 35.0);
+        s.idle(10'000);
+        CHECK(s.lesson.current == 2);
+    }
+}
+
+TEST_CASE("a bolt that breaks keeps its torque, is named, and the lesson goes on") {
+    Script s;
+    s.seat_both();
+    for (int i = 0; i <= 100; ++i) s.tick(0, servo::Grip::wrench, 1.2 * i, 1.0);
+    s.state.joints[0].condition = joint::Condition::broken;
+    s.tick(0, servo::Grip::wrench, 0.0);
+    s.idle();
+    CHECK(s.lesson.current == 3);
+    CHECK(s.lesson.joints[0].result.torque == doctest::Approx(120.0));
+    CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::high);
+    CHECK(s.count("mistake") == 1);
+}
+
+TEST_CASE("fingers exchanged for the wrench without letting go are a new visit") {
+    Script s;
+    s.idle();
+    s.tick(0, servo::Grip::fingers, 0.1, 1.0);
+    s.tick(0, servo::Grip::wrench, 12.0);
+    CHECK(s.lesson.grip == servo::Grip::wrench);
+    CHECK(s.lesson.joints[0].snug);
+    CHECK(s.count("engage") == 2);
+}
