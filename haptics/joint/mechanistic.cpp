@@ -76,7 +76,8 @@ double meet(double low, double high, const Balance& balance) {
         (value > 0.0 ? high : low) = F;
         const double newton = F - value / slope;
         const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-        if (std::abs(next - F) <= 1e-10 * high) return next;
+        if (std::abs(next - F) <= 1e-7 * high)
+            return next;  // Newton is quadratic: what is left is below 1e-13
         F = next;
     }
     return F;
@@ -108,8 +109,9 @@ void flow(const MechanisticParameters& p, MechanisticState& s, double closure, d
     const double low = std::min(bolt_capacity, p.bolt.neck_load / ratio) * 0.5;
     const double F = meet(low, s.clamp, [&](double f) {
         const double set = s.plastic + closure - p.seat.closure(f);
-        const double gradient = (p.seat.compliance + p.seat.scale / f) * p.bolt.slope(std::max(set, 1e-12));
-        return std::pair{ratio * f - p.bolt.load(set), ratio + gradient};
+        const PlasticCurve::Point y = p.bolt.at(std::max(set, 1e-12));
+        const double gradient = (p.seat.compliance + p.seat.scale / f) * y.slope;
+        return std::pair{ratio * f - y.load, ratio + gradient};
     });
     s.plastic += progress * std::max(0.0, closure - p.seat.closure(F));
     if (s.plastic >= p.bolt.fracture) s.condition = Condition::broken;

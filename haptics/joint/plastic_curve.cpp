@@ -34,28 +34,24 @@ PlasticCurve PlasticCurve::make(const Thread& thread, const PropertyClass& bolt,
     const double u_p = 0.002 * length;
     const double share = (bolt.R_p02 * thread.A_s - c.elastic_load) / (c.ultimate_load - c.elastic_load);
     c.scale = fit_scale(u_p, c.uniform, share);
+    c.spread = 1.0 / rise(c.uniform, c.scale);
     c.neck_load = 0.8 * c.ultimate_load;
     const double drop = c.ultimate_load - c.neck_load;
     c.fracture = c.uniform + std::max(0.5 * bolt.fracture_strain * length, 2.0 * drop * compliance);
     return c;
 }
 
-double PlasticCurve::load(double elongation) const {
-    const double u = elongation;
-    if (u < uniform)
-        return elastic_load + (ultimate_load - elastic_load) * rise(u, scale) / rise(uniform, scale);
-    if (u >= fracture) return 0.0;
-    return ultimate_load - (ultimate_load - neck_load) * (u - uniform) / (fracture - uniform);
-}
-
-double PlasticCurve::slope(double elongation) const {
-    const double u = elongation;
-    if (u <= 0.0) return std::numeric_limits<double>::infinity();
+PlasticCurve::Point PlasticCurve::at(double u) const {
+    if (u <= 0.0) return {elastic_load, std::numeric_limits<double>::infinity()};
     if (u < uniform) {
         const double x = power(u / scale);
-        return (ultimate_load - elastic_load) * std::exp(-x) * 0.75 * x / u / rise(uniform, scale);
+        const double risen = -std::expm1(-x);
+        const double span = (ultimate_load - elastic_load) * spread;
+        return {elastic_load + span * risen, span * (1.0 - risen) * 0.75 * x / u};
     }
-    return u >= fracture ? 0.0 : -(ultimate_load - neck_load) / (fracture - uniform);
+    if (u >= fracture) return {0.0, 0.0};
+    const double slope = -(ultimate_load - neck_load) / (fracture - uniform);
+    return {ultimate_load + slope * (u - uniform), slope};
 }
 
 }  // namespace bolt::joint

@@ -19,6 +19,7 @@ struct PlasticCurve {
     double ultimate_load = 0.0;  // L_m
     double scale = 0.0;          // u_c, m
     double uniform = 0.0;        // u_u, m
+    double spread = 0.0;         // 1 / (1 − e^{−(u_u/u_c)^¾})
     double fracture = 0.0;       // u_f > u_u, m
     double neck_load = 0.0;      // at u_f, just before it breaks
 
@@ -28,8 +29,13 @@ struct PlasticCurve {
     static PlasticCurve make(const Thread& thread, const PropertyClass& bolt, double length,
                              double compliance);
 
-    [[nodiscard]] double load(double elongation) const;   // Y(u), u ≥ 0
-    [[nodiscard]] double slope(double elongation) const;  // dY/du; +∞ at 0
+    struct Point {
+        double load = 0.0;   // Y(u), N
+        double slope = 0.0;  // dY/du, N/m; +∞ at u = 0
+    };
+    [[nodiscard]] Point at(double elongation) const;
+    [[nodiscard]] double load(double elongation) const { return at(elongation).load; }
+    [[nodiscard]] double slope(double elongation) const { return at(elongation).slope; }
 };
 
 }  // namespace bolt::joint

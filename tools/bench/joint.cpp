@@ -76,6 +76,26 @@ void seat_closed_form(benchmark::State& state) {
 }
 BENCHMARK(seat_closed_form);
 
+// The dearest tick: a bolt that flows.
+void yielding_tick(benchmark::State& state) {
+    const JointDesign design = m16();
+    const GroupParameters group = make_group({&design, 1}, nullptr, 1);
+    std::vector<JointState> joints = initial_state(group, 1);
+    double angle = 0.0;
+    for (auto _ : state) {
+        angle += 2e-4;
+        if (joints[0].condition != Condition::sound) {
+            state.PauseTiming();
+            joints = initial_state(group, 1);
+            angle = 0.9;
+            state.ResumeTiming();
+        }
+        turn_nut(group, joints, 0, angle, 1.0, 1e-3);
+        benchmark::DoNotOptimize(joints.data());
+    }
+}
+BENCHMARK(yielding_tick);
+
 void published_tick(benchmark::State& state) {
     const GroupParameters group = make_published_group(PublishedParameters{});
     std::vector<JointState> joints = initial_state(group, 1);
