@@ -102,6 +102,7 @@ class JsonBuilder {
         std::uint32_t entry;
         std::uint32_t last_child;
         std::string key;
+        std::size_t indent;  // of the line it was opened in
     };
 
     // Whole numbers that a double cannot hold are kept as doubles: nothing in a content file counts that far.
@@ -116,6 +117,9 @@ class JsonBuilder {
         std::size_t start = skip_space(text_, end_);
         while (start < text_.size() && (text_[start] == ',' || text_[start] == ':'))
             start = skip_space(text_, start + 1);
+        const std::size_t line = document_.line_start(start);
+        first_on_line_ = line >= end_;
+        if (first_on_line_) indent_ = start - std::min(line, start);
         end_ = token_end(text_, start);
         return start;
     }
@@ -183,15 +187,17 @@ class JsonBuilder {
         if (stack_.size() >= json_depth_limit)
             return stop(document_.content_->entries[index].value_offset,
                         fmt::format("nested more than {} levels deep", json_depth_limit), {});
-        stack_.push_back({slot, index, none, key_});
+        stack_.push_back({slot, index, none, key_, indent_});
         before_ = object ? Before::object_open : Before::array_open;
         return true;
     }
 
     bool close() {
-        const std::size_t closer = next_token();
-        const std::size_t opener = document_.content_->entries[stack_.back().entry].value_offset;
-        if (!suspect_ && closes_another(text_, opener, closer)) suspect_ = opener;
+        next_token();
+        // Further left than the line that opened it: the bracket of one further out.
+        const Open& top = stack_.back();
+        if (!suspect_ && first_on_line_ && indent_ < top.indent)
+            suspect_ = document_.content_->entries[top.entry].value_offset;
         stack_.pop_back();
         value_read();
         return true;
@@ -203,6 +209,8 @@ class JsonBuilder {
     std::size_t end_;  // byte behind the last token read
     Before before_ = Before::start;
     std::vector<Open> stack_;
+    bool first_on_line_ = false;          // the last token
+    std::size_t indent_ = 0;              // of its line
     std::optional<std::size_t> suspect_;  // the first bracket that another's seems to have closed
     std::size_t key_offset_ = 0;
     std::string key_;
@@ -264,21 +272,27 @@ std::size_t JsonDocument::offset(std::string_view pointer, Part part) const {
     return part == Part::key && found == tokens.size() ? entries[at].key_offset : entries[at].value_offset;
 }
 
-Error JsonDocument::error_at(std::size_t offset, std::string what, std::string expected) const {
+std::size_t JsonDocument::line_start(std::size_t offset) const {
     const auto& starts = content_->line_starts;
     const auto next = std::upper_bound(starts.begin(), starts.end(), offset);
-    const auto line = next == starts.begin() ? next : next - 1;
+    return next == starts.begin() ? *next : *(next - 1);
+}
+
+Error JsonDocument::error_at(std::size_t offset, std::string what, std::string expected) const {
+    const auto& starts = content_->line_starts;
+    const std::size_t line = line_start(offset), from = std::min(line, offset);
+    const auto inner_before = [&](std::size_t at) {
+        const auto& inner = content_->inner_bytes;
+        return std::lower_bound(inner.begin(), inner.end(), at) - inner.begin();
+    };
     Error error;
     error.code = ErrorCode::bad_content;
     error.what = std::move(what);
     error.expected = std::move(expected);
     error.file = content_->file;
-    error.line = static_cast<int>(line - starts.begin()) + 1;
-    const auto& inner = content_->inner_bytes;
-    const std::size_t start = std::min(*line, offset);
-    const auto skipped = std::lower_bound(inner.begin(), inner.end(), offset) -
-                         std::lower_bound(inner.begin(), inner.end(), start);
-    error.column = static_cast<int>(offset - start) - static_cast<int>(skipped) + 1;
+    error.line = static_cast<int>(std::lower_bound(starts.begin(), starts.end(), line) - starts.begin()) + 1;
+    error.column =
+        static_cast<int>(offset - from) - static_cast<int>(inner_before(offset) - inner_before(from)) + 1;
     return error;
 }
 

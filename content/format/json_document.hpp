@@ -50,6 +50,7 @@ class JsonDocument {
     struct Content;
     JsonDocument(std::string_view text, std::string_view file);
     [[nodiscard]] Error error_at(std::size_t offset, std::string what, std::string expected) const;
+    [[nodiscard]] std::size_t line_start(std::size_t offset) const;
     [[nodiscard]] std::string place(std::size_t offset) const;  // "line:column"
 
     std::unique_ptr<Content> content_;

@@ -223,18 +223,6 @@ std::size_t token_end(std::string_view text, std::size_t start) {
     return start + std::max<std::size_t>(number > 0 ? number : word.size(), 1);
 }
 
-bool closes_another(std::string_view text, std::size_t opener, std::size_t closer) {
-    const auto indent = [&](std::size_t at) {
-        const std::size_t line = text.rfind('\n', at) + 1;  // npos + 1 is 0
-        std::size_t first = line;
-        while (first < at && (text[first] == ' ' || text[first] == '\t')) ++first;
-        return std::pair(first - line, first == at);
-    };
-    const auto [closer_indent, first_on_line] = indent(closer);
-    return first_on_line && text.substr(opener, closer - opener).find('\n') != std::string_view::npos &&
-           closer_indent < indent(opener).first;
-}
-
 SyntaxMistake explain_syntax(std::string_view text, const Stopped& where, const Place& place) {
     const Before before = where.before;
     Wanted wanted = wanted_after(before);
@@ -274,10 +262,12 @@ SyntaxMistake explain_syntax(std::string_view text, const Stopped& where, const 
     }
     if (p >= text.size()) return too_early();
     SyntaxMistake mistake = token_mistake(text, p, wanted, place);
+    if (!where.open || before == Before::key) return mistake;
     // A bracket of the other kind, a name in a list, an object among names: what is around was to end before.
-    const bool closing = text[p] == '}' || text[p] == ']', opening = text[p] == '{' || text[p] == '[';
-    const bool name_in_list = text[p] == ':' && before == Before::array_value;
-    return closing || name_in_list || (opening && wanted.key) ? unclosed(std::move(mistake)) : mistake;
+    const bool in_object = text[*where.open] == '{';
+    const bool lost = in_object ? text[p] == ']' || (wanted.key && (text[p] == '{' || text[p] == '['))
+                                : text[p] == '}' || (text[p] == ':' && before == Before::array_value);
+    return lost ? unclosed(std::move(mistake)) : mistake;
 }
 
 std::optional<SyntaxMistake> explain_encoding(std::string_view text) {

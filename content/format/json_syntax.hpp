@@ -29,9 +29,6 @@ struct Stopped {
 SyntaxMistake explain_syntax(std::string_view text, const Stopped& where,
                              const std::function<std::string(std::size_t)>& place);
 
-// By its indentation the closing bracket belongs to one further out: the opening one has lost its own.
-bool closes_another(std::string_view text, std::size_t opener, std::size_t closer);
-
 // The first byte that no content file may hold: not UTF-8, or NUL.
 std::optional<SyntaxMistake> explain_encoding(std::string_view text);
 

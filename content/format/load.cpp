@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 
 #include "content/format/json_document.hpp"
 #include "content/format/read_assembly.hpp"
@@ -57,6 +58,16 @@ Loaded unknown_assembly(const std::string& name, const fs::path& content,
     return failed(name, "there is no such folder, file or assembly", std::move(there));
 }
 
+// Sessions are SQLite files, and all of those begin with the same words.
+bool is_session(const fs::path& file) {
+    constexpr std::string_view magic = "SQLite format 3";
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) return false;
+    char begin[magic.size()] = {};
+    std::ifstream(file, std::ios::binary).read(begin, sizeof begin);
+    return std::string_view(begin, sizeof begin) == magic;
+}
+
 std::string folder_name(const fs::path& file) {
     std::error_code ignored;
     const fs::path whole = fs::absolute(file, ignored).lexically_normal();
@@ -107,6 +118,9 @@ Loaded load_assembly(const fs::path& where, std::string_view variant) {
                           : unknown_assembly(where.string(), content, names);
         file = content / "assemblies" / where / "assembly.json";
     }
+    if (is_session(file))
+        return failed(file.string(), "this is a session, not an assembly",
+                      "expected the folder of an assembly, or its assembly.json");
     const auto text = read_file(file, json_size_limit, ErrorCode::bad_content);
     if (!text) {
         Loaded loaded;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "content/format/embedded.hpp"
 #include "content/format/json_document.hpp"
@@ -45,6 +46,41 @@ bool is_among_assemblies(const fs::path& folder) {
                                               content / "assemblies", problem);
 }
 
+// What was made so far. It goes again unless it is kept: a disk that is full leaves no half of an assembly.
+class Made {
+  public:
+    Made() = default;
+    Made(const Made&) = delete;
+    Made& operator=(const Made&) = delete;
+    ~Made() {
+        std::error_code ignored;
+        // Only empty folders are removed: what others have put there stays.
+        for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) fs::remove(*path, ignored);
+    }
+
+    Status folder(const fs::path& path) {
+        std::error_code problem;
+        std::vector<fs::path> missing;
+        for (fs::path at = path; !at.empty() && !fs::exists(at, problem); at = at.parent_path())
+            missing.push_back(at);
+        paths_.insert(paths_.end(), missing.rbegin(), missing.rend());
+        fs::create_directories(path, problem);
+        if (problem) return refused(path, ErrorCode::failed, "cannot be made: " + problem.message(), {});
+        return {};
+    }
+
+    Status file(const fs::path& path, std::string_view text) {
+        Status written = write_file(path, text);
+        if (written) paths_.push_back(path);
+        return written;
+    }
+
+    void keep() { paths_.clear(); }
+
+  private:
+    std::vector<fs::path> paths_;  // a folder before what is in it
+};
+
 }  // namespace
 
 Status create_assembly(const fs::path& folder, std::string_view name) {
@@ -58,16 +94,18 @@ Status create_assembly(const fs::path& folder, std::string_view name) {
                        "expected a folder that is new or empty");
     // A trailing slash would hide the folder's own name.
     const fs::path target = folder.has_filename() ? folder : folder.parent_path();
-    fs::create_directories(target, problem);
-    if (problem) return refused(target, ErrorCode::failed, "cannot be made: " + problem.message(), {});
+    Made made;
+    if (auto folder_made = made.folder(target); !folder_made) return folder_made;
 
     const bool inside = is_among_assemblies(target);
     std::string text(template_text());
     replace_value(text, "/$schema",
                   inside ? "../../schema/" + std::string(schema_name) : std::string(schema_name));
     for (const char* title : {"/title/en", "/title/de", "/title/zh"}) replace_value(text, title, name);
-    if (auto written = write_file(target / "assembly.json", text); !written) return written;
-    if (!inside) return write_file(target / schema_name, schema_text());
+    if (auto written = made.file(target / "assembly.json", text); !written) return written;
+    if (!inside)
+        if (auto written = made.file(target / schema_name, schema_text()); !written) return written;
+    made.keep();
     return {};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "content/format/json_pointer.hpp"
+#include "content/format/thread_text.hpp"
 #include "content/format/wording.hpp"
 
 namespace bolt::content {
@@ -58,7 +59,7 @@ joint::JointDesign read_design(const Layers& layers, const Materials& materials)
     Reader& reader = layers.reader();
     joint::JointDesign design{};
     if (const auto size = layers.text("size")) {
-        if (auto thread = joint::parse_thread(*size))
+        if (auto thread = read_thread(*size))
             design.thread = *thread;
         else
             reader.report(size.pointer, thread.error().what, thread.error().expected);
@@ -147,10 +148,9 @@ Materials read_materials(Reader& reader) {
     return materials;
 }
 
-JointType read_joint_type(const Layers& layers, const Materials& materials) {
+JointType read_joint_type(const Layers& layers, const Materials& materials, double least_share) {
     const JointType type{read_design(layers, materials), read_spec(layers.inside("spec"))};
-    const bool named = type.design.thread.size.d > 0.0 && type.design.bolt_class.R_p02 > 0.0;
-    if (named && layers.sound()) check_joint_type(layers, type);
+    check_joint_type(layers, type, least_share);
     return type;
 }
 

@@ -23,10 +23,11 @@ struct JointType {
 };
 
 // Reports what is wrong with it, also how its values fit together. Where something is, the result is only
-// good for looking further.
-JointType read_joint_type(const Layers& layers, const Materials& materials);
+// good for looking further. `least_share`: of the target torque, the least that a pass tightens to.
+JointType read_joint_type(const Layers& layers, const Materials& materials, double least_share);
 
-// How the values of a complete joint type fit together: lengths, torques, windows.
-void check_joint_type(const Layers& layers, const JointType& type);
+// How the values of a joint type fit together: lengths, torques, windows. What was refused, or is not there,
+// keeps only those checks from being made that need it.
+void check_joint_type(const Layers& layers, const JointType& type, double least_share);
 
 }  // namespace bolt::content

@@ -26,13 +26,16 @@ void report_unknown(Reader& reader, std::string_view pointer, Part part, std::st
 
 struct Types {
     Reader& reader;
+    bool patched;      // by a variant
     Node all;          // "joint_types"
     Node every_patch;  // of the variant
     Node patches;      // of the variant, by type
     Materials materials;
+    double least_share;  // of the target torque, of all passes
     std::map<std::string, JointType> read;
 
     Layers layers(const std::string& name) {
+        if (!patched) return {reader, {reader.member(all, name)}};
         return {reader, {reader.member(patches, name), every_patch, reader.member(all, name)}};
     }
 };
@@ -62,7 +65,7 @@ AssemblyJoint read_joint(Types& types, const Node& node) {
         if (override) {
             std::vector<Node> objects = types.layers(joint.type).objects();
             objects.insert(objects.begin(), override);
-            type = read_joint_type(Layers(reader, std::move(objects)), types.materials);
+            type = read_joint_type(Layers(reader, std::move(objects)), types.materials, types.least_share);
         }
         joint.design = std::move(type.design);
         joint.spec = type.spec;
@@ -93,11 +96,15 @@ void check_joints(Reader& reader, const std::vector<Node>& nodes, const std::vec
     };
     unique("id");
     unique("node");
+    const auto placed = [&](const Node& node) {
+        const Node place = reader.member(node, "position_mm");
+        return place && reader.sound(place.pointer) && reader.sound(reader.member(node, "axis").pointer);
+    };
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const Node place = reader.member(nodes[i], "position_mm");
-        if (!reader.sound(nodes[i].pointer) || !place) continue;
+        if (!placed(nodes[i])) continue;
         for (std::size_t k = 0; k < i; ++k) {
-            if (!reader.sound(nodes[k].pointer)) continue;
+            if (!placed(nodes[k])) continue;
             const Vec3 apart = joints[i].design.seat - joints[k].design.seat;
             const double distance = std::sqrt(glm::dot(apart, apart));
             const double nut = joints[i].design.thread.size.across_flats;
@@ -117,15 +124,17 @@ std::vector<AssemblyJoint> read_joints(Reader& reader, const std::string& varian
     const Node root = reader.root();
     const Node patch = variant.empty() ? Node{} : reader.member(reader.member(root, "variants"), variant);
     Types types{reader,
+                !variant.empty(),
                 reader.member(root, "joint_types"),
                 reader.member(patch, "every_joint_type"),
                 reader.member(patch, "joint_types"),
                 read_materials(reader),
+                least_share(reader),
                 {}};
     const std::vector<std::string> type_names = names_of(reader, types.all);
     const bool types_known = static_cast<bool>(types.all);
     for (const std::string& name : type_names)
-        types.read.emplace(name, read_joint_type(types.layers(name), types.materials));
+        types.read.emplace(name, read_joint_type(types.layers(name), types.materials, types.least_share));
     for (const Node& node : reader.items(types.patches))
         if (types_known && !types.read.contains(last_token(node.pointer)))
             report_unknown(reader, node.pointer, Part::key, "joint type of this file",

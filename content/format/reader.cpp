@@ -79,6 +79,8 @@ std::optional<Vec3> Reader::vector(const Node& node) const {
 }
 
 bool Reader::sound(std::string_view pointer) const {
+    for (std::size_t bar = pointer.find('/'); bar != std::string_view::npos; bar = pointer.find('/', bar + 1))
+        if (unusable_.contains(pointer.substr(0, bar))) return false;
     const auto it = unusable_.lower_bound(pointer);
     for (auto inner = it; inner != unusable_.end() && inner->starts_with(pointer); ++inner)
         if (inner->size() == pointer.size() || (*inner)[pointer.size()] == '/') return false;
@@ -90,6 +92,8 @@ void Reader::report(std::string_view pointer, std::string what, std::string expe
 }
 
 Layers::Layers(Reader& reader, std::vector<Node> objects) : reader_(reader), objects_(std::move(objects)) {
+    whole_ = std::all_of(objects_.begin(), objects_.end(),
+                         [&](const Node& node) { return node || reader_.sound(node.pointer); });
     std::erase_if(objects_, [](const Node& node) { return !node; });
 }
 
@@ -106,7 +110,9 @@ Node Layers::find(std::string_view key) const {
 Layers Layers::inside(std::string_view key) const {
     std::vector<Node> inner;
     for (const Node& object : objects_) inner.push_back(reader_.member(object, key));
-    return {reader_, std::move(inner)};
+    Layers result(reader_, std::move(inner));
+    result.whole_ = result.whole_ && whole_;
+    return result;
 }
 
 Found<double> Layers::number(std::string_view key) const {
@@ -122,6 +128,11 @@ Found<std::string> Layers::text(std::string_view key) const {
 Found<bool> Layers::boolean(std::string_view key) const {
     const Node node = find(key);
     return {reader_.boolean(node), node ? node.pointer : std::string{}};
+}
+
+bool Layers::known(std::initializer_list<std::string_view> keys) const {
+    return whole_ && std::all_of(keys.begin(), keys.end(),
+                                 [&](std::string_view key) { return reader_.sound(find(key).pointer); });
 }
 
 bool Layers::sound() const {

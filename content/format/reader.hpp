@@ -2,6 +2,7 @@
 // known to be wrong, so that one mistake is not reported twice.
 #pragma once
 
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
@@ -45,7 +46,8 @@ class Reader {
     std::optional<bool> boolean(const Node& node) const;
     std::optional<Vec3> vector(const Node& node) const;
 
-    // Nothing inside this value was refused, and it is not missing by mistake.
+    // Neither this value, nor what holds it, nor anything inside it was refused, and it is not missing by
+    // mistake.
     [[nodiscard]] bool sound(std::string_view pointer) const;
 
     void report(std::string_view pointer, std::string what, std::string expected, Part part = Part::value);
@@ -75,11 +77,14 @@ class Layers {
     [[nodiscard]] Layers inside(std::string_view key) const;
     [[nodiscard]] const std::vector<Node>& objects() const { return objects_; }
     [[nodiscard]] bool sound() const;
+    // What is read for each of these keys is what the author meant, be it a value or none.
+    [[nodiscard]] bool known(std::initializer_list<std::string_view> keys) const;
     [[nodiscard]] Reader& reader() const { return reader_; }
 
   private:
     Reader& reader_;
     std::vector<Node> objects_;  // those that are there
+    bool whole_ = true;          // none of them was refused
 };
 
 }  // namespace bolt::content

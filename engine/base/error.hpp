@@ -19,7 +19,7 @@ struct Error {
     std::string expected;  // what was expected, or the nearest valid name; may be empty
     std::string file;      // empty when no file is involved
     int line = 0;          // 1-based; 0 when unknown
-    int column = 0;        // 1-based, in UTF-8 code units; 0 when unknown
+    int column = 0;        // 1-based, in characters (Unicode code points); 0 when unknown
     std::string pointer;   // JSON pointer (RFC 6901) of the value, may be empty
 
     // "file:line:column: what is wrong; what was expected", leaving out what is not known.

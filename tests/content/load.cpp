@@ -1,8 +1,10 @@
 #include "content/format/load.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <optional>
 
@@ -49,6 +51,23 @@ struct ContentVariable {
     }();
 };
 
+// No file larger than this can be written while it lives.
+struct FileSizeLimit {
+    explicit FileSizeLimit(rlim_t size) {
+        ::getrlimit(RLIMIT_FSIZE, &before);
+        const rlimit limit{size, before.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+    ~FileSizeLimit() {
+        ::setrlimit(RLIMIT_FSIZE, &before);
+        (void)std::signal(SIGXFSZ, handler);
+    }
+    rlimit before{};
+    void (*handler)(int) = std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
+};
+
 Error only_error(const fs::path& where, std::string_view variant = {}) {
     const auto loaded = content::load_assembly(where, variant);
     REQUIRE(loaded.errors.size() == 1);
@@ -88,6 +107,21 @@ TEST_CASE("a folder without the file, a file that cannot be read") {
     CHECK(only_error(folder.path / "sub").what == "this is a folder, not a file");
     fs::create_symlink("nowhere", folder.path / "assembly.json");
     CHECK(content::load_assembly(folder.path).errors.size() == 1);
+}
+
+TEST_CASE("a session is told from an assembly, however large it is") {
+    const Folder folder;
+    std::string session("SQLite format 3", 16);
+    for (const std::size_t size : {std::size_t{16}, std::size_t{5U << 20U}}) {
+        session.resize(size);
+        REQUIRE(write_file(folder.path / "session.boltwright", session));
+        CHECK(only_error(folder.path / "session.boltwright").message() ==
+              (folder.path / "session.boltwright").string() +
+                  ": this is a session, not an assembly; expected the folder of an assembly, or its "
+                  "assembly.json");
+    }
+    REQUIRE(write_file(folder.path / "text", "SQLite"));
+    CHECK(only_error(folder.path / "text").what == "unknown word \"SQLite\"");
 }
 
 TEST_CASE("a variant that is not there") {
@@ -146,6 +180,22 @@ TEST_CASE("a new assembly never overwrites anything") {
     fs::create_directories(folder.path / "empty");
     CHECK(content::create_assembly(folder.path / "empty" / "", "pump"));
     CHECK(fs::exists(folder.path / "empty" / "assembly.json"));
+}
+
+TEST_CASE("a new assembly that cannot be written leaves nothing behind") {
+    const Folder folder;
+    fs::create_directories(folder.path / "empty");
+    // The limit on the size of a file stands for a disk that is full: the small file fits, the schema does
+    // not.
+    for (const rlim_t size : {rlim_t{100}, rlim_t{10'000}}) {
+        CAPTURE(size);
+        const FileSizeLimit limit(size);
+        CHECK_FALSE(content::create_assembly(folder.path / "new" / "below", "pump"));
+        CHECK_FALSE(fs::exists(folder.path / "new"));
+        CHECK_FALSE(content::create_assembly(folder.path / "empty", "pump"));
+        CHECK(fs::is_empty(folder.path / "empty"));  // it was there before
+    }
+    CHECK(content::create_assembly(folder.path / "new" / "below", "pump"));
 }
 
 TEST_CASE("beside the other assemblies the common schema is used") {

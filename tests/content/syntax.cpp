@@ -52,7 +52,7 @@ const Slip slips[] = {
     {R"("tool":)", R"("tool" =)",
      {R"(14:10: '=' cannot stand here; expected ':' and a value)"}},
     {R"(Fasten the)", "Fasten\nthe",
-     {R"(9:11: this text is not closed on its line; expected a '"' at its end)"}},
+     {R"(9:18: the text begun at 9:11 is not closed on its line; expected a '"' at its end)"}},
     {R"(Fasten the)", "Fasten\tthe",
      {R"(9:18: control character 0x09 in a text; write it as \u0009)"}},
     {R"(Fasten the)", R"(Fasten \the \d)",
@@ -62,9 +62,22 @@ const Slip slips[] = {
     {R"(Fasten the)", "Fasten \xFF the",
      {R"(9:19: byte 0xFF is not UTF-8; save the file as UTF-8)"}},
     {R"([0, 500, 1])", R"([0, 500, 1)",
-     {R"(60:55: ':' cannot stand here; expected ',' or ']')"}},
+     {R"(60:55: ':' cannot stand here, and the '[' opened at 60:32 is not closed; expected ',' or ']')"}},
     {R"([0, 500, 1])", R"([0, 500 1])",
      {R"(60:40: something is missing before "1"; expected ',' or ']')"}},
+    {R"([0, 500, 1])", R"([0, 500, 1})",
+     {R"(60:42: '}' cannot stand here, and the '[' opened at 60:32 is not closed; expected ',' or ']')"}},
+    {R"({ "kind": "recheck" })", R"({ "kind": "recheck")",
+     {R"(57:3: ']' cannot stand here, and the '{' opened at 56:5 is not closed; expected ',' or '}')"}},
+    {R"([50, 10, -40] },)", R"([50, 10, -40],)",
+     {R"(48:5: '{' cannot stand here, and the '{' opened at 47:5 is not closed; expected a name in double quotes)"}},
+    {R"("risk_class": "C"
+      })", R"("risk_class": "C")",
+     {R"(61:2: the file ends too early, and the '{' opened at 1:1 is not closed; expected ',' or '}'; by the indentation it is the '{' opened at 36:15 that lacks its '}')"}},
+    {R"("id": "B2", "type")", R"("id": "B2, "type")",
+     {R"(47:19: something is missing before "type"; expected ',' or '}', or a '"' that closes the text begun at 47:13)"}},
+    {R"("zh": "四个 M8 螺栓的盖板")", R"("zh": "四个 M8 螺栓的盖板)",
+     {R"(6:23: the text begun at 6:11 is not closed on its line; expected a '"' at its end)"}},
     {R"([0, 500, 1])", R"([0, 500, ])",
      {R"(60:39: nothing follows this comma but ']'; remove the comma)"}},
 };
@@ -97,8 +110,11 @@ TEST_CASE("what is no JSON at all gives one error with a line") {
     CHECK(only_message(" \n\t\n") == "1:1: the file is empty; expected '{'");
     CHECK(only_message("hello") ==
           "1:1: unknown word \"hello\"; expected a number, a text in double quotes, true or false");
-    CHECK(only_message("{") == "1:2: the file ends too early; expected a name in double quotes or '}'");
-    CHECK(only_message("{\"a\": [1,\n") == "1:10: the file ends too early; expected a value");
+    CHECK(only_message("{") ==
+          "1:2: the file ends too early, and the '{' opened at 1:1 is not closed; expected a name in double "
+          "quotes or '}'");
+    CHECK(only_message("{\"a\": [1,\n") ==
+          "1:10: the file ends too early, and the '[' opened at 1:7 is not closed; expected a value");
     CHECK(only_message("{} {}") == "1:4: '{' cannot stand here; expected the end of the file");
     CHECK(only_message("<xml/>") == "1:1: '<' cannot stand here; expected '{'");
     CHECK(only_message("[1.5.2]") ==
@@ -107,7 +123,7 @@ TEST_CASE("what is no JSON at all gives one error with a line") {
     CHECK(only_message("[5mm]") ==
           "1:2: \"5mm\" is not a number as JSON writes it; expected as in 1.5, -2 or 3e-6: "
           "digits on both sides of the point, no leading zero or plus, no unit");
-    CHECK(only_message("\"abc") == "1:1: this text is not closed; expected a '\"' at its end");
+    CHECK(only_message("\"abc") == "1:5: the text begun at 1:1 is not closed; expected a '\"' at its end");
     CHECK(only_message(std::string_view("{}\0", 3)) == "1:3: byte 0x00; expected text");
     CHECK(only_message(std::string_view("\xFF\xFE{\0}\0", 6)) == "1:1: the file is UTF-16; save it as UTF-8");
     CHECK(only_message("{\"\xE4\": 1}") == "1:3: byte 0xE4 is not UTF-8; save the file as UTF-8");
@@ -128,6 +144,25 @@ TEST_CASE("a byte order mark is no mistake and does not move the columns") {
     CHECK(messages("\xEF\xBB\xBF" + shipped("cover-m8")).empty());
     CHECK(only_message("\xEF\xBB\xBF[]") == "1:1: a list [...] cannot stand here; expected an object {...}");
     CHECK(only_message("\xEF\xBB\xBF") == "1:1: the file is empty; expected '{'");
+}
+
+TEST_CASE("columns count characters, as an editor does, and a tab is one") {
+    CHECK(only_message("{\"zh\":\t\"四个 µ\", 1}") ==
+          "1:16: \"1\" without quotes; expected a name in double quotes");
+    CHECK(only_message("\xEF\xBB\xBF{\"\xF0\x9F\x94\xA9\": 1,\n\"é\", 1}") ==
+          "2:4: ',' cannot stand here; expected ':' and a value");
+    CHECK(only_message("[\"äö\", \"\xFF\"]") == "1:9: byte 0xFF is not UTF-8; save the file as UTF-8");
+}
+
+TEST_CASE("the bracket that is blamed is the innermost that is open, unless the indentation tells better") {
+    CHECK(only_message("{\"a\": {\n\"b\": [1],\n\"c\": 2\n}")
+              .starts_with("4:2: the file ends too early, and the '{' opened at 1:1 is not closed; expected "
+                           "',' or '}'"));
+    CHECK(only_message("{\n  \"a\": [\n    {\n      \"b\": 1\n  ],\n  \"c\": 2\n}\n") ==
+          "5:3: ']' cannot stand here, and the '{' opened at 3:5 is not closed; expected ',' or '}'");
+    CHECK(only_message("{\"a\": \"x\\\\\\\"\"b}") ==
+          "1:14: something is missing before \"b\"; expected ',' or '}', or a '\"' that closes the text "
+          "begun at 1:7");
 }
 
 TEST_CASE("Windows line ends are lines too") {
