@@ -209,19 +209,15 @@ std::string overlay_svg(const Comparison& c, std::size_t joint) {
 }
 
 std::string comparison_page(const Comparison& c) {
-    const auto fact = [](std::string_view name, std::string_view value) {
-        return value.empty() ? std::string()
-                             : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escape(value));
-    };
-    const auto base = [](const std::string& path) { return path.substr(path.find_last_of('/') + 1); };
     std::string body =
         fmt::format("<p class=\"over\">Virtual against measured torque</p>\n<h1>{}</h1>\n", escape(c.title));
     if (!c.source.empty()) body += fmt::format("<p>{}</p>\n", escape(source_line(c)));
-    body += "<dl class=\"facts\">\n" + fact("session", base(c.session)) +
-            fact("measured", base(c.measured_file)) +
-            fact("direction", c.direction == joint::Direction::tighten ? "tightening" : "loosening") +
-            fact("law", c.law) + fact("variant", c.variant) +
-            fact("cycles", fmt::format("{}", c.measured.size())) + "</dl>\n<p class=\"note\">";
+    body += "<dl class=\"facts\">\n" +
+            report::fact("direction", c.direction == joint::Direction::tighten ? "tightening" : "loosening") +
+            report::fact("law", c.law) + report::fact("variant", c.variant) +
+            report::fact("cycles", fmt::format("{}", c.measured.size())) +
+            report::path_fact("session", c.session) + report::path_fact("measured", c.measured_file) +
+            "</dl>\n<p class=\"note\">";
     for (const std::string& text : remarks(c)) body += escape(text) + " ";
     body += "</p>\n";
     for (std::size_t j = 0; j < c.joints.size(); ++j) body += joint_section(c, j);

@@ -20,7 +20,7 @@ constexpr std::string_view name(Verdict verdict) {
 
 struct JointResult {
     std::string id;
-    double torque = 0.0;  // N·m, highest of the last tightening visit
+    double torque = 0.0;  // N·m, highest of the tightening step or of any pull that turned the nut on since
     double angle = 0.0;   // rad from snug
     double clamp =
         0.0;  // N, when the result was last updated (end of lesson: after embedding and cross-talk)

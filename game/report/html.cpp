@@ -23,6 +23,24 @@ std::string figure(std::string_view heading, std::string_view svg, std::string_v
     return out + "</figure>\n";
 }
 
+std::string fact(std::string_view name, std::string_view value) {
+    return value.empty() ? std::string()
+                         : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escape(value));
+}
+
+std::string path_fact(std::string_view name, std::string_view path) {
+    if (path.empty()) return {};
+    std::string words;
+    for (std::size_t from = 0; from < path.size();) {
+        const std::size_t slash = path.find('/', from);
+        const std::size_t end = slash == std::string_view::npos ? path.size() : slash + 1;
+        if (from > 0) words += "<wbr/>";
+        words += escape(path.substr(from, end - from));
+        from = end;
+    }
+    return fmt::format("<div class=\"path\"><dt>{}</dt><dd>{}</dd></div>\n", name, words);
+}
+
 std::string verdict_mark(const lesson::JointResult& result) {
     using lesson::Verdict;
     if (result.condition != joint::Condition::sound)

@@ -14,6 +14,11 @@ std::string page(std::string_view title, std::string_view body);
 // A drawing with its heading and caption; both are HTML already and may be empty.
 std::string figure(std::string_view heading, std::string_view svg, std::string_view caption);
 
+// An entry of a list of facts, from plain text; nothing for an empty value. A path takes a line of its own
+// and breaks only after a '/'.
+std::string fact(std::string_view name, std::string_view value);
+std::string path_fact(std::string_view name, std::string_view path);
+
 // "✓ OK", "▲ HIGH", "▼ LOW": shape, word and colour, and what it is about if torque and angle were both
 // judged. A joint that is not sound says that instead.
 std::string verdict_mark(const lesson::JointResult& result);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/base/math.hpp"
 #include "game/report/decimate.hpp"
@@ -16,8 +17,8 @@ namespace bolt::report {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double lead_in = 12.0;   // degrees drawn before the first contact, at least
-constexpr double longest = 540.0;  // degrees drawn before the end, at most
+constexpr double lead_in = 12.0;        // degrees drawn before the first contact, at least
+constexpr double longest = 540.0;       // degrees drawn before the end, at most
 constexpr double longest_free = 180.0;  // degrees drawn of a loose nut, at most
 
 constexpr std::string_view stage_styles[] = {"s0", "s1", "s2", "s3"};
@@ -182,36 +183,46 @@ bool is_judged(const SessionData& session, const Visit& visit) {
     return last != passes.rend() && pass == &*last;
 }
 
-// The sample that shows the torque of the joint's result; none if no visit of that kind does.
-const CurvePoint* judged_point(const SessionData& session, std::size_t joint, bool any_visit) {
+// Where the curve shows the torque of the joint's result: a sample of it, else the last way through it.
+std::optional<CurvePoint> judged_point(const SessionData& session, std::size_t joint, bool any_visit) {
     const double torque = session.joints[joint].torque;
-    if (!(torque > 0.0)) return nullptr;
+    if (!(torque > 0.0)) return std::nullopt;
     double least = 0.02 + 1e-4 * torque;  // N·m by which it may differ: the samples are single precision
-    const CurvePoint* found = nullptr;
+    std::optional<CurvePoint> sample, passed;
     const auto look = [&](const CurvePoint& p) {
         const double off = std::abs(std::abs(p.torque) - torque);
         if (off > least) return;
         least = off;
-        found = &p;
+        sample = p;
     };
     for (const Visit& visit : session.curves[joint].visits) {
         if (!visit.worked || !(any_visit || is_judged(session, visit))) continue;
         look(visit.peak);
-        for (const CurvePoint& p : visit.points) look(p);
+        for (std::size_t i = 0; i < visit.points.size(); ++i) {
+            look(visit.points[i]);
+            if (i == 0) continue;
+            const CurvePoint &a = visit.points[i - 1], &b = visit.points[i];
+            const double from = std::abs(a.torque) - torque, to = std::abs(b.torque) - torque;
+            if (a.stroke != b.stroke || a.angle == b.angle || from * to > 0.0 || from == to) continue;
+            passed = a;
+            passed->angle += from / (from - to) * (b.angle - a.angle);
+            passed->torque = b.torque;
+        }
     }
-    return found;
+    return sample ? sample : passed;
 }
 
 void add_judged(Plot& plot, const SessionData& session, std::size_t joint, const JointView& view) {
     const bool loosening = is_loosening(session);
-    const CurvePoint* judged = judged_point(session, joint, false);
+    std::optional<CurvePoint> judged = judged_point(session, joint, false);
     // A joint that was never brought to its target in full is judged by what it has seen so far.
-    if (judged == nullptr) judged = judged_point(session, joint, true);
-    if (judged == nullptr || !is_in_view(view, judged->angle, loosening)) return;
-    plot.marks.push_back({{drawn_angle(view, judged->angle, loosening), torque_of(*judged)},
+    if (!judged) judged = judged_point(session, joint, true);
+    if (!judged || !is_in_view(view, judged->angle, loosening)) return;
+    const double torque = std::copysign(session.joints[joint].torque, judged->torque);  // as the table has it
+    plot.marks.push_back({{drawn_angle(view, judged->angle, loosening), torque},
                           Shape::dot,
                           "mpeak",
-                          number(torque_of(*judged), 1),
+                          number(torque, 1),
                           false,
                           false});
 }
@@ -233,13 +244,14 @@ void add_releases(Plot& plot, const SessionData& session, const JointCurve& curv
     }
 }
 
-// Highest torque of re-checks that did not turn the nut on.
-void add_breakaway(Plot& plot, const SessionData& session, const JointCurve& curve, const JointView& view) {
+// Highest torque of re-checks where it is not what is judged: the nut did not turn on, or not with it.
+void add_breakaway(Plot& plot, const SessionData& session, std::size_t joint, const JointView& view) {
     const Visit* highest = nullptr;
-    for (const Visit& visit : curve.visits)
-        if (visit.worked && is_recheck(session, visit) && !turned_on(visit) &&
-            (highest == nullptr || visit.peak.torque > highest->peak.torque))
-            highest = &visit;
+    for (const Visit& visit : session.curves[joint].visits) {
+        if (!visit.worked || !is_recheck(session, visit)) continue;
+        if (turned_on(visit) && visit.peak.torque <= session.joints[joint].torque + 0.05) continue;
+        if (highest == nullptr || visit.peak.torque > highest->peak.torque) highest = &visit;
+    }
     if (highest == nullptr || !is_in_view(view, highest->peak.angle, false)) return;
     plot.marks.push_back({{drawn_angle(view, highest->peak.angle, false), torque_of(highest->peak)},
                           Shape::ring,
@@ -295,8 +307,7 @@ JointView joint_view(const SessionData& session, std::size_t joint) {
         const auto free = std::find_if(curve.stages.begin(), curve.stages.end(), [](const StageSpan& s) {
             return s.stage == joint::Stage::navigation;
         });
-        const double loose =
-            free == curve.stages.end() ? end : drawn_angle(view, free->from, loosening);
+        const double loose = free == curve.stages.end() ? end : drawn_angle(view, free->from, loosening);
         view.cut_after = end - loose > longest_free;
         if (view.cut_after) end = loose + longest_free;
     }
@@ -339,7 +350,7 @@ Plot joint_plot(const SessionData& session, std::size_t joint) {
     if (!loosening) add_targets(plot, spec);
     add_visits(plot, curve, view, loosening, last_pass_of(session));
     add_releases(plot, session, curve, view);
-    add_breakaway(plot, session, curve, view);
+    add_breakaway(plot, session, joint, view);
     add_judged(plot, session, joint, view);
     return plot;
 }

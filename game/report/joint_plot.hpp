@@ -10,10 +10,10 @@ namespace bolt::report {
 
 // What the plot leaves out and where it counts from, in words for its caption.
 struct JointView {
-    double zero = 0.0;      // rad, nut angle that is drawn as 0
-    Range shown;            // degrees from zero
-    std::string zero_name;  // "snug", "first contact", "start"
-    bool cut = false;       // the run-down is left out
+    double zero = 0.0;       // rad, nut angle that is drawn as 0
+    Range shown;             // degrees from zero
+    std::string zero_name;   // "snug", "first contact", "start"
+    bool cut = false;        // the run-down is left out
     bool cut_after = false;  // what was turned of a loose nut is not all drawn
 };
 JointView joint_view(const SessionData& session, std::size_t joint);

@@ -45,8 +45,8 @@ struct Arrow {
     }
 };
 
-// Where along an arrow its head is clear of every disc and of the heads so far, else where it is clearest: not
-// in the middle if that can be, where the lines of a cross pattern meet.
+// Where along an arrow its head is clear of every disc and of the heads so far, else where it is clearest:
+// not in the middle if that can be, where the lines of a cross pattern meet.
 Point head_place(const Arrow& arrow, const PlanLayout& layout, const std::vector<Point>& heads) {
     constexpr double reach = 6.0;  // of a head about its middle
     Point best;
@@ -73,6 +73,7 @@ void draw_arrow(Svg& svg, const Arrow& arrow, double radius, std::string_view st
 
 void draw_head(Svg& svg, const Arrow& arrow, Point at) {
     const double length = arrow.length();
+    if (!(length > 1e-9)) return;
     const double ux = (arrow.to.x - arrow.from.x) / length, uy = (arrow.to.y - arrow.from.y) / length;
     const Point tip{at.x + 4.0 * ux, at.y + 4.0 * uy};
     const Point corners[] = {tip,
@@ -97,8 +98,7 @@ std::vector<std::size_t> joints_followed(const PassOrder& order) {
 constexpr double small_print = 12.0;  // letters on a narrow screen
 constexpr double large_print = 13.0;
 
-// About a thing of that half width and half height: on the preferred side, on the other, to the right, to the
-// left.
+// About a thing of that half width and half height: on the preferred side, on the other, beside it.
 std::vector<Spot> spots_about(Point at, double half_width, double half_height, bool under_first) {
     const Spot above{{at.x, at.y - half_height - 4.0}, Anchor::middle};
     const Spot below{{at.x, at.y + half_height + 12.0}, Anchor::middle};
@@ -106,8 +106,17 @@ std::vector<Spot> spots_about(Point at, double half_width, double half_height, b
     const Spot left{{at.x - half_width - 4.0, at.y + 4.0}, Anchor::end};
     const Spot far_above{{at.x, above.at.y - 13.0}, Anchor::middle};
     const Spot far_below{{at.x, below.at.y + 13.0}, Anchor::middle};
-    if (under_first) return {below, far_below, above, far_above, right, left};
-    return {above, far_above, below, far_below, right, left};
+    const auto from = [&](const Spot& spot, Anchor anchor) {
+        const double side = anchor == Anchor::start ? -half_width : half_width;
+        return Spot{{at.x + side, spot.at.y}, anchor};
+    };
+    std::vector<Spot> spots = {above, far_above, below, far_below};
+    if (under_first) std::swap_ranges(spots.begin(), spots.begin() + 2, spots.begin() + 2);
+    for (const Anchor anchor : {Anchor::start, Anchor::end})
+        for (const Spot& spot : {spots[0], spots[2]}) spots.push_back(from(spot, anchor));
+    spots.push_back(right);
+    spots.push_back(left);
+    return spots;
 }
 
 void put_words(Svg& svg, Placer& placer, const std::vector<Spot>& spots, std::string_view style,
@@ -128,7 +137,8 @@ std::string fault_text(const PassOrder& order, std::size_t joint) {
     std::string text;
     if (asked > 0 && (out_of_turn || order.place_followed(joint) == 0)) text = fmt::format("asked {}", asked);
     if (visits > 1) text += fmt::format("{}{}×", text.empty() ? "" : ", ", visits);
-    return (out_of_turn ? "▲ " : "") + text;
+    if (out_of_turn) return text.empty() ? "▲" : "▲ " + text;
+    return text;
 }
 
 void draw_order_joint(Svg& svg, const PassOrder& order, const PlanLayout& layout, std::size_t joint) {

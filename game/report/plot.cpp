@@ -107,7 +107,10 @@ void draw_band_names(Svg& svg, const Plot& plot, const Mapping& map, const Box& 
     for (const BandName& name : narrow) {
         if (name.at < left - 0.5) continue;  // no room at all
         const double foot = std::clamp(name.middle(), name.at + 3.0, name.at + name.width() - 6.0);
-        svg.line({area.x + name.middle(), area.y}, {area.x + foot, area.y - head_high + 3.0}, "ld");
+        // Upright past the first row, whose names stand over their own bands, then over to its name.
+        const Point bend{area.x + name.middle(), area.y - 15.0};
+        svg.line({bend.x, area.y}, bend, "ld");
+        svg.line(bend, {area.x + foot, area.y - head_high + 3.0}, "ld");
         svg.text({area.x + name.at, area.y - head_high}, "st", name.band->label);
     }
 }
@@ -162,16 +165,26 @@ void draw_mark(Svg& svg, const Mark& mark, Point p) {
 void draw_mark_label(Svg& svg, const Mark& mark, Point p, const Box& area, Placer& placer) {
     const Spot above_left{{p.x - 6.0, p.y - 6.0}, Anchor::end}, above_right{{p.x + 6.0, p.y - 6.0}};
     const Spot below_left{{p.x - 8.0, p.y + 13.0}, Anchor::end}, below_right{{p.x + 8.0, p.y + 11.0}};
-    const Spot far_left{{p.x - 8.0, p.y + 26.0}, Anchor::end};
+    const Spot far_below{{p.x - 8.0, p.y + 26.0}, Anchor::end},
+        far_above{{p.x - 8.0, p.y - 20.0}, Anchor::end};
+    const Spot farther_below{{p.x - 8.0, p.y + 39.0}, Anchor::end};
+    const Spot farther_above{{p.x - 8.0, p.y - 33.0}, Anchor::end};
     if (mark.quiet) {
-        const Spot spots[] = {below_right, above_left, below_left, above_right, far_left};
+        // Names of passes stay with their squares, however full it is there.
+        std::vector<Spot> spots = {below_right, above_left, below_left, above_right};
+        if (!mark.second_axis)
+            spots.insert(spots.end(), {far_above, farther_above, far_below, farther_below});
         const Spot spot = placer.choose(spots, mark.label, small_print);
         svg.text(spot.at, fmt::format("sm{}", anchor_style(spot.anchor)), mark.label);
         return;
     }
     const bool left = p.x - area.x > 0.5 * area.width;
-    const Spot spots[] = {left ? above_left : above_right, left ? above_right : above_left,
-                          left ? below_left : below_right, left ? below_right : below_left, far_left};
+    const Spot spots[] = {left ? above_left : above_right,
+                          left ? above_right : above_left,
+                          left ? below_left : below_right,
+                          left ? below_right : below_left,
+                          far_above,
+                          far_below};
     const Spot spot = placer.choose(spots, mark.label, large_print);
     svg.text(spot.at, fmt::format("mk{}", anchor_style(spot.anchor)), mark.label);
 }
@@ -183,7 +196,7 @@ void draw_marks(Svg& svg, const Plot& plot, const Mapping& map, const Box& area)
         for (Point p : within(line.points, map.x.range)) {
             p = map(p, line.second_axis);
             if (std::isfinite(p.x) && std::isfinite(p.y))
-                placer.take({area.x + p.x - 1.0, area.y + p.y - 1.0, 2.0, 2.0});
+                placer.take({area.x + p.x - 0.5, area.y + p.y - 0.5, 1.0, 1.0});
         }
     for (const Mark& mark : plot.marks) {
         const std::optional<Point> p = place_of(mark, map, area);
@@ -194,8 +207,7 @@ void draw_marks(Svg& svg, const Plot& plot, const Mapping& map, const Box& area)
     for (const bool quiet : {false, true})
         for (const Mark& mark : plot.marks) {
             const std::optional<Point> p = place_of(mark, map, area);
-            if (p && mark.quiet == quiet && !mark.label.empty())
-                draw_mark_label(svg, mark, *p, area, placer);
+            if (p && mark.quiet == quiet && !mark.label.empty()) draw_mark_label(svg, mark, *p, area, placer);
         }
 }
 

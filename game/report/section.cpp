@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <string_view>
 
 #include "engine/base/math.hpp"
 #include "game/report/html.hpp"
@@ -19,10 +21,6 @@ namespace {
 template <class... Values>
 void put(std::string& out, fmt::format_string<Values...> format, Values&&... values) {
     fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
-}
-
-void put_fact(std::string& out, std::string_view name, std::string_view value) {
-    if (!value.empty()) put(out, "<div><dt>{}</dt><dd>{}</dd></div>\n", name, escape(value));
 }
 
 void put_heading(std::string& out, const SessionData& s, std::size_t index) {
@@ -46,14 +44,14 @@ void put_heading(std::string& out, const SessionData& s, std::size_t index) {
             "were never "
             "done.</div>\n");
     out += "<dl class=\"facts\">\n";
-    put_fact(out, "operator", s.header.operator_name);
-    put_fact(out, "task", s.header.task);
-    put_fact(out, "mode", s.header.mode);
-    put_fact(out, "law", s.header.law);
-    put_fact(out, "variant", s.header.variant);
-    put_fact(out, "duration", duration_text(s.duration));
-    put_fact(out, "seed", fmt::format("{}", s.header.seed));
-    put_fact(out, "session", s.file.substr(s.file.find_last_of('/') + 1));
+    out += fact("operator", s.header.operator_name);
+    out += fact("task", s.header.task);
+    out += fact("mode", s.header.mode);
+    out += fact("law", s.header.law);
+    out += fact("variant", s.header.variant);
+    out += fact("duration", duration_text(s.duration));
+    out += fact("seed", fmt::format("{}", s.header.seed));
+    if (index > 0) out += path_fact("session", s.file);  // one alone is known by where its report lies
     out += "</dl>\n";
 }
 
@@ -70,11 +68,6 @@ void put_score(std::string& out, const SessionData& s) {
         number(s.score, 1));
 }
 
-std::string size_of(const content::AssemblyJoint& joint) {
-    const joint::JointDesign& d = joint.design;
-    return fmt::format("{}×{} · {}", d.thread.size.name, number(1e3 * d.bolt_length, 0), d.bolt_class.name);
-}
-
 void put_joint_row(std::string& out, const SessionData& s, std::size_t j) {
     const lesson::JointResult& r = s.joints[j];
     const content::AssemblyJoint& joint = s.assembly.joints[j];
@@ -82,7 +75,7 @@ void put_joint_row(std::string& out, const SessionData& s, std::size_t j) {
     const bool reached = r.overall != lesson::Verdict::none || r.strokes > 0;
     put(out, "<tr><td><a href=\"#{}\">{}</a></td><td>{}</td><td>{}</td>", escape(s.file + "-" + r.id),
         escape(r.id), reached ? verdict_mark(r) : "<span class=\"v vn\">not reached</span>",
-        escape(size_of(joint)));
+        escape(bolt_text(joint)));
     if (!reached) {
         for (int i = loosening ? 1 : 0; i < 4; ++i) out += "<td class=\"n\">–</td>";
     } else if (loosening) {
@@ -103,6 +96,34 @@ void put_joint_row(std::string& out, const SessionData& s, std::size_t j) {
     out += "</tr>\n";
 }
 
+constexpr std::string_view loosening_note =
+    "<p class=\"note\">Breakaway: highest torque at the wrench while the joint was loosened; no value is "
+    "asked "
+    "of it. Clamp: at the end of the session.</p>\n";
+
+std::string judging_note(const SessionData& s) {
+    const std::vector<content::AssemblyJoint>& joints = s.assembly.joints;
+    const bool angle =
+        std::any_of(joints.begin(), joints.end(), [](const auto& j) { return j.spec.has_angle; });
+    const bool recheck = std::any_of(s.assembly.passes.begin(), s.assembly.passes.end(),
+                                     [](const auto& p) { return p.kind == content::StepKind::recheck; });
+    std::string out = fmt::format(
+        "<p class=\"note\">Judged: {}; clamp force is shown, a wrench cannot measure it. Torque: highest at "
+        "the wrench in the 100\u00a0% tightening pass.",
+        angle ? "torque and angle" : "torque");
+    if (recheck)
+        out +=
+            " A re-check, like any other pull, counts only if it turned the nut on by more than 2°: one that "
+            "only sees the nut begin to move shows its breakaway torque, which is higher by the static "
+            "friction and is not judged.";
+    out += " Clamp: at the end of the session.";
+    if (std::any_of(joints.begin(), joints.end(), [](const auto& j) { return j.spec.target_clamp <= 0.0; }))
+        out +=
+            " Clamp targets that the assembly does not state follow from the target torque and the nominal "
+            "friction.";
+    return out + "</p>\n";
+}
+
 void put_joints(std::string& out, const SessionData& s) {
     const bool loosening = s.direction() == joint::Direction::loosen;
     out +=
@@ -117,38 +138,51 @@ void put_joints(std::string& out, const SessionData& s) {
         "class=\"n\">order<br/>errors</th></tr></thead>"
         "<tbody>\n";
     for (std::size_t j = 0; j < s.joints.size(); ++j) put_joint_row(out, s, j);
-    out +=
-        "</tbody></table></div>\n<p class=\"note\">Torque: highest at the wrench in the last visit. Clamp: "
-        "at the end of "
-        "the session.";
-    const auto unstated = [](const content::AssemblyJoint& j) { return j.spec.target_clamp <= 0.0; };
-    if (!loosening && std::any_of(s.assembly.joints.begin(), s.assembly.joints.end(), unstated))
-        out +=
-            " Clamp targets that the assembly does not state follow from the target torque and the nominal "
-            "friction.";
-    out += "</p>\n";
+    out += "</tbody></table></div>\n" + (loosening ? std::string(loosening_note) : judging_note(s));
 }
 
 std::string order_verdict(const PassOrder& order) {
-    if (order.followed.empty()) return "<span class=\"v vn\">not begun</span>";
     if (order.asked.empty()) return "<span class=\"v vn\">no order asked</span>";
     if (!order.in_turn()) return "<span class=\"v vl\">▲ not as asked</span>";
     if (order.left_out() == 0) return "<span class=\"v vo\">✓ as asked</span>";
     return fmt::format("<span class=\"v vl\">▼ {} left out</span>", order.left_out());
 }
 
+std::string counted(std::size_t passes) {
+    constexpr std::string_view words[] = {"two", "three", "four", "five", "six", "seven", "eight", "nine"};
+    return passes >= 2 && passes <= 9 ? std::string(words[passes - 2]) : fmt::format("{}", passes);
+}
+
+// One drawing of all that went as asked, one of each pass that did not.
 void put_order(std::string& out, const SessionData& s) {
     const std::vector<PassOrder> orders = pass_orders(s);
-    out +=
-        "<h2>Order</h2>\n<p class=\"note\">Seen from the nuts. Numbers and solid line: the order followed; "
-        "dotted line: "
-        "the order asked. ▲: out of turn, the fewest joints that would have to move.</p>\n<div class=\"grid "
-        "small\">\n";
-    for (const PassOrder& order : orders) {
-        out += figure(fmt::format("<h3>{}</h3>{}", escape(order.label), order_verdict(order)),
-                      order_plan(s, order), "");
+    const std::vector<OrderDrawing> drawings = order_drawings(orders);
+    const auto any = [&](auto is) { return std::any_of(drawings.begin(), drawings.end(), is); };
+    const auto any_turn = [&](bool Turn::*is) {
+        return any([&](const OrderDrawing& d) {
+            return std::any_of(d.order.followed.begin(), d.order.followed.end(),
+                               [&](const Turn& t) { return t.*is; });
+        });
+    };
+    out += "<h2>Order</h2>\n<p class=\"note\">Seen from the nuts. Numbers and solid line: the order followed";
+    if (any([](const OrderDrawing& d) { return !d.order.asked.empty() && !d.order.as_asked(); }))
+        out += "; dotted line: the order asked";
+    if (any([](const OrderDrawing& d) { return d.order.left_out() > 0; })) out += "; –: left out";
+    if (any_turn(&Turn::out_of_turn)) out += "; ▲: out of turn, the fewest joints that would have to move";
+    if (any_turn(&Turn::again)) out += "; 2×: taken twice";
+    out += ".</p>\n<div class=\"grid small\">\n";
+    for (const OrderDrawing& drawing : drawings) {
+        const bool all = drawing.passes > 1 && drawing.passes == orders.size();
+        const std::string label =
+            all ? fmt::format("all {} passes", counted(drawing.passes)) : escape(drawing.order.label);
+        out += figure(fmt::format("<h3>{}</h3>{}", label, order_verdict(drawing.order)),
+                      order_plan(s, drawing.order), "");
     }
     out += "</div>\n";
+    std::string not_begun;
+    for (const PassOrder& order : orders)
+        if (order.followed.empty()) not_begun += (not_begun.empty() ? "" : ", ") + order.label;
+    if (!not_begun.empty()) put(out, "<p class=\"note\">Not begun: {}.</p>\n", escape(not_begun));
 }
 
 void put_clamp(std::string& out, const SessionData& s) {
@@ -166,50 +200,82 @@ void put_clamp(std::string& out, const SessionData& s) {
     out += "<div class=\"grid\">\n";
     out += figure("<h3>On the flange</h3>", clamp_plan(s),
                   "Clamp force, kN; green line: target; colour: verdict of the joint.");
-    out += figure(
-        "<h3>Joint by joint</h3>", clamp_rows(s),
-        "Open dot: when the wrench left. Filled: in the end, after embedding and the neighbours. Green line: "
-        "target. Dashed and shaded: mean ± standard deviation.");
+    std::string rows = "Dot: in the end, after embedding and the neighbours";
+    if (released_apart(s)) rows += "; open dot: when the wrench left";
+    rows += ". Green line: target.";
+    if (std::isfinite(m.clamp_deviation)) rows += " Dashed and shaded: mean ± standard deviation.";
+    out += figure("<h3>Joint by joint</h3>", clamp_rows(s), rows);
     out += "</div>\n";
 }
 
-std::string legend() {
-    const auto item = [](std::string_view drawing, std::string_view words) {
-        return fmt::format("<li><svg viewBox=\"0 0 22 14\">{}</svg>{}</li>", drawing, words);
-    };
+bool is_worked(const JointCurve& curve) {
+    return std::any_of(curve.visits.begin(), curve.visits.end(), [](const Visit& v) { return v.worked; });
+}
+
+// Styles of all that the plots of a session show.
+std::set<std::string_view> drawn_styles(const SessionData& s) {
+    std::set<std::string_view> styles;
+    for (std::size_t j = 0; j < s.curves.size(); ++j) {
+        if (!is_worked(s.curves[j])) continue;
+        const Plot plot = joint_plot(s, j);
+        const Range x = plot.x.ticks.range;
+        const auto meets = [&](const Range& r) {
+            return std::max(r.low, r.high) > x.low && std::min(r.low, r.high) < x.high;
+        };
+        for (const Band& band : plot.bands)
+            if (band.of_y || meets(band.range)) styles.insert(band.style);
+        for (const Line& line : plot.lines)
+            if (std::any_of(line.points.begin(), line.points.end(), [&](const Point& p) {
+                    return std::isfinite(p.y) && p.x >= x.low && p.x <= x.high;
+                }))
+                styles.insert(line.style);
+        for (const Mark& mark : plot.marks) styles.insert(mark.style);
+    }
+    return styles;
+}
+
+std::string legend(const SessionData& s) {
+    const std::set<std::string_view> drawn = drawn_styles(s);
+    const bool loosening = s.direction() == joint::Direction::loosen;
     std::string out = "<ul class=\"legend\">";
+    const auto item = [&](std::string_view style, std::string_view drawing, std::string_view words) {
+        if (drawn.contains(style)) put(out, "<li><svg viewBox=\"0 0 22 14\">{}</svg>{}</li>", drawing, words);
+    };
     const auto box = [&](std::string_view style, std::string_view words) {
-        out += item(
-            fmt::format(
-                "<rect x=\".5\" y=\".5\" width=\"21\" height=\"13\" class=\"{}\" stroke=\"var(--rule)\"/>",
-                style),
-            words);
+        item(style,
+             fmt::format(
+                 "<rect x=\".5\" y=\".5\" width=\"21\" height=\"13\" class=\"{}\" stroke=\"var(--rule)\"/>",
+                 style),
+             words);
     };
     const auto line = [&](std::string_view style, std::string_view words) {
-        out += item(fmt::format("<path d=\"M1 7L21 7\" class=\"ln {}\"/>", style), words);
+        item(style, fmt::format("<path d=\"M1 7L21 7\" class=\"{}\"/>", style), words);
     };
-    line("p2", "torque, last pass");
-    line("p0", "earlier passes");
-    line("rest", "nut at rest");
-    line("cl", "clamp force");
+    line("ln p2", loosening ? "torque" : "torque, last pass");
+    line(drawn.contains("ln p0") ? "ln p0" : "ln p1", "earlier passes");
+    line("ln rest", "nut at rest");
+    line("ln cl", "clamp force");
     box("s0", "navigation");
     box("s1", "transition");
     box("s2", "linearity");
     box("s3", "yield");
     box("win", "torque window");
     box("wins", "angle window, along the axis");
-    out += item("<circle cx=\"11\" cy=\"7\" r=\"3.5\" class=\"mpeak\"/>", "highest torque, judged");
-    out += item("<rect x=\"7.5\" y=\"3.5\" width=\"7\" height=\"7\" class=\"mclamp\"/>", "wrench released");
+    item("mpeak", "<circle cx=\"11\" cy=\"7\" r=\"3.5\" class=\"mpeak\"/>",
+         loosening ? "highest torque" : "torque that is judged");
+    item("mbreak", "<circle cx=\"11\" cy=\"7\" r=\"3.5\" class=\"mbreak\"/>",
+         "breakaway in the re-check, not judged");
+    item("mclamp", "<rect x=\"7.5\" y=\"3.5\" width=\"7\" height=\"7\" class=\"mclamp\"/>",
+         "wrench released");
     return out + "</ul>\n";
 }
 
 void put_joint_figures(std::string& out, const SessionData& s) {
-    out += "<h2>Torque over angle</h2>\n" + legend() + "<div class=\"grid\">\n";
+    out += "<h2>Torque over angle</h2>\n" + legend(s) + "<div class=\"grid\">\n";
     std::string untouched;
     for (std::size_t j = 0; j < s.joints.size(); ++j) {
         const lesson::JointResult& r = s.joints[j];
-        const std::vector<Visit>& visits = s.curves[j].visits;
-        if (std::none_of(visits.begin(), visits.end(), [](const Visit& v) { return v.worked; })) {
+        if (!is_worked(s.curves[j])) {
             untouched += (untouched.empty() ? "" : ", ") + r.id;
             continue;
         }
@@ -219,7 +285,7 @@ void put_joint_figures(std::string& out, const SessionData& s) {
                                    number(1e-3 * r.clamp_at_release, 1), number(1e-3 * r.clamp, 1));
         const std::string heading =
             fmt::format("<h3 id=\"{}\">{} <span class=\"note\">{}</span></h3>{}", escape(s.file + "-" + r.id),
-                        escape(r.id), escape(size_of(s.assembly.joints[j])), verdict_mark(r));
+                        escape(r.id), escape(bolt_text(s.assembly.joints[j])), verdict_mark(r));
         out += figure(heading, joint_figure(s, j), escape(caption));
     }
     out += "</div>\n";
@@ -243,6 +309,14 @@ std::string title_of(const content::Assembly& assembly) {
     const auto english = assembly.title.find("en");
     if (english != assembly.title.end()) return english->second;
     return assembly.title.empty() ? assembly.name : assembly.title.begin()->second;
+}
+
+std::string bolt_text(const content::AssemblyJoint& joint) {
+    const joint::JointDesign& d = joint.design;
+    const double coarse = d.thread.size.coarse_pitch, pitch = d.thread.thread.pitch;
+    const bool fine = coarse > 0.0 && std::abs(pitch - coarse) > 1e-6;
+    return fmt::format("{}{}×{} · {}", d.thread.size.name, fine ? fmt::format("×{:.4g}", 1e3 * pitch) : "",
+                       number(1e3 * d.bolt_length, 0), d.bolt_class.name);
 }
 
 std::string session_section(const SessionData& session, std::size_t number) {

@@ -6,10 +6,10 @@ std::string_view style_sheet() {
     return R"css(
 :root{color-scheme:light dark;--paper:#ffffff;--panel:#f7f8f9;--ink:#1b1f24;--mute:#626b76;--faint:#9aa3ad;--rule:#e2e5e9;
 --accent:#0a6c8f;--p1:#5a9fb8;--p0:#a3c6d3;--ok:#2b7a3d;--low:#a86300;--high:#b3261e;--win:#2b7a3d;
---s1:#eef0f3;--s2:#e4e8ec;--s3:#f3e8d8}
+--s1:#eef0f3;--s2:#e4e8ec;--s3:#f3e8d8;--rest:#8fbccd;--edge:rgba(27,31,36,.3)}
 @media screen and (prefers-color-scheme:dark){:root{--paper:#14171b;--panel:#1b1f24;--ink:#e6e9ec;--mute:#9ba5b0;
 --faint:#6c7681;--rule:#2b3138;--accent:#5dbbdd;--p1:#4a97b3;--p0:#3b7389;--ok:#6cc483;--low:#e0a54a;--high:#f2857c;
---win:#6cc483;--s1:#1d2228;--s2:#232931;--s3:#332b1f}}
+--win:#6cc483;--s1:#1d2228;--s2:#232931;--s3:#332b1f;--rest:#7fa9ba;--edge:rgba(230,233,236,.34)}}
 *{box-sizing:border-box}
 body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Noto Sans",
 "DejaVu Sans",sans-serif;font-variant-numeric:tabular-nums lining-nums;-webkit-text-size-adjust:100%}
@@ -29,10 +29,13 @@ section.alone{border:0;margin:0;padding:0}
 .big small{font-size:15px;font-weight:400;color:var(--mute);letter-spacing:0}
 dl.facts{display:grid;grid-template-columns:repeat(auto-fill,minmax(108px,1fr));gap:14px 20px;margin:26px 0 0;
 padding:16px 0;border-top:1px solid var(--rule);border-bottom:1px solid var(--rule)}
-dl.facts div{min-width:0}dt{color:var(--mute);font-size:12.5px}dd{margin:0;overflow-wrap:anywhere}
+dl.facts div{min-width:0}dl.facts .path{grid-column:1/-1}dl.facts .path dd{overflow-wrap:normal;word-break:keep-all;overflow-x:auto}dt{color:var(--mute);font-size:12.5px}dd{margin:0;overflow-wrap:anywhere}
 .banner{margin:22px 0 0;padding:12px 16px;border:1px solid var(--low);border-left-width:5px;border-radius:4px;
 background:var(--panel)}
-.scroll{overflow-x:auto;-webkit-overflow-scrolling:touch}
+.scroll{overflow-x:auto;-webkit-overflow-scrolling:touch;background:linear-gradient(to right,var(--paper) 50%,transparent) 0 0/64px 100% no-repeat local,
+linear-gradient(to left,var(--paper) 50%,transparent) 100% 0/64px 100% no-repeat local,
+linear-gradient(to right,var(--edge),transparent) 0 0/22px 100% no-repeat scroll,
+linear-gradient(to left,var(--edge),transparent) 100% 0/22px 100% no-repeat scroll}
 table{border-collapse:collapse;width:100%;font-size:13.5px;margin:10px 0 4px}
 th{font-weight:500;color:var(--mute);text-align:left;font-size:12.5px;vertical-align:bottom;
 border-bottom:1px solid var(--faint);padding:4px 12px 6px 0}
@@ -67,9 +70,9 @@ svg .sm,svg .wn{paint-order:stroke;stroke:var(--paper);stroke-width:2.5px;stroke
 .p0{stroke:var(--p0)}.p1{stroke:var(--p1)}.p2{stroke:var(--accent)}
 .cl{stroke:var(--mute);stroke-width:1.1;stroke-dasharray:4 3}
 .me{stroke:var(--ink);stroke-width:1;stroke-opacity:.32}.me1{stroke:var(--ink);stroke-width:1.3}
-.rest{stroke:var(--accent);stroke-width:.8;stroke-opacity:.35}
+.rest{stroke:var(--rest);stroke-width:.9}.ld{stroke:var(--faint);stroke-width:.75}
 .in{stroke:var(--accent);stroke-width:1}.inset{fill:var(--paper);stroke:var(--rule)}
-.mpeak{fill:var(--accent);stroke:var(--paper);stroke-width:1.2}.mclamp{fill:var(--paper);stroke:var(--mute);stroke-width:1.2}
+.mpeak{fill:var(--accent);stroke:var(--paper);stroke-width:1.2}.mbreak{fill:none;stroke:var(--mute);stroke-width:1.2}.mclamp{fill:var(--paper);stroke:var(--mute);stroke-width:1.2}
 .dd{fill:var(--paper);stroke:var(--accent);stroke-width:1.6}.dw{fill:var(--paper);stroke:var(--low);stroke-width:2.4}
 .dn{fill:var(--paper);stroke:var(--faint);stroke-dasharray:3 3}
 .oa{stroke:var(--faint);stroke-width:1.1;stroke-dasharray:2 4}.of{stroke:var(--accent);stroke-width:1.3;stroke-opacity:.75}
@@ -82,7 +85,7 @@ svg text{font-size:13px}svg .sm,svg .st,svg .wn{font-size:12px}}
 @media print{@page{margin:14mm}body{font-size:10.5pt}main{max-width:none;padding:0}
 .grid{grid-template-columns:1fr 1fr}.small{grid-template-columns:1fr 1fr 1fr}figure,tr,.head,dl{break-inside:avoid}
 h2{break-after:avoid}section.session{break-before:page;border:0}section.alone{break-before:auto}
-.scroll{overflow:visible}*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
+.scroll{overflow:visible;background:none}*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 }
 

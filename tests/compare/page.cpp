@@ -48,6 +48,7 @@ TEST_CASE("page, drawing and console name the source and give the errors") {
         CHECK(has(text, report::number(stage.mape, 5)));
     }
     CHECK_FALSE(has(page, "<script"));
+    CHECK(has(page, "<dd>out/<wbr/>Rig &amp; Co</dd>"));
 }
 
 TEST_CASE("hostile names do no harm") {

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "game/report/plan.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
@@ -88,4 +90,20 @@ TEST_CASE("the plan keeps distances and drawings are well-formed") {
         CHECK(markup_fault(order_plan(session.data, order)) == "");
     CHECK(markup_fault(clamp_plan(session.data)) == "");
     CHECK(markup_fault(clamp_rows(session.data)) == "");
+}
+
+TEST_CASE("passes that went as asked are drawn once, each other one by itself") {
+    SyntheticOptions options;
+    const SessionData good = synthetic_session(options).data;
+    const std::vector<OrderDrawing> two =
+        order_drawings(pass_orders(good));  // run-down and the cross pattern
+    REQUIRE(two.size() == 2);
+    CHECK(two[0].order.label == "run-down");
+    CHECK(two[1].order.label == "30 %, 70 %, 100 %");
+    CHECK(two[1].passes == 3);
+    options.slips = true;
+    const std::vector<OrderDrawing> slipped = order_drawings(pass_orders(synthetic_session(options).data));
+    const auto wrong = [](const OrderDrawing& d) { return !d.order.as_asked(); };
+    REQUIRE(std::any_of(slipped.begin(), slipped.end(), wrong));
+    for (const OrderDrawing& d : slipped) CHECK((!wrong(d) || d.passes == 1));
 }

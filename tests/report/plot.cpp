@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "game/report/place.hpp"
 #include "game/report/style.hpp"
 #include "tests/report/well_formed.hpp"
 
@@ -76,4 +77,40 @@ TEST_CASE("what is no number is not drawn") {
     CHECK(svg.find("nan") == std::string::npos);
     CHECK(svg.find("inf") == std::string::npos);
     CHECK(svg.find("never") == std::string::npos);
+}
+
+TEST_CASE("every band is named, narrow ones in a second row and none over another") {
+    for (const double narrow : {0.5, 3.0, 10.0}) {
+        Plot plot = example();
+        plot.bands.clear();
+        double at = 0.0;
+        for (const char* name : {"navigation", "transition", "linearity", "yield"}) {
+            const double end = std::string(name) == "yield" ? 100.0 : at + narrow;
+            plot.bands.push_back({{at, end}, "s1", name});
+            at = end;
+        }
+        const std::string svg = draw(plot);
+        std::vector<Box> boxes;
+        for (const char* name : {"navigation", "transition", "linearity", "yield"}) {
+            const std::size_t end = svg.find(">" + std::string(name) + "</text>");
+            REQUIRE_MESSAGE(end != std::string::npos, name);
+            CHECK(svg.find(">" + std::string(name) + "</text>", end + 1) == std::string::npos);
+            const std::size_t tag = svg.rfind("<text x=\"", end) + 9;
+            const std::size_t y = svg.find("y=\"", tag) + 3;
+            const Box box = words_box({{std::stod(svg.substr(tag)), std::stod(svg.substr(y))}}, name, 12.0);
+            for (const Box& other : boxes)
+                CHECK((box.x >= other.x + other.width || other.x >= box.x + box.width ||
+                       box.y >= other.y + other.height || other.y >= box.y + box.height));
+            boxes.push_back(box);
+        }
+    }
+}
+
+TEST_CASE("words keep clear of what is taken, and of the edge") {
+    Placer placer({0.0, 0.0, 200.0, 100.0});
+    placer.take({100.0, 40.0, 40.0, 20.0});
+    const Spot spots[] = {{{110.0, 55.0}}, {{190.0, 20.0}}, {{20.0, 80.0}}};
+    CHECK(placer.choose(spots, "words", 12.0).at.x == 20.0);
+    CHECK(placer.choose(spots, "words", 12.0).at.x == 190.0);  // all are in the way by now: this one least
+    CHECK(text_width("Maß", 10.0) == text_width("Mass", 10.0) * 0.75);
 }

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "engine/base/math.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/html.hpp"
@@ -195,4 +198,171 @@ TEST_CASE("the clamp target follows from the torque where it is not stated") {
     assembly.law = joint::Law::published;
     assembly.joints[0].spec.torque.target = 59.976;
     CHECK(target_clamp(assembly, 0) == doctest::Approx(59.976 / 12.464e-3).epsilon(0.001));
+}
+
+namespace {
+
+// A joint that was tightened in full, and then checked again: with the torques given, turning it by degrees.
+SessionData checked_again(double full, double check, double degrees) {
+    SessionData session;
+    session.assembly = synthetic_assembly();
+    session.assembly.joints.resize(1);
+    session.assembly.passes = {{content::StepKind::tighten, 0.5, {0}},
+                               {content::StepKind::tighten, 1.0, {0}},
+                               {content::StepKind::recheck, 1.0, {0}}};
+    session.pass_texts = {"50 %", "100 %", "re-check"};
+    session.joints = results_by_joint(session.assembly, {});
+    session.header.task = "tighten";
+    CurveRequest request{{20.0}, 0.001, joint::Direction::tighten, {0, 1000, 2000}};
+    std::vector<record::TickRecord> ticks;
+    const auto pass = [&](double from, double to, double low, double high) {
+        for (int i = 0; i < 1000; ++i) {
+            record::TickRecord t;
+            t.joint = i < 900 ? 0 : -1;
+            t.nut_angle = static_cast<float>(to_radians(from + (to - from) * i / 900.0));
+            t.wrench_torque = static_cast<float>(low + (high - low) * i / 899.0);
+            t.stage = static_cast<std::uint8_t>(joint::Stage::linearity);
+            ticks.push_back(t);
+        }
+    };
+    pass(0.0, 30.0, 1.0, 0.5 * full);
+    pass(30.0, 60.0, 0.5 * full, full);
+    pass(60.0, 60.0 + degrees, 0.5 * check, check);
+    CurveBuilder builder(request);
+    builder.add(0, ticks);
+    session.curves = builder.finish();
+    session.joints[0].torque = degrees > 2.0 ? std::max(full, check) : full;
+    session.joints[0].overall = lesson::Verdict::ok;
+    return session;
+}
+
+const Mark* mark_of(const Plot& plot, std::string_view style) {
+    for (const Mark& mark : plot.marks)
+        if (mark.style == style) return &mark;
+    return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("the judged dot shows the torque of the result, a breakaway is told apart from it") {
+    const SessionData moved = checked_again(200.0, 221.0, 1.0);
+    const Plot plot = joint_plot(moved, 0);
+    const Mark* judged = mark_of(plot, "mpeak");
+    REQUIRE(judged != nullptr);
+    CHECK(judged->at.y == doctest::Approx(200.0));
+    CHECK(judged->label == "200.0");
+    const Mark* breakaway = mark_of(plot, "mbreak");
+    REQUIRE(breakaway != nullptr);
+    CHECK(breakaway->label == "breakaway 221.0");
+    CHECK(breakaway->quiet);
+    CHECK(has(report_of(moved), "breakaway in the re-check, not judged"));
+
+    const SessionData turned = checked_again(200.0, 210.0, 5.0);
+    const Plot again = joint_plot(turned, 0);
+    REQUIRE(mark_of(again, "mpeak") != nullptr);
+    CHECK(mark_of(again, "mpeak")->at.y == doctest::Approx(210.0));
+    CHECK(mark_of(again, "mbreak") == nullptr);
+    CHECK_FALSE(has(report_of(turned), "breakaway in the re-check"));
+}
+
+TEST_CASE("a result between two samples is shown where the curve passes it") {
+    SessionData session = checked_again(200.0, 221.0, 1.0);
+    session.joints[0].torque = 150.04;
+    for (Visit& visit : session.curves[0].visits)
+        std::erase_if(visit.points, [](const CurvePoint& p) { return p.torque > 149.0 && p.torque < 151.0; });
+    const Mark* judged = nullptr;
+    const Plot plot = joint_plot(session, 0);
+    judged = mark_of(plot, "mpeak");
+    REQUIRE(judged != nullptr);
+    CHECK(judged->at.y == doctest::Approx(150.04));
+}
+
+TEST_CASE("a pitch that is not the coarse one is part of the bolt's name") {
+    content::AssemblyJoint joint = synthetic_assembly().joints[0];
+    joint.design.bolt_length = 70e-3;
+    for (const auto& [size, text] :
+         {std::pair{"M12", "M12×70 · 8.8"}, std::pair{"M12x1.25", "M12×1.25×70 · 8.8"},
+          std::pair{"M8x1", "M8×1×70 · 8.8"}}) {
+        const auto thread = joint::parse_thread(size);
+        REQUIRE(thread);
+        joint.design.thread = *thread;
+        CHECK(bolt_text(joint) == text);
+    }
+}
+
+TEST_CASE("paths break only after a slash") {
+    CHECK(path_fact("session", "out/a b/session.boltwright") ==
+          "<div class=\"path\"><dt>session</dt><dd>out/<wbr/>a b/<wbr/>session.boltwright</dd></div>\n");
+    CHECK(path_fact("session", "").empty());
+    CHECK(has(path_fact("session", "<a>/&"), "&lt;a&gt;/<wbr/>&amp;"));
+    const SessionData session = synthetic_session({}).data;
+    CHECK_FALSE(has(report_of(session), "<dt>session</dt>"));
+    CHECK(has(make_report(std::vector<SessionData>{session, session}), "out/<wbr/>session.bolt"));
+}
+
+TEST_CASE("attempts are compared only with attempts at the same thing") {
+    std::vector<SessionData> sessions(4, synthetic_session({}).data);
+    sessions[1].header.task = "loosen";
+    sessions[3].header.law = "published";
+    std::vector<Attempt> attempts;
+    for (const SessionData& session : sessions) attempts.push_back(attempt_of(session));
+    CHECK(attempt_groups(attempts) == std::vector<std::vector<std::size_t>>{{0, 2}, {1}, {3}});
+    const std::string html = attempts_section(attempts);
+    CHECK(markup_fault(html) == "");
+    CHECK(count_of(html, "Learning curve: ") == 1);
+    CHECK(has(html, "Attempts 1, 3, in the order given"));
+    CHECK(has(html, "<th>task</th>"));
+    CHECK_FALSE(has(html, "– %"));
+    attempts.resize(2);
+    CHECK_FALSE(has(attempts_section(attempts), "<h2>"));
+}
+
+TEST_CASE("what is explained is drawn") {
+    SessionData session = synthetic_session({}).data;
+    const std::string html = report_of(session);
+    CHECK(has(html, "open dot"));
+    CHECK(has(html, "nut at rest</li>"));
+    CHECK(has(html, "Judged: torque; clamp force is shown, a wrench cannot measure it."));
+    CHECK_FALSE(has(html, "angle window, along the axis"));
+    CHECK_FALSE(has(html, "dotted line"));
+    CHECK(has(html, ", wrench torque "));
+    for (lesson::JointResult& r : session.joints) r.clamp = r.clamp_at_release;
+    CHECK_FALSE(has(report_of(session), "open dot"));
+}
+
+TEST_CASE("loosened joints share their axes and are shown to the end") {
+    SessionData session;
+    session.assembly = synthetic_assembly();
+    session.assembly.joints.resize(2);
+    session.joints = results_by_joint(session.assembly, {});
+    session.header.task = "loosen";
+    CurveRequest request{{20.0, 20.0}, 0.001, joint::Direction::loosen, {}};
+    std::vector<record::TickRecord> ticks;
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i <= 900; ++i) {
+            record::TickRecord t;
+            const double back = 0.1 * i, left = std::max(0.0, 1.0 - back / 30.0);
+            t.joint = static_cast<std::int16_t>(j);
+            t.nut_angle = static_cast<float>(to_radians(500.0 - back));
+            t.wrench_torque = static_cast<float>(-(j == 0 ? 60.0 : 90.0) * left);
+            t.clamp = static_cast<float>((j == 0 ? 20e3 : 34e3) * left);
+            t.stage =
+                static_cast<std::uint8_t>(left > 0.0 ? joint::Stage::linearity : joint::Stage::navigation);
+            ticks.push_back(t);
+        }
+    CurveBuilder builder(request);
+    builder.add(0, ticks);
+    session.curves = builder.finish();
+    session.joints[0].torque = 60.0;
+    session.joints[1].torque = 90.0;
+    const Plot one = joint_plot(session, 0), two = joint_plot(session, 1);
+    CHECK(one.y.ticks.range.low == two.y.ticks.range.low);
+    CHECK(one.y2->ticks.range.high == two.y2->ticks.range.high);
+    CHECK(one.x.ticks.range.high > 90.0);
+    REQUIRE(mark_of(one, "mpeak") != nullptr);
+    CHECK(mark_of(one, "mpeak")->label == "−60.0");
+    const std::string html = report_of(session);
+    CHECK(markup_fault(html) == "");
+    for (const char* absent : {"torque window", "earlier passes", "judged", "yield</li>"})
+        CHECK_FALSE_MESSAGE(has(html, absent), absent);
 }
