@@ -19,6 +19,8 @@ Verdict worst(Verdict a, Verdict b) {
     return b;
 }
 
+std::string times(int n) { return n == 1 ? "once" : fmt::format("{} times", n); }
+
 void take_points(LessonResult& result, double points, std::string text) {
     result.score -= points;
     result.reasons.push_back({-points, std::move(text)});
@@ -70,9 +72,8 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
         result.joints.push_back(std::move(joint));
     }
     if (order_errors > 0)
-        take_points(result, 2.0 * order_errors, fmt::format("{} times a joint out of turn", order_errors));
-    if (rehits > 0)
-        take_points(result, rehits, fmt::format("{} times a joint that was done already", rehits));
+        take_points(result, 2.0 * order_errors, times(order_errors) + " a joint out of turn");
+    if (rehits > 0) take_points(result, rehits, times(rehits) + " a joint that was done already");
     if (!result.finished)
         take_points(
             result, 0.0,

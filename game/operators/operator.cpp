@@ -188,7 +188,8 @@ void Operator::Mind::choose_joint_and_goal(const lesson::Step& due) {
     intent.stops_at_yield = !intent.wrong && in_full && spec.strategy == content::Strategy::yield &&
                             random.chance(profile.feels_yield);
     intent.least = spec.torque.low;
-    if (intent.stops_at_yield) intent.goal = spec.torque.high * (std::min(0.98, stop - 0.04 * tries) + 0.04 * tries);
+    if (intent.stops_at_yield)
+        intent.goal = spec.torque.high * (std::min(0.98, stop - 0.04 * tries) + 0.04 * tries);
 }
 
 // Of the angles at which the jaw fits (every 60°, and 30° between with the wrench flipped), the one nearest

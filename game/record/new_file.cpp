@@ -64,8 +64,8 @@ bool holds_nothing(const std::filesystem::path& path) {
     return session && !session->complete() && session->tick_count() == 0;
 }
 
-// Gives the old file, and what is left of its logs, the name under which it is kept. Dying anywhere in here
-// loses nothing: the next one who creates goes on where this one was.
+// Gives the old file, and what is left of its logs, the name under which it is kept. Where a file can have
+// two names, dying anywhere in here loses nothing: the next one who creates goes on where this one was.
 Status keep_old(const std::filesystem::path& path, const std::string& file) {
     const std::filesystem::path kept = previous_of(path);
     const auto claimed = FileLock::take(kept, kept.string());
@@ -73,15 +73,13 @@ Status keep_old(const std::filesystem::path& path, const std::string& file) {
     std::error_code status;
     if (!std::filesystem::equivalent(path, kept, status)) {
         remove_with_logs(kept);
-        // A second name, so that there is a session under the first one all the time; not every file system
-        // can do that.
+        // A second name, so that there is a session under the first one all the time. Not every file system
+        // can do that, nor every user to others' files.
         std::filesystem::create_hard_link(path, kept, status);
         if (status) std::filesystem::rename(path, kept, status);
         if (status)
-            return file_error(file,
-                              fmt::format("cannot be replaced: the session that is there cannot be kept as "
-                                          "{}: {}",
-                                          kept.string(), status.message()));
+            return file_error(file, fmt::format("cannot be replaced: what is there cannot be kept as {}: {}",
+                                                kept.string(), status.message()));
     }
     for (const char* suffix : {"-wal", "-journal"}) {
         const std::filesystem::path log = path.string() + suffix;

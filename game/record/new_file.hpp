@@ -15,9 +15,9 @@ namespace bolt::record {
 Result<FileLock> claim_place(const std::filesystem::path& path, const std::string& file);
 
 // Makes a session without ticks at `path`, closed, in write-ahead mode; `seals` gets its seals. The place has
-// to be claimed. It is made under another name first: if that fails, an old file at `path` is still there. At
-// every moment there is a whole session at `path`, the old or the new one, if there was one; the old one is
-// kept as session.hpp says.
+// to be claimed. It is made under another name first: if that fails, an old file at `path` is still there.
+// The old one is kept as session.hpp says; where a file can have two names there is a whole session at
+// `path`, the old or the new one, at every moment.
 Status make_new_file(const std::filesystem::path& path, const std::string& file, const Header& header,
                      Seals& seals);
 

@@ -24,6 +24,7 @@ Vec3 towards(const Vec3& now, const Vec3& wanted, double most) { return now + at
 
 OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& wanted,
                            bool enabled, double dt) {
+    if (!finite(state.force) || !finite(state.torque)) state = {Vec3(0.0), Vec3(0.0), 0.0, state.faults + 1};
     const bool sound = finite(wanted.force) && finite(wanted.torque);
     if (!sound) ++state.faults;
     if (!enabled || !sound) {

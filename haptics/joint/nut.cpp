@@ -74,6 +74,10 @@ NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const H
         drive = {};
         speed = next_speed(r, mass, nut, drive, dt);
         step.torque = 0.0;
+        // Thrown across the play within the step, it stops at the other edge.
+        const double after = gap - dt * speed;
+        if (std::abs(after) > handle.half_play && after * gap < 0.0)
+            speed = (gap - std::copysign(handle.half_play, after)) / dt;
     }
     step.nut = {nut.angle + dt * speed, speed};
     step.share = share_of(r, step.torque, speed);

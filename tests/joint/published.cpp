@@ -15,7 +15,7 @@ constexpr auto on = Direction::tighten;
 constexpr auto off = Direction::loosen;
 
 // To four significant digits.
-doctest::Approx four(double value) { return doctest::Approx(value).epsilon(1e-4); }
+doctest::Approx four(double value) { return doctest::Approx(value).epsilon(1e-4).scale(0.0); }
 
 double per_area(double (*torque)(const PublishedParameters&, double, Direction)) {
     return torque(p, 1.0, on) - torque(p, 0.0, on);

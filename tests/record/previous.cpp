@@ -1,9 +1,11 @@
 // What was recorded before: kept beside the new session, whole, until the next one takes its place.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <set>
 
 #include "game/record/session.hpp"
+#include "tests/record/child.hpp"
 #include "tests/record/support.hpp"
 
 using namespace bolt;
@@ -97,20 +99,33 @@ TEST_CASE("a session without a single tick pushes nothing out") {
 TEST_CASE("what is damaged or no session is kept as it is") {
     const TempFolder folder;
     const auto path = folder / "a.session";
-    std::string log;
     SUBCASE("a text file") { put_bytes(path, "not a session\n"); }
     SUBCASE("a session cut off") { put_bytes(path, bytes_of(script_session(path, 25)).substr(0, 9000)); }
-    SUBCASE("a session of which only the log is sound") {
-        leave_cut_short(path, false);
-        put_bytes(path, "x" + bytes_of(path).substr(1));
-        log = bytes_of(path.string() + "-wal");
-    }
     const std::string before = bytes_of(path);
     script_session(path, 5);
     check_session(path, true, 5);
     CHECK(bytes_of(folder / "a.previous.session") == before);
-    CHECK(bytes_of(folder / "a.previous.session-wal") == log);
-    CHECK_FALSE(std::filesystem::exists(path.string() + "-wal"));
+    CHECK(names_in(folder) == Names{"a.session", "a.previous.session"});
+}
+
+TEST_CASE("a cut-short session that nobody may write to is kept with its log") {
+    const TempFolder folder;
+    const auto path = folder / "a.session";
+    leave_cut_short(path, false);
+    for (const char* suffix : {"", "-wal"})
+        std::filesystem::permissions(path.string() + suffix, std::filesystem::perms(0444));
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0777));
+    const ChildEnd end = run_child([&](const auto&) {
+        constexpr uid_t nobody = 65534;  // who cannot make a second name for root's files either
+        if (::getuid() == 0 && ::setuid(nobody) != 0) return 1;
+        if (::access(path.c_str(), W_OK) == 0) return 2;
+        script_session(path, 5);
+        return 0;
+    });
+    CHECK(end.code == 0);
+    CHECK(names_in(folder) == Names{"a.session", "a.previous.session", "a.previous.session-wal"});
+    check_session(path, true, 5);
+    check_session(folder / "a.previous.session", false, 20);
 }
 
 TEST_CASE("a session that was just about to be replaced when its program died is kept") {

@@ -1,14 +1,19 @@
 // Several programs that want to record into the same file.
 #include <doctest/doctest.h>
+#include <sched.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 
+#include "game/record/file_lock.hpp"
 #include "game/record/session.hpp"
 #include "tests/record/child.hpp"
 #include "tests/record/support.hpp"
@@ -19,7 +24,7 @@ using namespace bolt::record::test;
 
 namespace {
 
-constexpr std::size_t programs = 6;
+constexpr std::size_t programs = 4;
 constexpr std::size_t script_ticks = 35;
 constexpr unsigned longest_s = 20;  // no child outlives the test by more
 
@@ -119,7 +124,7 @@ void check_script(const std::filesystem::path& path, std::size_t ticks) {
 }  // namespace
 
 TEST_CASE("of programs that start together one records, and the others say why they do not") {
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < 18; ++round) {
         CAPTURE(round);
         const TempFolder folder;
         const auto path = folder / "out/a.session";
@@ -144,7 +149,7 @@ TEST_CASE("programs that start and end at any moment leave whole sessions") {
     const TempFolder folder;
     const auto path = folder / "a.session";
     std::ptrdiff_t all = 0;
-    for (int round = 0; round < 40; ++round) {
+    for (int round = 0; round < 12; ++round) {
         CAPTURE(round);
         const auto codes = start_together(path, false);
         const auto winners = std::ranges::count(codes, recorded);
@@ -155,6 +160,48 @@ TEST_CASE("programs that start and end at any moment leave whole sessions") {
         if (all > 1) check_script(folder / "a.previous.session", script_ticks);
     }
     CHECK_FALSE(std::filesystem::exists(path.string() + ".lock"));
+}
+
+TEST_CASE("a lock that comes and goes is never held twice") {
+    struct Shared {
+        std::atomic<int> holders = 0;
+        std::atomic<int> ready = 0;
+    };
+    static_assert(std::atomic<int>::is_always_lock_free);
+    const TempFolder folder;
+    const auto path = folder / "a.session";
+    void* const memory =
+        ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    auto* const shared = new (memory) Shared;
+    std::array<pid_t, programs> children{};
+    (void)std::fflush(nullptr);
+    for (pid_t& child : children) {
+        child = ::fork();
+        if (child < 0) std::abort();
+        if (child != 0) continue;
+        ::alarm(longest_s);
+        for (++shared->ready; shared->ready < static_cast<int>(programs);) ::sched_yield();
+        for (int holds = 0; holds < 500;) {
+            const auto lock = FileLock::take(path, path.string());
+            if (!lock) {
+                if (come_to(lock.error(), path) == failed) ::_exit(failed);
+                continue;
+            }
+            if (shared->holders.fetch_add(1) != 0) ::_exit(1);
+            ++holds;
+            ::sched_yield();
+            --shared->holders;
+        }
+        ::_exit(recorded);
+    }
+    for (const pid_t child : children) {
+        int status = 0;
+        REQUIRE(::waitpid(child, &status, 0) == child);
+        CHECK((WIFEXITED(status) && WEXITSTATUS(status) == recorded));
+    }
+    CHECK_FALSE(std::filesystem::exists(path.string() + ".lock"));
+    ::munmap(memory, sizeof(Shared));
 }
 
 TEST_CASE("what a killed program had locked is free") {

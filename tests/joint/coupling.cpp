@@ -1,0 +1,122 @@
+// The hand's spring on the nut, step by step, and the ends of its range.
+
+#include <doctest/doctest.h>
+
+#include "haptics/joint/nut.hpp"
+#include "tests/joint/support.hpp"
+
+using namespace bolt;
+using namespace bolt::joint;
+
+namespace {
+
+Handle spring(double angle, double half_play, double stiffness = 2000.0) {
+    Handle handle;
+    handle.engaged = true;
+    handle.angle = angle;
+    handle.half_play = half_play;
+    handle.stiffness = stiffness;
+    return handle;
+}
+
+Resistance constant(double tighten, double loosen, double lead = 0.0) {
+    Resistance r;
+    r.tighten = tighten;
+    r.loosen = loosen;
+    r.lead = lead;
+    return r;
+}
+
+double stored(const Handle& handle, double nut) {
+    const double gap = handle.angle - nut;
+    return 0.5 * handle.stiffness * square(std::max(0.0, std::abs(gap) - handle.half_play));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a torque below the lead's is held by friction that points on, above it by friction that points back") {
+    const Resistance r = constant(100.0, -70.0, 20.0);  // 80 of friction on, 90 off
+    const double inertia = coupling_inertia(2000.0, 1e-3);
+    const std::pair<double, double> torques[] = {{0.0, -20.0 / 90.0},   {10.0, -10.0 / 90.0},
+                                                 {20.0, 0.0},           {50.0, 30.0 / 80.0},
+                                                 {-30.0, -50.0 / 90.0}, {99.0, 79.0 / 80.0}};
+    for (const auto& [torque, share] : torques) {
+        CAPTURE(torque);
+        const NutStep step = step_nut(r, inertia, {}, spring(torque / 2000.0, 0.0), 1e-3);
+        CHECK(step.nut.speed == 0.0);
+        CHECK(step.torque == doctest::Approx(torque));
+        CHECK(step.share == doctest::Approx(share).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("at the end of the bolt the nut stops and the hand winds up its spring") {
+    const GroupParameters group = test::single(test::m16_flange_joint());
+    std::vector<JointState> joints = initial_state(group, 1);
+    for (int i = 1; i <= 100; ++i) {
+        const double hand = -1e-3 * i;
+        step_group(group, joints, 0, spring(hand, 0.01), 1e-3);
+        REQUIRE(joints[0].nut.angle == 0.0);
+        REQUIRE(joints[0].nut.speed == 0.0);
+        // Below a few tenths of a newton metre the thread's drag may hold it as well: the torque is the same.
+        REQUIRE(joints[0].torque == doctest::Approx(-2000.0 * std::max(0.0, -hand - 0.01)));
+    }
+}
+
+TEST_CASE("a nut that comes off the jaw into the play stops at once") {
+    for (const double dt : {2.5e-4, 1e-3, 4e-3}) {
+        const double drag = 0.05;
+        const NutStep step = step_nut(constant(drag, -drag), coupling_inertia(2000.0, dt), {0.0, 1.0},
+                                      spring(0.0, to_radians(2.5)), dt);
+        CHECK(step.nut.angle == 0.0);
+        CHECK(step.nut.speed == 0.0);
+        CHECK(step.torque == 0.0);
+    }
+}
+
+TEST_CASE("the coupling gives back no more than the hand put in, with a nearly free nut in a wide play") {
+    Random random(17);
+    for (const double dt : {2.5e-4, 1e-3, 4e-3}) {
+        for (int trial = 0; trial < 30; ++trial) {
+            CAPTURE(dt);
+            CAPTURE(trial);
+            const double drag = std::pow(10.0, random.uniform(-4.0, -1.0));
+            const Resistance r = constant(drag, -drag);
+            const double frequency = random.uniform(0.5, 8.0), reach = random.uniform(0.02, 0.6);
+            NutMotion nut;
+            Handle handle = spring(0.0, to_radians(2.5));
+            double given = 0.0;
+            const double start = stored(handle, nut.angle);
+            for (double t = dt; t < 3.0; t += dt) {
+                const double hand = handle.angle;
+                handle.angle = reach * std::sin(2.0 * pi * frequency * t);
+                const NutStep step = step_nut(r, coupling_inertia(2000.0, dt), nut, handle, dt);
+                given += step.torque * (handle.angle - hand) - step.torque * (step.nut.angle - nut.angle);
+                nut = step.nut;
+                REQUIRE(given >= stored(handle, nut.angle) - start - 1e-9);
+            }
+        }
+    }
+}
+
+TEST_CASE("a jaw that stands lets a fast nut run out of it and does not hold it back") {
+    for (const double sign : {1.0, -1.0}) {
+        const double dt = 1e-3, wound = 1e-4, play = to_radians(2.5);
+        const NutStep step = step_nut(constant(0.05, -0.05), coupling_inertia(2000.0, dt), {0.0, 20.0 * sign},
+                                      spring(sign * (play + wound), play), dt);
+        CHECK(step.torque == 0.0);
+        CHECK(step.nut.speed * sign > 19.0);
+    }
+}
+
+TEST_CASE("fingers that a running nut overtakes slow it with their limit, whichever way it runs") {
+    for (const double sign : {1.0, -1.0}) {
+        Handle fingers = spring(0.0, 0.0, 5.0);
+        fingers.torque_limit = 0.03;
+        // 1e-5 kg m2 at 20 rad/s over 1 ms is 0.2 N m, less 0.02 of drag and 0.03 of the fingers: 15 rad/s.
+        const NutStep step = step_nut(constant(0.02, -0.02), 1e-5, {0.0, 20.0 * sign}, fingers, 1e-3);
+        CHECK(step.slipped);
+        CHECK(step.torque == doctest::Approx(-0.03 * sign));
+        CHECK(step.nut.speed == doctest::Approx(15.0 * sign));
+    }
+}

@@ -1,0 +1,272 @@
+// What an engaged tool feels besides the joint's torque, when it is let go, and what letting go leaves
+// behind.
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+
+#include "tests/servo/support.hpp"
+
+using namespace bolt;
+using namespace bolt::servo;
+
+namespace {
+
+// Limits that do not blur a force within one tick: full strength at once and a steep slew.
+force::OutputLimits at_once() {
+    force::OutputLimits limits;
+    limits.ramp_up = 1e-3;
+    limits.force_rate = 1e6;
+    limits.torque_rate = 1e6;
+    return limits;
+}
+
+DeviceSample tilted(const DeviceSample& sample, const Vec3& about, double angle) {
+    const Quat q(static_cast<double>(sample.orientation[0]), static_cast<double>(sample.orientation[1]),
+                 static_cast<double>(sample.orientation[2]), static_cast<double>(sample.orientation[3]));
+    const Quat turned = glm::angleAxis(angle, about) * q;
+    DeviceSample out = sample;
+    out.orientation[0] = static_cast<float>(turned.w);
+    out.orientation[1] = static_cast<float>(turned.x);
+    out.orientation[2] = static_cast<float>(turned.y);
+    out.orientation[3] = static_cast<float>(turned.z);
+    return out;
+}
+
+struct Held {
+    Setup setup = test::two_joints(at_once());
+    State state = initial_state(setup);
+    const NutPlace& nut = setup.nuts[0];
+    Vec3 centre = nut_centre(nut, 0.0);
+
+    Output step(Grip grip, const DeviceSample& sample) {
+        return tick(setup, state, test::holding(grip, sample));
+    }
+    // Handle angle at which the jaw lies on the flats of the nut at angle 0.
+    [[nodiscard]] double fits(bool flipped = false) const {
+        return flipped ? -setup.wrench.head_angle : setup.wrench.head_angle;
+    }
+    [[nodiscard]] DeviceSample at(const Vec3& offset, bool flipped = false) const {
+        return test::tool_at(nut, centre + offset, fits(flipped), flipped);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("an engaged tool that is moved off the nut is drawn back to its centre, 1 N a millimetre") {
+    Held held;
+    REQUIRE(held.step(Grip::wrench, held.at(Vec3(0.0))).joint == 0);
+    const Vec3 places[] = {0.005 * held.nut.e1, -0.004 * held.nut.e2, 0.003 * held.nut.axis};
+    for (const Vec3& offset : places) {
+        const Output output = held.step(Grip::wrench, held.at(offset));
+        REQUIRE(output.joint == 0);
+        CHECK(output.wrench_torque == 0.0);
+        CHECK(glm::length(output.force + 1000.0 * offset) < 1e-3);
+    }
+}
+
+TEST_CASE("taken hold of off centre, the nut pulls with nothing at first and with all of it after 50 ms") {
+    Held held;
+    const Vec3 offset = 1e-3 * held.nut.e1;
+    for (int n = 0; n <= 1000; ++n) {
+        const Output output = held.step(Grip::wrench, held.at(offset));
+        REQUIRE(output.joint == 0);
+        const double came = 1.0 - std::pow(1.0 - 1e-3 / 0.05, n);
+        REQUIRE(glm::dot(output.force, held.nut.e1) == doctest::Approx(-came).epsilon(1e-3));
+    }
+    CHECK(glm::length(held.state.engagement.held_at) < 1e-9);
+}
+
+TEST_CASE("a tilted wrench is turned back square to the bolt, upright and flipped") {
+    for (const bool flipped : {false, true}) {
+        for (const double degrees : {-10.0, 10.0}) {
+            CAPTURE(flipped);
+            CAPTURE(degrees);
+            Held held;
+            const DeviceSample square_on = held.at(Vec3(0.0), flipped);
+            REQUIRE(held.step(Grip::wrench, square_on).joint == 0);
+            const Vec3 about = pose_of(square_on).handle;
+            const double tilt = to_radians(degrees);
+            const Output output = held.step(Grip::wrench, tilted(square_on, about, tilt));
+            REQUIRE(output.joint == 0);
+            REQUIRE(output.wrench_torque == 0.0);
+            CHECK(glm::length(output.torque + held.setup.hold_torsion * std::sin(tilt) * about) < 1e-4);
+        }
+    }
+}
+
+TEST_CASE("pulled 0.3 of its width sideways or 0.6 of its height off, the nut is let go") {
+    const struct {
+        bool sideways;
+        double share;
+        bool holds;
+    } cases[] = {{true, 0.29, true}, {true, 0.31, false}, {false, 0.59, true}, {false, 0.61, false}};
+    for (const auto& c : cases) {
+        for (const double sign : {-1.0, 1.0}) {
+            CAPTURE(c.share);
+            Held held;
+            REQUIRE(held.step(Grip::wrench, held.at(Vec3(0.0))).joint == 0);
+            const Vec3 offset = c.sideways ? c.share * held.nut.across_flats * held.nut.e2
+                                           : c.share * held.nut.height * held.nut.axis;
+            CHECK((held.step(Grip::wrench, held.at(sign * offset)).joint == 0) == c.holds);
+        }
+    }
+}
+
+TEST_CASE(
+    "a wrench tilted further than 30 degrees comes off; fingers let go where the handle nears the axis") {
+    for (const double degrees : {29.0, 31.0}) {
+        Held held;
+        const DeviceSample square_on = held.at(Vec3(0.0));
+        REQUIRE(held.step(Grip::wrench, square_on).joint == 0);
+        const Vec3 about = pose_of(square_on).handle;
+        const Output output = held.step(Grip::wrench, tilted(square_on, about, to_radians(degrees)));
+        CHECK((output.joint == 0) == (degrees < 30.0));
+        CHECK(held.state.joints[0].nut.angle == 0.0);
+    }
+    for (const double degrees : {52.0, 55.0}) {  // 0.8 is the cosine of 36.9 degrees to the axis
+        Held held;
+        const DeviceSample square_on = held.at(Vec3(0.0));
+        REQUIRE(held.step(Grip::fingers, square_on).joint == 0);
+        const ToolPose tool = pose_of(square_on);
+        const Vec3 about = glm::cross(tool.handle, tool.normal);
+        const Output output = held.step(Grip::fingers, tilted(square_on, about, to_radians(degrees)));
+        CHECK((output.joint == 0) == (degrees < 53.0));
+        CHECK(held.state.joints[0].nut.angle == 0.0);
+    }
+}
+
+TEST_CASE("an angle that leaps further than a hand turns in a tick lets go and does not turn the nut") {
+    for (const Grip grip : {Grip::fingers, Grip::wrench}) {
+        for (const double leap : {0.33, 0.37, -0.37, 3.0}) {
+            CAPTURE(leap);
+            Held held;
+            REQUIRE(held.step(grip, held.at(Vec3(0.0))).joint == 0);
+            const DeviceSample there = test::tool_at(held.nut, held.centre, held.fits() + leap);
+            const Output output = held.step(grip, there);
+            CHECK((output.joint == 0) == (leap == 0.33));
+            if (leap == 0.33) {
+                CHECK(held.state.joints[0].nut.angle > 0.1);
+            } else {
+                for (int i = 0; i < 20; ++i) held.step(grip, there);
+                CHECK(held.state.joints[0].nut.angle == 0.0);
+            }
+        }
+    }
+}
+
+TEST_CASE("an empty hand is led to the centre of the guided nut with k over the distance") {
+    Held held;
+    CHECK(held.setup.guiding.gain == doctest::Approx(9.0 / 500.0));  // 3 N at most on a spring of 500 N/m
+    for (std::int16_t guide = 0; guide < 2; ++guide) {
+        const NutPlace& nut = held.setup.nuts[static_cast<std::size_t>(guide)];
+        const Vec3 away = Vec3(0.06, 0.08, 0.0) + 0.02 * nut.e2;
+        Input input = test::holding(Grip::none, test::tool_at(nut, nut_centre(nut, 0.0) + away, 0.0));
+        input.guide = guide;
+        const Output output = tick(held.setup, held.state, input);
+        const double d = glm::length(away);
+        CHECK(output.joint == -1);
+        CHECK(glm::length(output.force + away / d * (held.setup.guiding.gain / d)) < 1e-5);
+        CHECK(glm::length(output.torque) == 0.0);
+    }
+}
+
+TEST_CASE("at the greatest torque wrench and wrists have given 2.5 degrees") {
+    const Setup setup = test::two_joints();
+    CHECK(to_degrees(210.0 / setup.wrench.stiffness) == doctest::Approx(2.5).epsilon(1e-12));
+}
+
+TEST_CASE("fingers that have slipped at the seat unload at once when the hand turns back") {
+    Held held;
+    const double limit = held.setup.finger_torque(held.nut);
+    CHECK(limit == doctest::Approx(0.5 * 65.0 * 0.024));
+    double hand = 0.0;
+    const auto turn_by = [&](double by) {
+        hand += by;
+        const Vec3 at = nut_centre(held.nut, held.state.joints[0].nut.angle);
+        return held.step(Grip::fingers, test::tool_at(held.nut, at, hand));
+    };
+    Output output;
+    for (int i = 0; i < 3000; ++i) output = turn_by(3e-3);  // 9 rad: the seat is at 2 pi
+    REQUIRE(output.wrench_torque == doctest::Approx(limit).epsilon(1e-3));
+    const double stands_at = held.state.joints[0].nut.angle;
+    for (int i = 1; i <= 20; ++i) {
+        output = turn_by(-3e-3);
+        REQUIRE(output.wrench_torque ==
+                doctest::Approx(limit - held.setup.finger_stiffness * 3e-3 * i).epsilon(0.01));
+    }
+    CHECK(held.state.joints[0].nut.angle == stands_at);
+}
+
+TEST_CASE("a pose that turns to NaN at 40 kN lets go: the nut stays and the torque only falls") {
+    Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    const NutPlace& nut = setup.nuts[0];
+    double angle = setup.wrench.head_angle;
+    Output output;
+    for (int i = 0; i < 60'000 && output.clamp < 40e3; ++i) {
+        angle += 1e-3;
+        const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
+        output = tick(setup, state, test::holding(Grip::wrench, test::tool_at(nut, at, angle)));
+    }
+    REQUIRE(output.clamp >= 40e3);
+    REQUIRE(glm::length(output.torque) > 0.5);
+    const double stands_at = state.joints[0].nut.angle;
+    Input lost = test::holding(Grip::wrench, test::tool_at(nut, Vec3(0.0), angle));
+    lost.device.position[1] = std::nanf("");
+    double last = output.torque.y;
+    for (int i = 0; i < 200; ++i) {
+        output = tick(setup, state, lost);
+        REQUIRE(output.joint == -1);
+        REQUIRE(output.wrench_torque == 0.0);
+        REQUIRE(output.torque.y >= 0.0);
+        REQUIRE(output.torque.y <= last);
+        REQUIRE(state.joints[0].nut.angle == stands_at);
+        REQUIRE(state.joints[0].nut.speed == 0.0);
+        last = output.torque.y;
+    }
+    CHECK(glm::length(output.torque) == 0.0);
+    CHECK(glm::length(output.force) == 0.0);
+}
+
+TEST_CASE("a sample that is no pose is not taken for a hand at the origin, with a nut just there") {
+    for (const bool engaged_before : {true, false}) {
+        Held held;  // the first seat is the origin, and a default pose would lie in the fingers' reach of it
+        const DeviceSample there = test::tool_at(held.nut, held.centre, 0.0);
+        if (engaged_before) REQUIRE(held.step(Grip::fingers, there).joint == 0);
+        DeviceSample lost = there;
+        lost.position[0] = std::nanf("");
+        CHECK(held.step(Grip::fingers, lost).joint == -1);
+        CHECK(held.step(Grip::fingers, lost).joint == -1);
+        DeviceSample lame = there;
+        for (float& q : lame.orientation) q = 0.0F;
+        CHECK(held.step(Grip::fingers, lame).joint == -1);
+        CHECK(held.step(Grip::fingers, there).joint == 0);
+    }
+}
+
+TEST_CASE("a running nut stands when it is let go, and a wrench put on it meets it at rest") {
+    Held held;
+    const auto run = [&] {
+        for (int i = 0; i < 500; ++i) {
+            const Vec3 at = nut_centre(held.nut, held.state.joints[0].nut.angle);
+            held.step(Grip::fingers, test::tool_at(held.nut, at, 2e-3 * i));
+        }
+        REQUIRE(held.state.joints[0].nut.speed > 1.0);
+        return held.state.joints[0].nut.angle;
+    };
+    const double stands_at = run();
+    const Vec3 at = nut_centre(held.nut, stands_at);
+    const DeviceSample on_flats = test::tool_at(held.nut, at, stands_at + held.fits());
+    held.step(Grip::wrench, on_flats);
+    CHECK(held.state.joints[0].nut.speed == 0.0);
+    bool held_by_wrench = false;
+    for (int i = 0; i < 100; ++i) {
+        const Output output = held.step(Grip::wrench, on_flats);
+        held_by_wrench = held_by_wrench || output.joint == 0;
+        REQUIRE(output.wrench_torque == 0.0);
+        REQUIRE(held.state.joints[0].nut.angle == stands_at);
+        REQUIRE(glm::length(output.torque) < 1e-3);
+    }
+    CHECK(held_by_wrench);
+}

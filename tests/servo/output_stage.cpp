@@ -1,0 +1,105 @@
+// The output stage in torque, and what it remembers over letting go and over faults.
+
+#include "haptics/force/output_stage.hpp"
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+#include <limits>
+
+using namespace bolt;
+using namespace bolt::force;
+
+namespace {
+
+constexpr double dt = 1e-3;
+const OutputCommand full{Vec3(100, 0, 0), Vec3(0, 100, 0)};
+
+OutputState at_full(const OutputLimits& limits) {
+    OutputState state;
+    for (int i = 0; i < 2000; ++i) limit_output(limits, state, full, true, dt);
+    return state;
+}
+
+}  // namespace
+
+TEST_CASE("a step of torque is followed at the slew rate: 0.2 N m a millisecond, up and down") {
+    OutputLimits limits;
+    limits.ramp_up = dt;
+    OutputState state;
+    for (int i = 1; i <= 10; ++i)
+        CHECK(limit_output(limits, state, full, true, dt).torque.y == doctest::Approx(0.2 * i));
+    CHECK(limit_output(limits, state, full, true, dt).torque.y == doctest::Approx(2.0));
+    const OutputCommand back{Vec3(0.0), Vec3(0, -1, 0)};
+    for (int i = 1; i <= 15; ++i)
+        CHECK(limit_output(limits, state, back, true, dt).torque.y == doctest::Approx(2.0 - 0.2 * i));
+}
+
+TEST_CASE("the torque comes in over the same ramp as the force") {
+    const OutputLimits limits;
+    OutputState state;
+    for (int i = 1; i <= 500; ++i) {
+        const OutputCommand out = limit_output(limits, state, {Vec3(10, 0, 0), Vec3(0, 1, 0)}, true, dt);
+        REQUIRE(out.torque.y == doctest::Approx(i / 500.0));
+        REQUIRE(out.force.x == doctest::Approx(10.0 * i / 500.0));
+    }
+}
+
+TEST_CASE("let go from full output: a twentieth less each millisecond, and exactly nothing after twenty") {
+    const OutputLimits limits;
+    OutputState state = at_full(limits);
+    REQUIRE(state.torque.y == doctest::Approx(limits.torque));
+    for (int i = 1; i <= 20; ++i) {
+        const OutputCommand out = limit_output(limits, state, full, false, dt);
+        CHECK(out.torque.y == doctest::Approx(limits.torque * (20 - i) / 20.0).epsilon(1e-6));
+        CHECK(out.force.x == doctest::Approx(limits.force * (20 - i) / 20.0).epsilon(1e-6));
+    }
+    CHECK(state.torque == Vec3(0.0));
+    CHECK(state.force == Vec3(0.0));
+}
+
+TEST_CASE("enabled again after letting go, or after a fault, the output ramps up from nothing again") {
+    const OutputLimits limits;
+    const OutputCommand sound{Vec3(10, 0, 0), Vec3(0, 1, 0)};
+    OutputCommand broken = sound;
+    broken.torque.z = std::numeric_limits<double>::quiet_NaN();
+    for (const bool let_go : {true, false}) {
+        OutputState state = at_full(limits);
+        for (int i = 0; i < 20; ++i) limit_output(limits, state, let_go ? sound : broken, !let_go, dt);
+        REQUIRE(state.force == Vec3(0.0));
+        CHECK(state.strength == 0.0);
+        for (int i = 0; i < 50; ++i) limit_output(limits, state, sound, true, dt);
+        CHECK(state.force.x == doctest::Approx(1.0));
+        CHECK(state.torque.y == doctest::Approx(0.1));
+    }
+}
+
+TEST_CASE("what is not finite in the state itself is cleared and does not stay") {
+    const OutputLimits limits;
+    const OutputCommand wanted{Vec3(60, 50, 40), Vec3(3, 4, 5)};
+    const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
+    for (const double value : bad) {
+        for (int k = 0; k < 6; ++k) {
+            for (const bool enabled : {true, false}) {
+                CAPTURE(k);
+                CAPTURE(enabled);
+                OutputState state;
+                for (int i = 0; i < 2000; ++i) limit_output(limits, state, wanted, true, dt);
+                (k < 3 ? state.force : state.torque)[k % 3] = value;
+                OutputCommand out = limit_output(limits, state, wanted, enabled, dt);
+                for (int i = 0; i < 3; ++i) {
+                    CHECK(std::isfinite(out.force[i]));
+                    CHECK(std::isfinite(out.torque[i]));
+                }
+                CHECK(out.force == Vec3(0.0));
+                CHECK(out.torque == Vec3(0.0));
+                CHECK(state.strength == 0.0);
+                CHECK(state.faults == 1);
+                // And it works again.
+                for (int i = 0; i < 1000; ++i) out = limit_output(limits, state, wanted, true, dt);
+                CHECK(glm::length(out.force) == doctest::Approx(limits.force));
+                CHECK(glm::length(out.torque) == doctest::Approx(limits.torque));
+            }
+        }
+    }
+}
