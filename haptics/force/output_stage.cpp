@@ -24,8 +24,9 @@ Vec3 towards(const Vec3& now, const Vec3& wanted, double most) { return now + at
 
 OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& wanted,
                            bool enabled, double dt) {
-    if (!finite(state.force) || !finite(state.torque)) state = {Vec3(0.0), Vec3(0.0), 0.0, state.faults + 1};
-    const bool sound = finite(wanted.force) && finite(wanted.torque);
+    const bool healthy = finite(state.force) && finite(state.torque);
+    if (!healthy) state.force = state.torque = Vec3(0.0);
+    const bool sound = healthy && finite(wanted.force) && finite(wanted.torque);
     if (!sound) ++state.faults;
     if (!enabled || !sound) {
         // Down from the greatest output in whole steps within `release`, whatever the slew limits say.
