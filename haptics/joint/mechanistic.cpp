@@ -45,7 +45,8 @@ Wear wear_of(Lubrication lubrication) {
 // The coefficients of a design are those of the first tightening; wear shows from the second on, and comes in
 // smoothly.
 double wear_factor(const MechanisticParameters& p, double all_uses) {
-    const double again = std::max(0.0, all_uses - 1.0);
+    const double again = all_uses - 1.0;
+    if (again <= 0.0) return 1.0;
     const double uses = again * again / (again + 0.5);
     return 1.0 + p.wear_early * (1.0 - std::exp(-uses / p.wear_early_uses)) + p.wear_per_use * uses;
 }
@@ -53,7 +54,7 @@ double wear_factor(const MechanisticParameters& p, double all_uses) {
 // Drag of the free thread: it rises from nothing as the nut starts and then wavers with the angle, as
 // measured runs do.
 double running_drag(const MechanisticParameters& p, double angle) {
-    const double start = -std::expm1(-std::max(angle, 0.0) / 0.5);
+    const double start = angle < 20.0 ? -std::expm1(-std::max(angle, 0.0) / 0.5) : 1.0;  // 1 − e⁻⁴⁰ is 1
     const double ripple = 0.25 * std::sin(angle + p.ripple_phase[0]) +
                           0.15 * std::sin(2.3 * angle + p.ripple_phase[1]) +
                           0.10 * std::sin(5.1 * angle + p.ripple_phase[2]);
@@ -65,66 +66,90 @@ double nut_mass(const FastenerSize& size, const Thread& thread) {
     return steel_density * hexagon * size.nut_height;
 }
 
-// The force at which the elastic joint and the load capacity meet, between `low` and `high`:
-// the root of balance(F), which increases with F. Newton kept inside a shrinking bracket; the count is fixed,
-// so it ends, and the bracket halves where Newton does not do better, so it is right when it ends.
-template <class Balance>
-double meet(double low, double high, const Balance& balance) {
-    double F = high;
-    for (int i = 0; i < 24; ++i) {
-        const auto [value, slope] = balance(F);
-        (value > 0.0 ? high : low) = F;
-        const double newton = F - value / slope;
-        const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-        if (std::abs(next - F) <= 1e-7 * high)
-            return next;  // Newton is quadratic: what is left is below 1e-13
-        F = next;
-    }
-    return F;
+// A point on the way to where the elastic joint and its load capacity meet: a force, the closure that makes
+// it, and how far it is out of balance.
+struct Trial {
+    double force = 0.0;     // N
+    double closure = 0.0;   // m
+    double gradient = 0.0;  // dx/dF, m/N
+    double excess = 0.0;    // N above the capacity
+    double slope = 1.0;     // d(excess)/dF
+};
+
+Trial trial(const SeatSpring& seat, double force) {
+    return {force, seat.closure(force), seat.compliance + seat.scale / force};
 }
+
+// The closure of the seat where the excess is zero, between the force `low` and the trial `at` above it; the
+// excess increases with the force. Newton kept inside a shrinking bracket; the count is fixed, so it ends,
+// and the bracket halves where Newton does not do better, so it is right when it ends. `weigh` fills in
+// excess and slope.
+template <class Weigh>
+double closure_in_balance(const SeatSpring& seat, double low, Trial at, const Weigh& weigh) {
+    double high = at.force;
+    weigh(at);
+    for (int i = 0;; ++i) {
+        (at.excess > 0.0 ? high : low) = at.force;
+        const double newton = at.force - at.excess / at.slope;
+        const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+        // Newton is quadratic: what is left is below 1e-10, and so is the curvature of the closure.
+        if (i == 24 || std::abs(next - at.force) <= 1e-5 * high)
+            return at.closure + at.gradient * (next - at.force);
+        at = trial(seat, next);
+        weigh(at);
+    }
+}
+
+// What the joint can carry now.
+struct Capacity {
+    double ratio = 1.0;        // equivalent over tensile stress
+    PlasticCurve::Point bolt;  // equivalent load and its slope at the present set
+    double strip = 0.0;        // N, of the nut's threads
+
+    [[nodiscard]] double force() const { return std::min(bolt.load / ratio, strip); }
+};
 
 // Plastic flow of the bolt, or shearing of the nut's threads, whichever is weaker. Rate-independent
 // plasticity would kink the torque when a loaded joint starts to flow again, so the flow follows its
 // rate-independent solution with a short time constant (Duvaut and Lions 1972): the slope stays continuous on
 // every path, and what is dissipated stays positive because the set only grows while F > 0.
-void flow(const MechanisticParameters& p, MechanisticState& s, double closure, double ratio, double dt) {
+void flow(const MechanisticParameters& p, MechanisticState& s, double closure, const Capacity& capacity,
+          double dt) {
     const double progress = -std::expm1(-dt / p.flow_time);
-    const double strip_capacity = p.strip_load * std::max(0.0, 1.0 - s.stripped / p.strip_length);
-    const double bolt_capacity = p.bolt.load(s.plastic) / ratio;
+    const Trial start{s.clamp, closure, 1.0 / s.stiffness};
 
-    if (strip_capacity < bolt_capacity) {
+    if (capacity.strip < capacity.bolt.load / capacity.ratio) {
         // F = S0 (1 − t/L) and closure − (t − stripped) = seat(F).
-        const double slope = p.strip_length / p.strip_load;
-        const double floor = 1e-3 * p.seat.touch_force;
-        const double F = meet(floor, s.clamp, [&](double f) {
-            const double travel = s.stripped + closure - p.seat.closure(f);
-            const double capacity = p.strip_load * (1.0 - travel / p.strip_length);
-            const double gradient = (p.seat.compliance + p.seat.scale / f) / slope;
-            return std::pair{f - capacity, std::max(1.0 - gradient, 1e-3)};
-        });
-        s.stripped += progress * std::max(0.0, closure - p.seat.closure(F));
+        const double slope = p.strip_load / p.strip_length;
+        const auto weigh = [&](Trial& t) {
+            t.excess = t.force - (p.strip_load - slope * (s.stripped + closure - t.closure));
+            t.slope = std::max(1.0 - slope * t.gradient, 1e-3);
+        };
+        const double rest = closure_in_balance(p.seat, 1e-3 * p.seat.touch_force, start, weigh);
+        s.stripped += progress * std::max(0.0, closure - rest);
         s.condition = Condition::stripped;
         return;
     }
-    const double low = std::min(bolt_capacity, p.bolt.neck_load / ratio) * 0.5;
-    const double F = meet(low, s.clamp, [&](double f) {
-        const double set = s.plastic + closure - p.seat.closure(f);
-        const PlasticCurve::Point y = p.bolt.at(std::max(set, 1e-12));
-        const double gradient = (p.seat.compliance + p.seat.scale / f) * y.slope;
-        return std::pair{ratio * f - y.load, ratio + gradient};
-    });
-    s.plastic += progress * std::max(0.0, closure - p.seat.closure(F));
+    const auto weigh = [&](Trial& t) {
+        // At no set at all the slope is infinite and would stop Newton.
+        const double set = std::max(s.plastic + (closure - t.closure), 1e-12);
+        const PlasticCurve::Point y = set == s.plastic ? capacity.bolt : p.bolt.at(set);
+        t.excess = capacity.ratio * t.force - y.load;
+        t.slope = capacity.ratio + t.gradient * y.slope;
+    };
+    const double low = 0.5 * std::min(capacity.bolt.load, p.bolt.neck_load) / capacity.ratio;
+    s.plastic += progress * std::max(0.0, closure - closure_in_balance(p.seat, low, start, weigh));
     if (s.plastic >= p.bolt.fracture) s.condition = Condition::broken;
 }
 
-Stage stage_of(const MechanisticParameters& p, const MechanisticState& s, double ratio) {
+Stage stage_of(const MechanisticParameters& p, const MechanisticState& s, double ratio,
+               const PlasticCurve::Point& bolt) {
     if (s.clamp < p.seat.touch_force) return Stage::navigation;
     if (s.condition == Condition::stripped) return Stage::yield;
     const double linear = 1.0 / p.seat.compliance;
-    if (ratio * s.clamp >= 0.999 * p.bolt.load(s.plastic)) {
+    if (ratio * s.clamp >= 0.999 * bolt.load) {
         // Yield-controlled tightening cuts off where the gradient has fallen to half: the same mark here.
-        const double slope = p.bolt.slope(s.plastic);
-        const double tangent = slope > 0.0 ? 1.0 / (p.seat.compliance + ratio / slope) : 0.0;
+        const double tangent = bolt.slope > 0.0 ? 1.0 / (p.seat.compliance + ratio / bolt.slope) : 0.0;
         if (tangent < 0.5 * linear) return Stage::yield;
     }
     return s.stiffness < 0.75 * linear ? Stage::transition : Stage::linearity;
@@ -147,10 +172,10 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
     p.gap = design.start_gap;
 
     const double h_rms = design.roughness_Rz / 5.5;  // usual for turned and milled faces
-    p.seat.compliance = joint_compliance(design) + own;
-    p.seat.scale = 0.5 * h_rms + design.misfit;
     const double seat_area = 0.25 * pi * (square(size.nut_bearing) - square(size.hole));
-    p.seat.touch_force = 0.2e6 * seat_area;  // 0.2 MPa: fingers feel the seat; ours
+    p.seat = {.compliance = joint_compliance(design) + own,
+              .scale = 0.5 * h_rms + design.misfit,
+              .touch_force = 0.2e6 * seat_area};  // 0.2 MPa: fingers feel the seat; ours
 
     const double thread_l = design.bolt_thread_length > 0.0 ? design.bolt_thread_length
                                                             : thread_length(size.d, design.bolt_length);
@@ -221,22 +246,27 @@ void advance(const MechanisticParameters& p, MechanisticState& s, double angle, 
         s.stage = Stage::navigation;
         return;
     }
-    SeatSpring::Load load = p.seat.at(free_closure(p, s, angle));
+    SeatSpring::Load load = p.seat.at(free_closure(p, s, angle), s.clamp);
     s.clamp = load.force;
     s.stiffness = load.stiffness;
-    const double ratio = equivalent_stress_ratio(p.thread, p.mu_thread, p.kappa, share);
-    const double capacity = std::min(p.bolt.load(s.plastic) / ratio,
-                                     p.strip_load * std::max(0.0, 1.0 - s.stripped / p.strip_length));
-    if (s.clamp > capacity) {
-        flow(p, s, free_closure(p, s, angle), ratio, dt);
-        load = s.condition == Condition::broken ? SeatSpring::Load{} : p.seat.at(free_closure(p, s, angle));
+    Capacity capacity;
+    capacity.ratio = equivalent_stress_ratio(p.thread, p.mu_thread, p.kappa, share);
+    capacity.bolt = p.bolt.at(s.plastic);
+    capacity.strip = p.strip_load * std::max(0.0, 1.0 - s.stripped / p.strip_length);
+    if (s.clamp > capacity.force()) {
+        const double closure = free_closure(p, s, angle);
+        flow(p, s, closure, capacity, dt);
+        const double fallen = load.stiffness * (free_closure(p, s, angle) - closure);
+        load = s.condition == Condition::broken ? SeatSpring::Load{}
+                                                : p.seat.at(free_closure(p, s, angle), load.force + fallen);
         s.clamp = load.force;
         s.stiffness = load.stiffness;
+        capacity.bolt = p.bolt.at(s.plastic);
     }
     // One use of the faces: the reference load taken up once by turning the nut, in as many pulls as it
     // takes.
     if (turned > 0.0) s.uses += std::max(0.0, s.clamp - clamp_before) / p.reference_load;
-    s.stage = stage_of(p, s, ratio);
+    s.stage = stage_of(p, s, capacity.ratio, capacity.bolt);
 }
 
 }  // namespace bolt::joint

@@ -18,17 +18,19 @@
 namespace bolt::joint {
 
 struct SeatSpring {
-    double compliance = 0.0;   // δ, m/N
-    double scale = 0.0;        // u0, m
-    double touch_force = 0.0;  // F0, N
+    double compliance = 0.0;                                     // δ, m/N
+    double scale = 0.0;                                          // u0, m
+    double touch_force = 0.0;                                    // F0, N
+    double origin = std::log(touch_force * compliance / scale);  // ln(F0 δ/u0): ω's argument at touch
 
     struct Load {
         double force = 0.0;      // N
         double stiffness = 0.0;  // dF/dx, N/m
     };
 
-    [[nodiscard]] Load at(double closure) const {
-        const double w = wright_omega(closure / scale + std::log(touch_force * compliance / scale));
+    // `near`: a force that is thought to be close, which saves work where it is; 0: none.
+    [[nodiscard]] Load at(double closure, double near = 0.0) const {
+        const double w = wright_omega(closure / scale + origin, near * compliance / scale);
         return {scale / compliance * w, w / (1.0 + w) / compliance};
     }
 

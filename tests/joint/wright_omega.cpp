@@ -33,6 +33,19 @@ TEST_CASE("omega + ln omega = x over its whole range, and it never falls") {
     }
 }
 
+TEST_CASE("a value thought to be near changes the work, not the answer, however wrong it is") {
+    Random random(4);
+    for (int i = 0; i < 200'000; ++i) {
+        const double x = i < 100'000 ? random.uniform(-40.0, 40.0) : random.uniform(0.0, 1e4);
+        const double w = wright_omega(x);
+        const double off = std::exp(random.uniform(-20.0, 6.0));
+        for (const double near : {w * (1.0 + off), w / (1.0 + off), 0.0, -1.0})
+            REQUIRE(std::abs(wright_omega(x, near) - w) <= 1e-15 * (1.0 + std::max(0.0, -x)) * w);
+    }
+    CHECK(std::isnan(wright_omega(std::nan(""), 1.0)));
+    CHECK(wright_omega(2.0, std::nan("")) == wright_omega(2.0));
+}
+
 TEST_CASE("the seat spring inverts its own closure, is positive, and ends as the elastic line") {
     const SeatSpring seat{5.5e-9, 6.5e-6, 31.4};
     for (const double force : {1e-6, 1.0, 31.4, 1e3, 3e4, 1e5}) {
