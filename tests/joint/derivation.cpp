@@ -70,27 +70,10 @@ TEST_CASE("joints couple as far as ten lengths of the plate and no further") {
 
 // Compliances are of the order of 1e-9 m/N, and doctest's Approx adds 1 to what its epsilon is of: such small
 // numbers are compared as ratios.
-TEST_CASE("as ratios: own deflection is Hertz's l2/8D, and a cone through two layers is its integral") {
+TEST_CASE("as a ratio: own deflection is Hertz's l2/8D") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     const double hertz = square(plate.length()) / (8.0 * plate.rigidity);
     CHECK(plate.deflection_per_force(0.0) / hertz == doctest::Approx(1.0).epsilon(1e-9));
-
-    const Member layers[] = {{0.030, 110e9}, {0.040, 205e9}};
-    constexpr double d_w = 0.0225, hole = 0.0175, grip = 0.070;
-    for (const double D_A : {0.0, 0.030, 0.080}) {
-        CAPTURE(D_A);
-        const double y = (D_A > d_w ? D_A : 3 * d_w) / d_w;
-        const double tan_phi = 0.362 + 0.032 * std::log(0.5 * grip / d_w) + 0.153 * std::log(y);
-        double sum = 0.0;
-        constexpr int n = 70'000;
-        for (int i = 0; i < n; ++i) {
-            const double z = (i + 0.5) * grip / n;
-            double D = d_w + 2.0 * tan_phi * std::min(z, grip - z);
-            if (D_A > 0.0) D = std::min(D, D_A);
-            sum += grip / n / ((z < 0.030 ? 110e9 : 205e9) * 0.25 * pi * (square(D) - square(hole)));
-        }
-        CHECK(member_compliance(layers, d_w, hole, D_A) / sum == doctest::Approx(1.0).epsilon(1e-5));
-    }
 }
 
 TEST_CASE("the slopes of the resistance are its derivatives over the angle of the elastic joint") {
