@@ -72,6 +72,11 @@ struct Script {
         seat(0);
         seat(1);
     }
+    [[nodiscard]] int order_errors() const {
+        int n = 0;
+        for (const JointTrack& joint : lesson.joints) n += joint.result.order_errors;
+        return n;
+    }
     [[nodiscard]] int count(const char* kind) const {
         int n = 0;
         for (const Event& event : lesson.events) n += event.kind == kind ? 1 : 0;
@@ -192,8 +197,10 @@ TEST_CASE(
     CHECK(s.lesson.current == 2);  // only brushed: still due
     s.pull(0, 20.0);
     CHECK(s.lesson.current == 2);
+    CHECK(s.order_errors() == 1);
     s.pull(1, 35.0);
     CHECK(s.lesson.current == 4);
+    CHECK(s.order_errors() == 1);  // leaving for the next is no error of order
     s.pull(0, 70.0);
     s.pull(1, 40.0);
     REQUIRE(s.lesson.current == 5);
@@ -221,6 +228,7 @@ TEST_CASE("a bolt that breaks keeps its torque, is named, and the lesson goes on
     for (int i = 0; i <= 100; ++i) s.tick(0, servo::Grip::wrench, 1.2 * i, 1.0);
     s.state.joints[0].condition = joint::Condition::broken;
     s.tick(0, servo::Grip::wrench, 0.0);
+    CHECK(s.lesson.current == 2);  // not before the hand lets go
     s.idle();
     CHECK(s.lesson.current == 3);
     CHECK(s.lesson.joints[0].result.torque == doctest::Approx(120.0));
@@ -236,4 +244,36 @@ TEST_CASE("fingers exchanged for the wrench without letting go are a new visit")
     CHECK(s.lesson.grip == servo::Grip::wrench);
     CHECK(s.lesson.joints[0].snug);
     CHECK(s.count("engage") == 2);
+}
+
+TEST_CASE("every pass is announced once, when it begins, with its share of the target") {
+    Script s;
+    s.seat_both();
+    for (const double torque : {35.0, 70.0})
+        for (const int joint : {0, 1}) s.pull(joint, torque);
+    REQUIRE(s.lesson.due() == nullptr);
+    std::vector<std::string> announced;
+    int begun = 0;
+    for (const Event& event : s.lesson.events) {
+        begun += event.kind == "step_begin" ? 1 : 0;
+        if (event.kind != "pass_begin") continue;
+        CHECK(begun == 2 * static_cast<int>(announced.size()));  // before the first of its two steps
+        announced.push_back(event.text);
+    }
+    CHECK(begun == 6);
+    REQUIRE(announced.size() == 3);
+    CHECK(announced[0] == "run down by hand");
+    CHECK(announced[1] == "tighten to 50 %");
+    CHECK(announced[2] == "tighten to 100 %");
+}
+
+TEST_CASE("in assessment, the last joint left for another is out of turn: nothing follows it") {
+    Script s(Mode::assessment);
+    s.seat_both();
+    for (const auto& [joint, torque] : {std::pair{0, 35.0}, {1, 35.0}, {0, 70.0}}) s.pull(joint, torque);
+    REQUIRE(s.lesson.current == 5);
+    s.pull(1, 40.0);
+    s.pull(0, 70.0);
+    CHECK(s.lesson.current == 5);
+    CHECK(s.lesson.joints[0].result.rehits == 1);
 }
