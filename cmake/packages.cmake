@@ -10,3 +10,9 @@ find_package(zstd REQUIRED)
 # ./run needs neither; ./test installs both and fails if there is no test to run.
 find_package(doctest QUIET)
 find_package(benchmark QUIET)
+
+# The engine. volk loads Vulkan at run time; its header comes with Debian's libvulkan-volk-dev.
+find_program(GLSLANG glslangValidator REQUIRED)
+foreach(part core util glsl hlsl msl cpp reflect c)
+    find_package(spirv_cross_${part} REQUIRED)
+endforeach()

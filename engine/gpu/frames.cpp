@@ -1,0 +1,217 @@
+#include "engine/gpu/frames.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace bolt::gpu {
+
+namespace {
+
+constexpr VkDeviceSize first_ring = VkDeviceSize{1} << 20;
+constexpr std::uint32_t most_timings = 64;
+constexpr std::uint32_t sets_a_pool = 256;
+
+Result<Buffer> make_ring(Device& device, VkDeviceSize size) {
+    return Buffer::create(device, size,
+                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                              VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                              VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                          MemoryUse::upload);
+}
+
+}  // namespace
+
+Status Frame::prepare(Device& device) {
+    device_ = &device;
+    VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool_info.queueFamilyIndex = device.queue_family();
+    VkCommandPool pool = VK_NULL_HANDLE;
+    if (Status made =
+            check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &pool), "making a command pool");
+        !made)
+        return made;
+    pool_ = CommandPool(device.get(), pool);
+
+    VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    commands.commandPool = pool;
+    commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    commands.commandBufferCount = 1;
+    if (Status made = check(vkAllocateCommandBuffers(device.get(), &commands, &commands_), "making commands");
+        !made)
+        return made;
+
+    VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+    VkFence fence = VK_NULL_HANDLE;
+    if (Status made = check(vkCreateFence(device.get(), &fence_info, nullptr, &fence), "making a fence");
+        !made)
+        return made;
+    fence_ = Fence(device.get(), fence);
+
+    if (device.limits().timestampComputeAndGraphics == VK_TRUE) {
+        VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+        queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+        queries.queryCount = 2 * most_timings;
+        VkQueryPool query_pool = VK_NULL_HANDLE;
+        if (Status made =
+                check(vkCreateQueryPool(device.get(), &queries, nullptr, &query_pool), "making a query pool");
+            !made)
+            return made;
+        queries_ = QueryPool(device.get(), query_pool);
+    }
+    Result<Buffer> ring = make_ring(device, first_ring);
+    if (!ring) return fail(ring.error());
+    ring_ = std::move(*ring);
+    return add_descriptor_pool();
+}
+
+Status Frame::add_descriptor_pool() {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets_a_pool},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets_a_pool},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * sets_a_pool},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets_a_pool}};
+    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    info.maxSets = sets_a_pool;
+    info.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
+    info.pPoolSizes = sizes;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    if (Status made =
+            check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool), "making a descriptor pool");
+        !made)
+        return made;
+    descriptor_pools_.emplace_back(device_->get(), pool);
+    return {};
+}
+
+Result<Piece> Frame::piece(VkDeviceSize size) {
+    const VkDeviceSize alignment =
+        std::max({device_->limits().minUniformBufferOffsetAlignment,
+                  device_->limits().minStorageBufferOffsetAlignment, VkDeviceSize{16}});
+    VkDeviceSize offset = (ring_used_ + alignment - 1) & ~(alignment - 1);
+    if (offset + size > ring_.size()) {
+        Result<Buffer> larger = make_ring(*device_, std::max(2 * ring_.size(), size));
+        if (!larger) return fail(larger.error());
+        retired_.add(std::exchange(ring_, std::move(*larger)));
+        offset = 0;
+    }
+    ring_used_ = offset + size;
+    return Piece{ring_.get(), offset,
+                 ring_.bytes().subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size))};
+}
+
+Result<VkDescriptorSet> Frame::descriptor_set(VkDescriptorSetLayout layout) {
+    for (int attempt = 0;; ++attempt) {
+        VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+        info.descriptorPool = descriptor_pools_[descriptor_pool_].get();
+        info.descriptorSetCount = 1;
+        info.pSetLayouts = &layout;
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        const VkResult result = vkAllocateDescriptorSets(device_->get(), &info, &set);
+        if (result == VK_SUCCESS) return set;
+        const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
+        if (!full || attempt > 0) return fail(check(result, "allocating a descriptor set").error());
+        if (++descriptor_pool_ == descriptor_pools_.size())
+            if (Status added = add_descriptor_pool(); !added) return fail(added.error());
+    }
+}
+
+void Frame::begin_timing(std::string name) {
+    if (!queries_ || timed_.size() == most_timings) return;
+    open_.push_back(timed_.size());
+    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(),
+                         static_cast<std::uint32_t>(2 * timed_.size()));
+    timed_.push_back(std::move(name));
+}
+
+void Frame::end_timing() {
+    if (open_.empty()) return;
+    const auto query = static_cast<std::uint32_t>(2 * open_.back() + 1);
+    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), query);
+    open_.pop_back();
+}
+
+void Frame::read_timings() {
+    timings_.clear();
+    for (std::size_t i = 0; i < timed_.size(); ++i) {
+        std::uint64_t ticks[2] = {0, 0};
+        const VkResult result =
+            vkGetQueryPoolResults(device_->get(), queries_.get(), static_cast<std::uint32_t>(2 * i), 2,
+                                  sizeof ticks, ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT);
+        if (result != VK_SUCCESS) continue;
+        const double period = static_cast<double>(device_->limits().timestampPeriod);
+        timings_.push_back({timed_[i], static_cast<double>(ticks[1] - ticks[0]) * period * 1e-6});
+    }
+    timed_.clear();
+    open_.clear();
+}
+
+Status Frame::reset() {
+    const VkFence fence = fence_.get();
+    const VkResult waited =
+        vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+    if (Status done = check(waited, "waiting for a frame"); !done) return done;
+    read_timings();
+    retired_.destroy();
+    ring_used_ = 0;
+    for (const DescriptorPool& pool : descriptor_pools_) vkResetDescriptorPool(device_->get(), pool.get(), 0);
+    descriptor_pool_ = 0;
+    return check(vkResetCommandPool(device_->get(), pool_.get(), 0), "resetting commands");
+}
+
+Result<std::unique_ptr<Frames>> Frames::create(Device& device) {
+    auto frames = std::make_unique<Frames>();
+    frames->device_ = &device;
+    for (Frame& frame : frames->frames_)
+        if (Status made = frame.prepare(device); !made) return fail(made.error());
+    return frames;
+}
+
+Result<Frame*> Frames::begin() {
+    Frame& frame = frames_[next_];
+    if (Status ready = frame.reset(); !ready) return fail(ready.error());
+    if (!frame.timings_.empty()) timings_ = frame.timings_;
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    if (Status begun = check(vkBeginCommandBuffer(frame.commands_, &info), "recording a frame"); !begun)
+        return fail(begun.error());
+    if (frame.queries_) vkCmdResetQueryPool(frame.commands_, frame.queries_.get(), 0, 2 * most_timings);
+    return &frame;
+}
+
+Status Frames::submit(Frame& frame, const Signals& signals) {
+    while (!frame.open_.empty()) frame.end_timing();
+    if (Status ended = check(vkEndCommandBuffer(frame.commands_), "recording a frame"); !ended) return ended;
+    const VkFence fence = frame.fence_.get();
+    if (Status reset = check(vkResetFences(device_->get(), 1, &fence), "resetting a fence"); !reset)
+        return reset;
+
+    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    commands.commandBuffer = frame.commands_;
+    VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+    wait.semaphore = signals.wait;
+    wait.stageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+    signal.semaphore = signals.signal;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &commands;
+    info.waitSemaphoreInfoCount = signals.wait != VK_NULL_HANDLE ? 1 : 0;
+    info.pWaitSemaphoreInfos = &wait;
+    info.signalSemaphoreInfoCount = signals.signal != VK_NULL_HANDLE ? 1 : 0;
+    info.pSignalSemaphoreInfos = &signal;
+    next_ = (next_ + 1) % frames_in_flight;
+    return check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "handing a frame to the GPU");
+}
+
+Status Frames::finish() {
+    for (std::uint32_t i = 0; i < frames_in_flight; ++i) {
+        Frame& frame = frames_[(next_ + i) % frames_in_flight];  // the oldest first
+        if (Status done = frame.reset(); !done) return done;
+        if (!frame.timings_.empty()) timings_ = frame.timings_;
+    }
+    return {};
+}
+
+}  // namespace bolt::gpu

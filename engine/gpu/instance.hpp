@@ -1,0 +1,46 @@
+// The Vulkan instance, and what the validation layers say about how it is used.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/vk.hpp"
+
+namespace bolt::gpu {
+
+// Every warning and error of the validation layers since the instance was made. A correct program has none.
+struct ValidationLog {
+    std::vector<std::string> messages;
+};
+
+struct InstanceOptions {
+    bool validation = false;  // core and synchronization; an error if the layer is not installed
+    std::span<const char* const> extensions;  // what the window system needs
+};
+
+class Instance {
+  public:
+    static Result<Instance> create(const InstanceOptions& options);
+
+    Instance(Instance&& other) noexcept;
+    Instance& operator=(Instance&& other) noexcept;
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+    ~Instance();
+
+    [[nodiscard]] VkInstance get() const { return instance_; }
+    [[nodiscard]] bool validated() const { return messenger_ != VK_NULL_HANDLE; }
+    [[nodiscard]] const ValidationLog& log() const { return *log_; }
+
+  private:
+    Instance() = default;
+
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    std::unique_ptr<ValidationLog> log_ =
+        std::make_unique<ValidationLog>();  // its address is the messenger's
+};
+
+}  // namespace bolt::gpu

@@ -1,0 +1,81 @@
+// Pipelines from shaders: layouts come from the shaders' reflection, viewport and scissor are dynamic, and
+// there is no render pass object (dynamic rendering).
+#pragma once
+
+#include <filesystem>
+#include <map>
+
+#include "engine/gpu/device.hpp"
+#include "engine/gpu/handle.hpp"
+#include "engine/gpu/reflect.hpp"
+
+namespace bolt::gpu {
+
+struct Shader {
+    std::string name;  // for messages: "mesh.vert"
+    std::vector<std::uint32_t> spirv;
+    Reflection reflection;
+};
+
+Result<Shader> make_shader(std::string name, std::span<const std::uint32_t> spirv);
+
+// Where one vertex stream comes from and how it is stored.
+struct VertexStream {
+    std::uint32_t location = 0;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    std::uint32_t buffer = 0;  // index of the vertex buffer
+    std::uint32_t offset = 0;
+};
+
+struct GraphicsInfo {
+    const Shader* vertex = nullptr;
+    const Shader* fragment = nullptr;  // null: depth only
+    std::vector<VertexStream> streams;
+    std::vector<std::uint32_t> strides;  // of the vertex buffers
+    std::vector<VkFormat> colors;
+    VkFormat depth = VK_FORMAT_UNDEFINED;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    std::uint32_t view_mask = 0;  // multiview
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
+    bool depth_test = true, depth_write = true;
+    VkCompareOp depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;  // reversed: 1 near, 0 far
+    bool depth_clamp = false;
+    float depth_bias = 0.0F, depth_bias_slope = 0.0F;
+    bool blend = false;  // premultiplied alpha
+    std::uint32_t constants =
+        0;  // specialization constant 0 of both shaders, when not zero: bits that the pass defines
+};
+
+struct Pipeline {
+    PipelineHandle handle;
+    PipelineLayout layout;
+    std::vector<DescriptorSetLayout> sets;
+    std::vector<Binding> bindings;  // of both stages, merged
+    VkShaderStageFlags push_stages = 0;
+    std::uint32_t push_size = 0;
+};
+
+// Compiled pipelines, kept on disk for the next start. A cache of another driver or a broken one is ignored.
+class PipelineCache {
+  public:
+    static Result<PipelineCache> open(const Device& device,
+                                      std::filesystem::path file);  // empty path: in memory only
+    // Writes it back; a cache that cannot be written is an error that the caller may ignore.
+    Status save() const;
+    [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
+    [[nodiscard]] bool restored() const { return restored_; }
+
+  private:
+    const Device* device_ = nullptr;
+    std::filesystem::path file_;
+    PipelineCacheHandle cache_;
+    bool restored_ = false;
+};
+
+Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCache& cache,
+                                        const GraphicsInfo& info);
+Result<Pipeline> make_compute_pipeline(const Device& device, const PipelineCache& cache,
+                                       const Shader& shader);
+
+}  // namespace bolt::gpu

@@ -1,0 +1,125 @@
+#include "engine/gpu/memory.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "engine/base/random.hpp"
+#include "engine/gpu/resources.hpp"
+#include "tests/gpu/support.hpp"
+
+using namespace bolt;
+using namespace bolt::gpu;
+
+namespace {
+
+constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+constexpr VkMemoryPropertyFlags visible =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+
+VkPhysicalDeviceMemoryProperties machine(std::initializer_list<VkMemoryPropertyFlags> types) {
+    VkPhysicalDeviceMemoryProperties p{};
+    for (const VkMemoryPropertyFlags flags : types) p.memoryTypes[p.memoryTypeCount++].propertyFlags = flags;
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a discrete GPU: video memory for the GPU, its visible window for uploads, cached host memory to read "
+    "back") {
+    const auto p = machine({0, local, visible, visible | cached, local | visible});
+    CHECK(memory_type(p, ~0U, MemoryUse::device) == 1U);
+    CHECK(memory_type(p, ~0U, MemoryUse::upload) == 4U);
+    CHECK(memory_type(p, ~0U, MemoryUse::readback) == 3U);
+    // Without the window uploads go to host memory, uncached if there is a choice.
+    const auto q = machine({local, visible | cached, visible});
+    CHECK(memory_type(q, ~0U, MemoryUse::upload) == 2U);
+    CHECK(memory_type(q, 0b011U, MemoryUse::upload) == 1U);
+}
+
+TEST_CASE(
+    "lavapipe has one kind for everything; a type that is not allowed, protected or not coherent is not "
+    "taken") {
+    const auto one = machine({local | visible | cached});
+    for (const MemoryUse use : {MemoryUse::device, MemoryUse::upload, MemoryUse::readback}) {
+        CHECK(memory_type(one, ~0U, use) == 0U);
+        CHECK_FALSE(memory_type(one, 0b10U, use).has_value());
+    }
+    const auto odd =
+        machine({local | VK_MEMORY_PROPERTY_PROTECTED_BIT, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT, visible});
+    CHECK(memory_type(odd, ~0U, MemoryUse::device) == 2U);  // host memory is better than none
+    CHECK(memory_type(odd, ~0U, MemoryUse::readback) == 2U);
+}
+
+TEST_CASE("ranges never overlap, are aligned, and all of it is one hole again in the end") {
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        Random random(seed);
+        constexpr std::uint64_t size = 1 << 20;
+        FreeList list(size);
+        struct Range {
+            std::uint64_t offset, size;
+        };
+        std::vector<Range> taken;
+        std::uint64_t used = 0;
+        for (int step = 0; step < 2000; ++step) {
+            if (random.chance(0.55)) {
+                const std::uint64_t bytes = 1 + random.bits() % 20'000;
+                const std::uint64_t alignment = std::uint64_t{1} << (random.bits() % 13);
+                const auto offset = list.take(bytes, alignment);
+                if (!offset) continue;
+                REQUIRE(*offset % alignment == 0);
+                REQUIRE(*offset + bytes <= size);
+                for (const Range& other : taken)
+                    REQUIRE((*offset + bytes <= other.offset || other.offset + other.size <= *offset));
+                taken.push_back({*offset, bytes});
+                used += bytes;
+            } else if (!taken.empty()) {
+                const std::size_t i = random.bits() % taken.size();
+                list.give_back(taken[i].offset, taken[i].size);
+                used -= taken[i].size;
+                taken.erase(taken.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+            REQUIRE(list.free_bytes() == size - used);
+        }
+        for (const Range& range : taken) list.give_back(range.offset, range.size);
+        REQUIRE(list.untouched());
+    }
+}
+
+TEST_CASE("best fit: the smallest hole that holds it") {
+    FreeList list(1000);
+    const auto a = list.take(300, 1), b = list.take(100, 1), c = list.take(50, 1);
+    REQUIRE((a && b && c));
+    list.give_back(*a, 300);
+    list.give_back(*b, 100);
+    CHECK(list.take(550, 1) == 450U);  // the end, not [0, 400)
+    CHECK(list.take(400, 1) == 0U);    // freed neighbours are one hole
+    CHECK_FALSE(list.take(1, 1).has_value());
+}
+
+TEST_CASE("small resources share blocks, buffers and images do not share one, large ones give theirs back") {
+    test::Gpu gpu;
+    Memory& memory = gpu.device().memory();
+    const std::size_t before = memory.blocks();
+    {
+        std::vector<Buffer> buffers;
+        for (int i = 0; i < 100; ++i)
+            buffers.push_back(gpu.need(
+                Buffer::create(gpu.device(), 10'000, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::device)));
+        CHECK(memory.blocks() == before + 1);
+        ImageInfo info;
+        info.format = VK_FORMAT_R8G8B8A8_UNORM;
+        info.extent = {64, 64};
+        info.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
+        const Image image = gpu.need(Image::create(gpu.device(), info));
+        CHECK(memory.blocks() == before + 2);
+        const Buffer large = gpu.need(Buffer::create(gpu.device(), VkDeviceSize{100} << 20,
+                                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::device));
+        CHECK(memory.blocks() == before + 3);
+        CHECK(memory.bytes_in_use() >= (VkDeviceSize{100} << 20) + 1'000'000);
+    }
+    CHECK(memory.blocks() == before + 2);  // a spare of each kind stays
+    CHECK(memory.bytes_in_use() == 0);
+}

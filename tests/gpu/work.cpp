@@ -1,0 +1,302 @@
+// The GPU does what it is told: computing, drawing, copying there and back, over many frames, without a word
+// from validation.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <numeric>
+
+#include "engine/base/file.hpp"
+#include "engine/gpu/descriptors.hpp"
+#include "engine/gpu/transfer.hpp"
+#include "tests/gpu/shaders.hpp"
+#include "tests/gpu/support.hpp"
+
+using namespace bolt;
+using namespace bolt::gpu;
+
+namespace {
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+template <class T>
+void write(const Piece& piece, const T& value) {
+    std::memcpy(piece.bytes.data(), &value, sizeof value);
+}
+
+}  // namespace
+
+TEST_CASE("a compute shader doubles numbers, frame after frame, and the frames' memory grows with the need") {
+    test::Gpu gpu;
+    Device& device = gpu.device();
+    const PipelineCache cache = gpu.need(PipelineCache::open(device, {}));
+    const Shader shader = gpu.need(make_shader("double.comp", test_shaders("double.comp")));
+    const Pipeline pipeline = gpu.need(make_compute_pipeline(device, cache, shader));
+    const auto frames = gpu.need(Frames::create(device));
+    constexpr std::uint32_t n = 1000;
+    for (std::uint32_t round = 0; round < 7; ++round) {
+        Frame& frame = *gpu.need(frames->begin());
+        const VkCommandBuffer commands = frame.commands();
+        frame.begin_timing("double");
+        // Grows past the first ring of a mebibyte in the later rounds.
+        const Piece padding = gpu.need(frame.piece(VkDeviceSize{300'000} * (round + 1)));
+        CHECK(padding.bytes.size() == std::size_t{300'000} * (round + 1));
+        const Piece values = gpu.need(frame.piece(n * sizeof(std::uint32_t)));
+        std::vector<std::uint32_t> numbers(n);
+        std::iota(numbers.begin(), numbers.end(), round);
+        std::memcpy(values.bytes.data(), numbers.data(), values.bytes.size());
+        SetWriter writer = gpu.need(SetWriter::create(device, frame, pipeline, 0));
+        const VkDescriptorSet set = gpu.need(writer.piece(0, values).finish());
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle.get());
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 1, &set,
+                                0, nullptr);
+        vkCmdDispatch(commands, (n + 63) / 64, 1, 1);
+        memory_barrier(commands, Use::storage_write, Use::host_read);
+        frame.end_timing();
+        gpu.need(frames->submit(frame));
+        gpu.need(device.idle());
+        std::vector<std::uint32_t> doubled(n);
+        std::memcpy(doubled.data(), values.bytes.data(), values.bytes.size());
+        for (std::uint32_t i = 0; i < n; ++i) REQUIRE(doubled[i] == 2 * (i + round));
+    }
+    gpu.need(frames->finish());
+    REQUIRE(frames->timings().size() == 1);
+    CHECK(frames->timings()[0].name == "double");
+    CHECK(frames->timings()[0].milliseconds >= 0.0);
+}
+
+TEST_CASE("descriptor sets and retired things of many frames do not run out and are destroyed in time") {
+    test::Gpu gpu;
+    Device& device = gpu.device();
+    const PipelineCache cache = gpu.need(PipelineCache::open(device, {}));
+    const Shader shader = gpu.need(make_shader("double.comp", test_shaders("double.comp")));
+    const Pipeline pipeline = gpu.need(make_compute_pipeline(device, cache, shader));
+    const auto frames = gpu.need(Frames::create(device));
+    const VkDeviceSize before = device.memory().bytes_in_use();
+    for (int round = 0; round < 5; ++round) {
+        Frame& frame = *gpu.need(frames->begin());
+        for (int i = 0; i < 700; ++i) (void)gpu.need(frame.descriptor_set(pipeline.sets[0].get()));
+        frame.retire(
+            gpu.need(Buffer::create(device, 1 << 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::device)));
+        gpu.need(frames->submit(frame));
+    }
+    gpu.need(frames->finish());
+    CHECK(device.memory().bytes_in_use() == before);
+}
+
+TEST_CASE("a triangle covers the pixels that it should, with multisampling, depth and a resolve") {
+    test::Gpu gpu;
+    Device& device = gpu.device();
+    constexpr VkExtent2D extent{64, 64};
+    constexpr VkFormat format = VK_FORMAT_R8G8B8A8_UNORM, depth_format = VK_FORMAT_D32_SFLOAT;
+    const PipelineCache cache = gpu.need(PipelineCache::open(device, {}));
+    const Shader vertex = gpu.need(make_shader("triangle.vert", test_shaders("triangle.vert")));
+    const Shader fragment = gpu.need(make_shader("triangle.frag", test_shaders("triangle.frag")));
+    GraphicsInfo info;
+    info.vertex = &vertex;
+    info.fragment = &fragment;
+    info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0},
+                    {3, VK_FORMAT_R32G32_SFLOAT, 0, 12},
+                    {5, VK_FORMAT_R32_SFLOAT, 0, 0}};
+    info.strides = {20};
+    info.colors = {format};
+    info.depth = depth_format;
+    info.samples = VK_SAMPLE_COUNT_4_BIT;
+    const Pipeline red = gpu.need(make_graphics_pipeline(device, cache, info));
+    info.constants = 1;
+    const Pipeline green = gpu.need(make_graphics_pipeline(device, cache, info));
+
+    // Counter-clockwise seen with y up; Vulkan's y goes down, so the view flips it. Half of the picture.
+    const std::vector<float> corners{-1, -1, 0.5F, 0, 0, 1, -1, 0.5F, 0, 0, -1, 1, 0.5F, 0, 0};
+    const Buffer vertices =
+        gpu.need(upload_buffer(device, bytes_of(corners), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
+    const std::vector<float> palette{0, 0, 0, 0, 1, 0, 0, 1};
+    const Buffer colors =
+        gpu.need(upload_buffer(device, bytes_of(palette), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
+    ImageInfo texture_info{
+        format,
+        {4, 4},
+        3,
+        1,
+        false,
+        VK_SAMPLE_COUNT_1_BIT,
+        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
+    Image texture = gpu.need(Image::create(device, texture_info));
+    gpu.need(upload_image(device, texture, bytes_of(std::vector<std::uint8_t>(64, 100))));
+    const Sampler sampler = gpu.need(make_sampler(device, {}));
+
+    ImageInfo many{format, extent, 1, 1, false, VK_SAMPLE_COUNT_4_BIT, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT};
+    const Image drawn = gpu.need(Image::create(device, many));
+    ImageInfo one{format,
+                  extent,
+                  1,
+                  1,
+                  false,
+                  VK_SAMPLE_COUNT_1_BIT,
+                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+    const Image resolved = gpu.need(Image::create(device, one));
+    ImageInfo deep{depth_format,
+                   extent,
+                   1,
+                   1,
+                   false,
+                   VK_SAMPLE_COUNT_4_BIT,
+                   VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT};
+    const Image depth = gpu.need(Image::create(device, deep));
+    const ImageRange depth_range{VK_IMAGE_ASPECT_DEPTH_BIT};
+
+    const auto frames = gpu.need(Frames::create(device));
+    for (int round = 0; round < 3; ++round) {
+        Frame& frame = *gpu.need(frames->begin());
+        const VkCommandBuffer commands = frame.commands();
+        image_barrier_discarding(commands, drawn.get(), Use::color_target, Use::color_target);
+        image_barrier_discarding(commands, resolved.get(), Use::transfer_from, Use::color_target);
+        image_barrier_discarding(commands, depth.get(), Use::depth_target, Use::depth_target, depth_range);
+        VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+        color.imageView = drawn.view();
+        color.imageLayout = color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+        color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+        color.resolveImageView = resolved.view();
+        color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        color.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        color.clearValue.color = {{0.0F, 0.0F, 1.0F, 1.0F}};
+        VkRenderingAttachmentInfo behind{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+        behind.imageView = depth.view();
+        behind.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+        behind.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        behind.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+        rendering.renderArea.extent = extent;
+        rendering.layerCount = 1;
+        rendering.colorAttachmentCount = 1;
+        rendering.pColorAttachments = &color;
+        rendering.pDepthAttachment = &behind;
+        vkCmdBeginRendering(commands, &rendering);
+        const VkViewport viewport{0, 0, 64, 64, 0, 1};
+        const VkRect2D scissor{{0, 0}, extent};
+        vkCmdSetViewport(commands, 0, 1, &viewport);
+        vkCmdSetScissor(commands, 0, 1, &scissor);
+        const Piece view = gpu.need(frame.piece(64));
+        write(view, std::array<float, 16>{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+        const VkBuffer buffer = vertices.get();
+        const VkDeviceSize zero = 0;
+        vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &zero);
+        // Green half-way to the right and further away: the red one in front of it wins where both are.
+        for (const Pipeline* pipeline : {&red, &green}) {
+            SetWriter writer = gpu.need(SetWriter::create(device, frame, *pipeline, 0));
+            std::vector<VkDescriptorImageInfo> pair(
+                2, {sampler.get(), texture.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+            const VkDescriptorSet sets[] = {gpu.need(writer.piece(0, view).images(2, pair).finish()),
+                                            gpu.need(gpu.need(SetWriter::create(device, frame, *pipeline, 1))
+                                                         .buffer(0, colors.get(), 0, VK_WHOLE_SIZE)
+                                                         .finish())};
+            const std::array<float, 4> offset =
+                pipeline == &red ? std::array<float, 4>{0, 0, 0, 0} : std::array<float, 4>{1, 0, -0.25F, 0};
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->handle.get());
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->layout.get(), 0, 2,
+                                    sets, 0, nullptr);
+            vkCmdPushConstants(commands, pipeline->layout.get(), pipeline->push_stages, 0, 16, offset.data());
+            vkCmdDraw(commands, 3, 1, 0, 0);
+        }
+        vkCmdEndRendering(commands);
+        image_barrier(commands, resolved.get(), Use::color_target, Use::transfer_from);
+        gpu.need(frames->submit(frame));
+    }
+    gpu.need(frames->finish());
+    const std::vector<std::byte> texels = gpu.need(download_image(device, resolved, Use::transfer_from, 4));
+    const auto at = [&](std::size_t x, std::size_t y) {
+        std::array<int, 4> rgba{};
+        for (std::size_t c = 0; c < 4; ++c) rgba[c] = std::to_integer<int>(texels[4 * (y * 64 + x) + c]);
+        return rgba;
+    };
+    // Rows go down: red is below the diagonal from the upper left, green the same half a picture to the
+    // right.
+    CHECK(at(2, 40) == std::array{255, 0, 0, 255});
+    CHECK(at(40, 50) == std::array{255, 0, 0, 255});  // both are here: red is nearer
+    CHECK(at(50, 30) == std::array{0, 255, 0, 255});
+    CHECK(at(60, 10) == std::array{0, 0, 255, 255});
+    CHECK(at(20, 10) == std::array{0, 0, 255, 255});
+    // Of a pixel on the diagonal some of the four samples are covered.
+    const auto edge = at(25, 25);
+    CHECK(edge[0] > 0);
+    CHECK(edge[0] < 255);
+}
+
+TEST_CASE("images come back as they went, and the mips are their means") {
+    test::Gpu gpu;
+    Device& device = gpu.device();
+    ImageInfo info{
+        VK_FORMAT_R8G8B8A8_UNORM,
+        {4, 2},
+        2,
+        2,
+        false,
+        VK_SAMPLE_COUNT_1_BIT,
+        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
+    Image image = gpu.need(Image::create(device, info));
+    std::vector<std::uint8_t> texels(2 * 8 * 4);
+    for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<std::uint8_t>(3 * i);
+    gpu.need(upload_image(device, image, bytes_of(texels)));
+    for (std::uint32_t layer = 0; layer < 2; ++layer) {
+        const auto back = gpu.need(download_image(device, image, Use::sampled, 4, 0, layer));
+        REQUIRE(back.size() == 32);
+        CHECK(std::memcmp(back.data(), texels.data() + 32 * layer, 32) == 0);
+        const auto half = gpu.need(download_image(device, image, Use::sampled, 4, 1, layer));
+        REQUIRE(half.size() == 8);
+        // 2 × 2 texels: (0, 1, 4, 5), every channel three apart.
+        const double mean = 0.25 * (texels[32 * layer] + texels[32 * layer + 4] + texels[32 * layer + 16] +
+                                    texels[32 * layer + 20]);
+        CHECK(std::abs(std::to_integer<int>(half[0]) - mean) <= 1.0);
+    }
+}
+
+TEST_CASE("the pipeline cache is found again, and a foreign or broken one is ignored") {
+    test::Gpu gpu;
+    const auto folder = std::filesystem::temp_directory_path() / "boltwright_pipeline_cache_test";
+    const auto file = folder / "deep" / "pipelines.bin";
+    std::filesystem::remove_all(folder);
+    const Shader shader = gpu.need(make_shader("double.comp", test_shaders("double.comp")));
+    {
+        const PipelineCache cache = gpu.need(PipelineCache::open(gpu.device(), file));
+        CHECK_FALSE(cache.restored());
+        (void)gpu.need(make_compute_pipeline(gpu.device(), cache, shader));
+        gpu.need(cache.save());
+    }
+    CHECK(gpu.need(PipelineCache::open(gpu.device(), file)).restored());
+    std::string bytes = gpu.need(read_file(file, 1 << 24, ErrorCode::failed));
+    bytes[12] = static_cast<char>(bytes[12] + 1);  // another device's
+    gpu.need(write_file(file, bytes));
+    CHECK_FALSE(gpu.need(PipelineCache::open(gpu.device(), file)).restored());
+    gpu.need(write_file(file, "short"));
+    const PipelineCache cache = gpu.need(PipelineCache::open(gpu.device(), file));
+    CHECK_FALSE(cache.restored());
+    (void)gpu.need(make_compute_pipeline(gpu.device(), cache, shader));
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("the check itself can fail: validation sees a wrong layout and a missing barrier") {
+    test::Gpu gpu;
+    gpu.expect_messages();
+    const Buffer a =
+        gpu.need(Buffer::create(gpu.device(), 256, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::device));
+    const Buffer b = gpu.need(
+        Buffer::create(gpu.device(), 256, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                       MemoryUse::device));
+    gpu.need(run_now(gpu.device(), [&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, 256};
+        vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &region);
+        vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &region);  // written twice with nothing between
+    }));
+    REQUIRE(gpu.log().messages.size() == 1);
+    CHECK(gpu.log().messages[0].find("SYNC-HAZARD-WRITE-AFTER-WRITE") != std::string::npos);
+    const auto bad = Buffer::create(gpu.device(), 256, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::device);
+    gpu.need(run_now(gpu.device(), [&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, 256};
+        vkCmdCopyBuffer(commands, a.get(), bad->get(), 1, &region);  // not made to be copied to
+    }));
+    CHECK(gpu.log().messages.size() >= 2);
+}
