@@ -17,4 +17,5 @@ smoke() {  # smoke NAME RUNS options...
 smoke assembly 20000 -dict="$here/assembly.dict" "$bin/../corpus/assembly"
 smoke chunk 50000
 smoke measured 100000 "$bin/../corpus/measured"
+smoke gltf 20000 -dict="$here/gltf.dict" -max_len=16384 "$bin/../corpus/gltf"
 echo "$passed passed, 0 failed"

@@ -1,0 +1,175 @@
+// A glTF 2.0 scene as plain values on the CPU: what an importer fills, an exporter writes and a renderer
+// uploads. Names and meanings are those of the glTF 2.0 specification (Khronos, 2021); indices refer to the
+// vectors of Model, −1: none. Frame: metres, right-handed, Y up. Colours linear. Every member has a default,
+// so that designated initializers may name only what matters.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+namespace bolt::assets {
+
+enum class Topology : std::uint8_t {
+    points,
+    lines,
+    line_loop,
+    line_strip,
+    triangles,
+    triangle_strip,
+    triangle_fan
+};
+
+// Positions and normals that a morph target adds; empty: none.
+struct MorphTarget {
+    std::vector<glm::vec3> positions = {}, normals = {}, tangents = {};
+};
+
+// Vertex streams are either empty or as long as positions. Indices empty: vertices in their order.
+struct Primitive {
+    Topology topology = Topology::triangles;
+    std::vector<glm::vec3> positions = {};
+    std::vector<glm::vec3> normals = {};
+    std::vector<glm::vec4> tangents = {};  // w: handedness
+    std::array<std::vector<glm::vec2>, 2> texcoords = {};
+    std::vector<glm::vec4> colors = {};
+    std::vector<glm::u16vec4> joints = {};  // indices into the skin's joints
+    std::vector<glm::vec4> weights = {};    // sum to one
+    std::vector<std::uint32_t> indices = {};
+    std::vector<MorphTarget> targets = {};
+    int material = -1;
+};
+
+struct Mesh {
+    std::string name = {};
+    std::vector<Primitive> primitives = {};
+    std::vector<float> weights = {};  // of the morph targets
+};
+
+struct Node {
+    std::string name = {};
+    glm::vec3 translation{0.0F};
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+    glm::vec3 scale{1.0F};
+    std::vector<int> children = {};
+    int mesh = -1, skin = -1, camera = -1, light = -1;
+    std::vector<float> weights = {};
+    std::string extras = {};  // JSON text; empty: none
+};
+
+struct Skin {
+    std::string name = {};
+    std::vector<int> joints = {};  // nodes
+    std::vector<glm::mat4> inverse_bind = {};
+    int skeleton = -1;
+};
+
+// KHR_texture_transform included.
+struct TextureRef {
+    int texture = -1;
+    int texcoord = 0;
+    glm::vec2 offset{0.0F};
+    float rotation = 0.0F;  // rad
+    glm::vec2 scale{1.0F};
+};
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+// Metallic-roughness with clearcoat, anisotropy, ior, specular and emissive strength.
+struct Material {
+    std::string name = {};
+    glm::vec4 base_color{1.0F};
+    float metallic = 1.0F, roughness = 1.0F;
+    TextureRef base_color_texture = {}, metallic_roughness_texture = {}, normal_texture = {},
+               occlusion_texture = {}, emissive_texture = {};
+    float normal_scale = 1.0F, occlusion_strength = 1.0F;
+    glm::vec3 emissive{0.0F};
+    float emissive_strength = 1.0F;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5F;
+    bool double_sided = false;
+    float clearcoat = 0.0F, clearcoat_roughness = 0.0F;
+    TextureRef clearcoat_texture = {}, clearcoat_roughness_texture = {}, clearcoat_normal_texture = {};
+    float anisotropy = 0.0F, anisotropy_rotation = 0.0F;
+    TextureRef anisotropy_texture = {};
+    float ior = 1.5F;
+    float specular = 1.0F;
+    glm::vec3 specular_color{1.0F};
+    TextureRef specular_texture = {}, specular_color_texture = {};
+};
+
+// Encoded file (PNG or JPEG) or decoded pixels; `pixels` empty: not decoded.
+struct Image {
+    std::string name = {}, mime_type = {};
+    std::vector<std::uint8_t> encoded = {};
+    int width = 0, height = 0, channels = 0;
+    std::vector<std::uint8_t> pixels = {};
+};
+
+enum class Filter : std::uint8_t { nearest, linear };
+enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+
+struct Texture {
+    int image = -1;
+    Filter mag = Filter::linear, min = Filter::linear, mip = Filter::linear;
+    bool mipmapped = true;
+    Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+};
+
+enum class LightType : std::uint8_t { directional, point, spot };
+
+// KHR_lights_punctual; shines along the node's −Z.
+struct Light {
+    std::string name = {};
+    LightType type = LightType::point;
+    glm::vec3 color{1.0F};
+    float intensity = 1.0F;  // cd (point, spot) or lx (directional)
+    float range = 0.0F;      // m; 0: unlimited
+    float inner_cone = 0.0F, outer_cone = 0.785398F;
+};
+
+struct Camera {
+    std::string name = {};
+    bool perspective = true;
+    float yfov = 0.8F, aspect = 0.0F;  // rad; 0: the window's
+    float xmag = 1.0F, ymag = 1.0F;
+    float znear = 0.01F, zfar = 0.0F;  // 0: infinite
+};
+
+enum class Path : std::uint8_t { translation, rotation, scale, weights };
+enum class Interpolation : std::uint8_t { step, linear, cubic };
+
+struct Channel {
+    int node = -1;
+    Path path = Path::translation;
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<float> times = {};   // s, rising
+    std::vector<float> values = {};  // 3, 4 or n floats a key; three times as many when cubic
+};
+
+struct Animation {
+    std::string name = {};
+    std::vector<Channel> channels = {};
+};
+
+struct Model {
+    std::string generator = {}, copyright = {};
+    std::vector<Node> nodes = {};
+    std::vector<int> roots = {};  // of the default scene
+    std::vector<Mesh> meshes = {};
+    std::vector<Material> materials = {};
+    std::vector<Texture> textures = {};
+    std::vector<Image> images = {};
+    std::vector<Skin> skins = {};
+    std::vector<Light> lights = {};
+    std::vector<Camera> cameras = {};
+    std::vector<Animation> animations = {};
+};
+
+}  // namespace bolt::assets

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include "engine/assets/read/sections.hpp"
+
+namespace bolt::assets {
+
+namespace {
+
+using tinygltf::ExtensionMap;
+using tinygltf::Value;
+
+glm::vec2 vec2(const Value& v) {
+    return {static_cast<float>(v.Get(0).GetNumberAsDouble()),
+            static_cast<float>(v.Get(1).GetNumberAsDouble())};
+}
+glm::vec3 vec3(const Value& v) { return {vec2(v), static_cast<float>(v.Get(2).GetNumberAsDouble())}; }
+glm::vec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
+glm::vec4 vec4(const std::vector<double>& v) { return {v[0], v[1], v[2], v[3]}; }
+
+void set(float& target, const Value& owner, const char* key) {
+    if (owner.Has(key)) target = static_cast<float>(owner.Get(key).GetNumberAsDouble());
+}
+
+void set_transform(TextureRef& ref, const Value& transform) {
+    if (transform.Has("offset")) ref.offset = vec2(transform.Get("offset"));
+    if (transform.Has("scale")) ref.scale = vec2(transform.Get("scale"));
+    if (transform.Has("texCoord")) ref.texcoord = transform.Get("texCoord").GetNumberAsInt();
+    set(ref.rotation, transform, "rotation");
+}
+
+// The core's texture references, which tinygltf has as three alike structures.
+template <class Info>
+TextureRef reference(const Info& info) {
+    TextureRef ref;
+    ref.texture = info.index;
+    ref.texcoord = info.texCoord;
+    const auto transform = info.extensions.find("KHR_texture_transform");
+    if (transform != info.extensions.end()) set_transform(ref, transform->second);
+    return ref;
+}
+
+// Those within extensions, which it leaves as values.
+void set(TextureRef& ref, const Value& owner, const char* key) {
+    if (!owner.Has(key)) return;
+    const Value& info = owner.Get(key);
+    ref.texture = info.Get("index").GetNumberAsInt();
+    if (info.Has("texCoord")) ref.texcoord = info.Get("texCoord").GetNumberAsInt();
+    if (!info.Has("extensions")) return;
+    const Value& extensions = info.Get("extensions");
+    if (extensions.Has("KHR_texture_transform")) set_transform(ref, extensions.Get("KHR_texture_transform"));
+}
+
+void read_extensions(const ExtensionMap& extensions, Material& m) {
+    const auto each = [&](const char* name, auto read) {
+        const auto extension = extensions.find(name);
+        if (extension != extensions.end()) read(extension->second);
+    };
+    each("KHR_materials_clearcoat", [&](const Value& v) {
+        set(m.clearcoat, v, "clearcoatFactor");
+        set(m.clearcoat_texture, v, "clearcoatTexture");
+        set(m.clearcoat_roughness, v, "clearcoatRoughnessFactor");
+        set(m.clearcoat_roughness_texture, v, "clearcoatRoughnessTexture");
+        set(m.clearcoat_normal_texture, v, "clearcoatNormalTexture");
+    });
+    each("KHR_materials_anisotropy", [&](const Value& v) {
+        set(m.anisotropy, v, "anisotropyStrength");
+        set(m.anisotropy_rotation, v, "anisotropyRotation");
+        set(m.anisotropy_texture, v, "anisotropyTexture");
+    });
+    each("KHR_materials_ior", [&](const Value& v) { set(m.ior, v, "ior"); });
+    each("KHR_materials_specular", [&](const Value& v) {
+        set(m.specular, v, "specularFactor");
+        set(m.specular_texture, v, "specularTexture");
+        if (v.Has("specularColorFactor")) m.specular_color = vec3(v.Get("specularColorFactor"));
+        set(m.specular_color_texture, v, "specularColorTexture");
+    });
+    each("KHR_materials_emissive_strength",
+         [&](const Value& v) { set(m.emissive_strength, v, "emissiveStrength"); });
+}
+
+}  // namespace
+
+Status read_materials(const Document& document, Model& model) {
+    for (std::size_t i = 0; i < document.gltf.materials.size(); ++i) {
+        const tinygltf::Material& from = document.gltf.materials[i];
+        const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+        Material m;
+        m.name = from.name;
+        m.base_color = vec4(pbr.baseColorFactor);
+        m.metallic = static_cast<float>(pbr.metallicFactor);
+        m.roughness = static_cast<float>(pbr.roughnessFactor);
+        m.base_color_texture = reference(pbr.baseColorTexture);
+        m.metallic_roughness_texture = reference(pbr.metallicRoughnessTexture);
+        m.normal_texture = reference(from.normalTexture);
+        m.normal_scale = static_cast<float>(from.normalTexture.scale);
+        m.occlusion_texture = reference(from.occlusionTexture);
+        m.occlusion_strength = static_cast<float>(from.occlusionTexture.strength);
+        m.emissive_texture = reference(from.emissiveTexture);
+        m.emissive = vec3(from.emissiveFactor);
+        m.alpha_cutoff = static_cast<float>(from.alphaCutoff);
+        m.double_sided = from.doubleSided;
+        if (from.alphaMode == "MASK") {
+            m.alpha_mode = AlphaMode::mask;
+        } else if (from.alphaMode == "BLEND") {
+            m.alpha_mode = AlphaMode::blend;
+        } else if (from.alphaMode != "OPAQUE") {
+            return bad(document, fmt::format("/materials/{}/alphaMode", i), "is '" + from.alphaMode + "'",
+                       "OPAQUE, MASK or BLEND");
+        }
+        read_extensions(from.extensions, m);
+        if (m.ior != 0.0F && m.ior < 1.0F)
+            return bad(document, fmt::format("/materials/{}/extensions/KHR_materials_ior/ior", i),
+                       "is less than that of a vacuum", "0 or at least 1");
+        model.materials.push_back(std::move(m));
+    }
+    return {};
+}
+
+}  // namespace bolt::assets
