@@ -6,6 +6,16 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(zstd REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(embree 3 REQUIRED)
+
+# The author's tools that read and make STEP files; without it everything else still builds. Under sanitizers it is left out:
+# most of the time would go into OpenCASCADE itself, which is not instrumented.
+option(BOLT_OPENCASCADE "Build import-step and the programs that make models" ON)
+if(BOLT_OPENCASCADE)
+    find_package(OpenCASCADE QUIET)
+endif()
 
 # ./run needs neither; ./test installs both and fails if there is no test to run.
 find_package(doctest QUIET)

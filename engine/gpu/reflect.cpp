@@ -60,11 +60,14 @@ Result<Reflection> reflect(std::span<const std::uint32_t> spirv) {
     spvc_parsed_ir parsed = nullptr;
     spvc_compiler compiler = nullptr;
     spvc_resources resources = nullptr;
+    spvc_set active = nullptr;  // what the shader uses, of what its includes declare
     const bool read =
         spvc_context_parse_spirv(raw, spirv.data(), spirv.size(), &parsed) == SPVC_SUCCESS &&
         spvc_context_create_compiler(raw, SPVC_BACKEND_NONE, parsed, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
                                      &compiler) == SPVC_SUCCESS &&
-        spvc_compiler_create_shader_resources(compiler, &resources) == SPVC_SUCCESS;
+        spvc_compiler_get_active_interface_variables(compiler, &active) == SPVC_SUCCESS &&
+        spvc_compiler_create_shader_resources_for_active_variables(compiler, &resources, active) ==
+            SPVC_SUCCESS;
     if (!read)
         return fail(ErrorCode::failed,
                     fmt::format("not a SPIR-V shader: {}", spvc_context_get_last_error_string(raw)));

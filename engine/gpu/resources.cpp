@@ -122,7 +122,9 @@ Result<Sampler> make_sampler(const Device& device, const SamplerInfo& given) {
     info.mipmapMode =
         given.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = info.addressModeV = info.addressModeW = given.address;
-    info.anisotropyEnable = given.anisotropy > 1.0F ? features.samplerAnisotropy : VK_FALSE;
+    // llvmpipe walks every texel of an ellipse: a second a picture, and for ever where derivatives are large.
+    const bool software = device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info.anisotropyEnable = given.anisotropy > 1.0F && !software ? features.samplerAnisotropy : VK_FALSE;
     info.maxAnisotropy = std::min(given.anisotropy, device.limits().maxSamplerAnisotropy);
     info.compareEnable = given.compares ? VK_TRUE : VK_FALSE;
     info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;

@@ -12,5 +12,7 @@ void add_train(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
+void add_render(CLI::App& app, int& exit_code);
+void add_doctor(CLI::App& app, int& exit_code);
 
 }  // namespace bolt::cli

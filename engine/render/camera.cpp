@@ -1,0 +1,91 @@
+#include "engine/render/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace bolt::render {
+
+namespace {
+
+// The frustum through [left, right] × [bottom, top] at distance 1.
+glm::mat4 frustum(float left, float right, float bottom, float top, float znear, float zfar) {
+    glm::mat4 m(0.0F);
+    m[0][0] = 2.0F / (right - left);
+    m[1][1] = -2.0F / (top - bottom);
+    m[2][0] = (right + left) / (right - left);
+    m[2][1] = -(top + bottom) / (top - bottom);
+    m[2][2] = znear / (zfar - znear);
+    m[2][3] = -1.0F;
+    m[3][2] = znear * zfar / (zfar - znear);
+    return m;
+}
+
+}  // namespace
+
+glm::mat4 perspective(const Perspective& p) {
+    const float half = std::tan(0.5F * p.fov);
+    return frustum(-half * p.aspect, half * p.aspect, -half, half, p.znear, p.zfar);
+}
+
+glm::mat4 look_at(const glm::vec3& eye, const glm::vec3& target) {
+    const glm::vec3 way = target - eye;
+    const bool vertical = std::abs(way.x) + std::abs(way.z) < 1e-4F * std::abs(way.y);
+    return glm::lookAtRH(eye, target, vertical ? glm::vec3(0, 0, way.y < 0.0F ? -1 : 1) : glm::vec3(0, 1, 0));
+}
+
+Eye make_eye(const glm::vec3& eye, const glm::vec3& target, const Perspective& p) {
+    return {eye, perspective(p) * look_at(eye, target)};
+}
+
+Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& lower_right,
+                  const glm::vec3& upper_left, float znear, float zfar) {
+    const glm::vec3 right = glm::normalize(lower_right - lower_left);
+    const glm::vec3 up = glm::normalize(upper_left - lower_left);
+    const glm::vec3 normal = glm::cross(right, up);
+    const glm::vec3 a = lower_left - eye;
+    const float distance = -glm::dot(a, normal);
+    const float left = glm::dot(a, right) / distance, bottom = glm::dot(a, up) / distance;
+    const float width = glm::length(lower_right - lower_left) / distance,
+                height = glm::length(upper_left - lower_left) / distance;
+    const glm::mat4 turn = glm::transpose(
+        glm::mat4(glm::vec4(right, 0), glm::vec4(up, 0), glm::vec4(normal, 0), glm::vec4(0, 0, 0, 1)));
+    return {eye, frustum(left, left + width, bottom, bottom + height, znear, zfar) * turn *
+                     glm::translate(glm::mat4(1.0F), -eye)};
+}
+
+glm::vec3 framing_eye(const Box& box, const glm::vec3& side, const Perspective& p) {
+    const glm::vec3 middle = 0.5F * (box.low + box.high), back = glm::normalize(side);
+    const glm::mat4 view = look_at(middle + back, middle);
+    const float tan_y = std::tan(0.5F * p.fov), tan_x = tan_y * p.aspect;
+    float distance = 0.0F;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 point((corner & 1) != 0 ? box.high.x : box.low.x,
+                              (corner & 2) != 0 ? box.high.y : box.low.y,
+                              (corner & 4) != 0 ? box.high.z : box.low.z);
+        const glm::vec3 seen =
+            glm::vec3(view * glm::vec4(point, 1.0F)) + glm::vec3(0, 0, 1);  // from the middle
+        distance = std::max({distance, std::abs(seen.x) / tan_x + seen.z, std::abs(seen.y) / tan_y + seen.z});
+    }
+    return middle + back * (1.04F * distance);
+}
+
+bool in_sight(const Box& box, const glm::mat4& clip_from_world) {
+    glm::vec4 corners[8];
+    for (int i = 0; i < 8; ++i)
+        corners[i] = clip_from_world * glm::vec4((i & 1) != 0 ? box.high.x : box.low.x,
+                                                 (i & 2) != 0 ? box.high.y : box.low.y,
+                                                 (i & 4) != 0 ? box.high.z : box.low.z, 1.0F);
+    const auto all = [&](auto outside) {
+        return std::all_of(std::begin(corners), std::end(corners), outside);
+    };
+    return !(all([](const glm::vec4& c) { return c.x < -c.w; }) ||
+             all([](const glm::vec4& c) { return c.x > c.w; }) ||
+             all([](const glm::vec4& c) { return c.y < -c.w; }) ||
+             all([](const glm::vec4& c) { return c.y > c.w; }) ||
+             all([](const glm::vec4& c) { return c.z > c.w; }) ||
+             all([](const glm::vec4& c) { return c.z < 0.0F; }));
+}
+
+}  // namespace bolt::render

@@ -1,0 +1,20 @@
+// An environment prepared for the GPU.
+#pragma once
+
+#include "engine/gpu/resources.hpp"
+#include "engine/shading/prefilter.hpp"
+
+namespace bolt::render {
+
+struct EnvironmentLight {
+    gpu::Image levels;  // specular, from sharp to rough
+    shading::Harmonics diffuse{};
+};
+
+Result<EnvironmentLight> upload_environment(gpu::Device& device, const shading::RadianceImage& image,
+                                            std::uint32_t size = 128);
+
+// The table of directional albedos (engine/shading/albedo.hpp): columns √cos, rows roughness.
+Result<gpu::Image> upload_albedo_table(gpu::Device& device);
+
+}  // namespace bolt::render

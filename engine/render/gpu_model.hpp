@@ -1,0 +1,73 @@
+// A model as the GPU draws it: all meshes in three buffers, materials as the shader reads them, textures.
+#pragma once
+
+#include <optional>
+
+#include "engine/assets/model.hpp"
+#include "engine/gpu/resources.hpp"
+#include "shaders/shared.h"
+
+namespace bolt::render {
+
+struct Box {
+    glm::vec3 low{1e30F}, high{-1e30F};
+
+    void add(const glm::vec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    [[nodiscard]] bool empty() const { return low.x > high.x; }
+};
+
+// The corners of a box moved by a transform, boxed again.
+Box transformed(const Box& box, const glm::mat4& transform);
+
+// What is drawn by one call: a primitive of a mesh.
+struct Part {
+    std::uint32_t first_index = 0, index_count = 0;
+    std::int32_t first_vertex = 0;
+    std::uint32_t material = 0;  // of the model
+    bool colors = false;         // has colours at its vertices
+    Box box;                     // in the mesh's frame, m
+};
+
+struct MeshRange {
+    std::uint32_t first = 0, count = 0;  // parts
+};
+
+// Where a material's five maps come from; −1: none. Order as in shared::Material::uv.
+struct MaterialMaps {
+    std::array<int, 5> textures{-1, -1, -1, -1, -1};  // of the model
+    bool blends = false, double_sided = false;
+};
+
+struct GpuTexture {
+    gpu::Image image;
+    gpu::Sampler sampler;
+};
+
+struct GpuModel {
+    gpu::Buffer positions;   // vec3 float
+    gpu::Buffer attributes;  // VertexAttributes
+    gpu::Buffer indices;     // uint32
+    std::vector<Part> parts;
+    std::vector<MeshRange> meshes;
+    std::vector<shared::Material> materials;  // one more than the model has: the default, last
+    std::vector<MaterialMaps> maps;           // beside materials
+    std::vector<GpuTexture> textures;
+    std::uint64_t triangles = 0;
+};
+
+// 28 bytes beside a position of 12.
+struct VertexAttributes {
+    std::int16_t normal[4];   // snorm
+    std::int16_t tangent[4];  // snorm; w: handedness; zero: none
+    float texcoord[2];
+    std::uint8_t color[4];  // unorm
+};
+static_assert(sizeof(VertexAttributes) == 28);
+
+// Only triangles are drawn; missing normals become those of the faces. Decodes images.
+Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model);
+
+}  // namespace bolt::render

@@ -1,0 +1,137 @@
+#include "engine/render/materials.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/assets/image.hpp"
+#include "engine/gpu/transfer.hpp"
+
+namespace bolt::render {
+
+namespace {
+
+std::array<const assets::TextureRef*, 5> references(const assets::Material& m) {
+    return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
+            &m.emissive_texture};
+}
+
+// KHR_texture_transform: scale, then turn, then move.
+void set_uv(shared::Material& to, std::size_t map, const assets::TextureRef& t) {
+    const float c = std::cos(t.rotation), s = std::sin(t.rotation);
+    to.uv[2 * map] = {c * t.scale.x, s * t.scale.y, t.offset.x, 0.0F};
+    to.uv[2 * map + 1] = {-s * t.scale.x, c * t.scale.y, t.offset.y, 0.0F};
+}
+
+VkSamplerAddressMode address_mode(assets::Wrap wrap) {
+    switch (wrap) {
+        case assets::Wrap::clamp:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        case assets::Wrap::mirror:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case assets::Wrap::repeat:
+            break;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
+// Eight bits and four channels, whatever the file has.
+std::vector<std::uint8_t> four_channels(const assets::Image& image) {
+    const auto count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    std::vector<std::uint8_t> texels(4 * count, 255);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < 4; ++c) {
+            const std::size_t from = channels >= 3 ? c : c < 3 ? 0 : 1;  // grey, grey with alpha
+            if (from < channels) texels[4 * i + c] = image.pixels[channels * i + from];
+        }
+    return texels;
+}
+
+Result<gpu::Image> upload_texels(gpu::Device& device, std::uint32_t width, std::uint32_t height, bool srgb,
+                                 bool mips, std::span<const std::uint8_t> texels) {
+    gpu::ImageInfo info;
+    info.format = srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+    info.extent = {width, height};
+    info.mips = mips ? static_cast<std::uint32_t>(std::bit_width(std::max(width, height))) : 1;
+    info.usage =
+        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    Result<gpu::Image> image = gpu::Image::create(device, info);
+    if (!image) return image;
+    if (Status done = gpu::upload_image(device, *image, std::as_bytes(texels)); !done)
+        return fail(done.error());
+    return image;
+}
+
+}  // namespace
+
+shared::Material make_material(const assets::Material& m) {
+    shared::Material to{};
+    to.base_color = m.base_color;
+    const float cutoff = m.alpha_mode == assets::AlphaMode::mask    ? m.alpha_cutoff
+                         : m.alpha_mode == assets::AlphaMode::blend ? -2.0F
+                                                                    : -1.0F;
+    to.emissive = glm::vec4(m.emissive * m.emissive_strength, cutoff);
+    to.specular_color = glm::vec4(m.specular_color, m.specular);
+    to.metallic = m.metallic;
+    to.roughness = m.roughness;
+    to.coat = m.clearcoat;
+    to.coat_roughness = m.clearcoat_roughness;
+    const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
+    to.f0 = r * r;
+    to.anisotropy = m.anisotropy;
+    to.anisotropy_rotation = m.anisotropy_rotation;
+    to.normal_scale = m.normal_scale;
+    to.occlusion_strength = m.occlusion_strength;
+    const auto maps = references(m);
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        set_uv(to, i, *maps[i]);
+        if (maps[i]->texture >= 0) to.textures |= 1U << i;
+    }
+    return to;
+}
+
+MaterialMaps maps_of(const assets::Material& m) {
+    MaterialMaps maps;
+    const auto from = references(m);
+    for (std::size_t i = 0; i < from.size(); ++i) maps.textures[i] = from[i]->texture;
+    maps.blends = m.alpha_mode == assets::AlphaMode::blend;
+    maps.double_sided = m.double_sided;
+    return maps;
+}
+
+Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const assets::Model& model) {
+    // A texture holds colours if a material uses it for some: base colour and emission.
+    std::vector<bool> color(model.textures.size(), false);
+    for (const assets::Material& material : model.materials)
+        for (const assets::TextureRef* ref : {&material.base_color_texture, &material.emissive_texture})
+            if (ref->texture >= 0) color[static_cast<std::size_t>(ref->texture)] = true;
+    std::vector<GpuTexture> textures;
+    for (std::size_t i = 0; i < model.textures.size(); ++i) {
+        const assets::Texture& texture = model.textures[i];
+        assets::Image image = model.images[static_cast<std::size_t>(texture.image)];
+        if (Status decoded = assets::decode(image); !decoded) return fail(decoded.error());
+        Result<gpu::Image> uploaded = upload_texels(device, static_cast<std::uint32_t>(image.width),
+                                                    static_cast<std::uint32_t>(image.height), color[i],
+                                                    texture.mipmapped, four_channels(image));
+        if (!uploaded) return fail(uploaded.error());
+        gpu::SamplerInfo info;
+        info.filter = texture.mag == assets::Filter::nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+        info.address = address_mode(texture.wrap_s);
+        info.anisotropy = 8.0F;
+        Result<gpu::Sampler> sampler = gpu::make_sampler(device, info);
+        if (!sampler) return fail(sampler.error());
+        textures.push_back({std::move(*uploaded), std::move(*sampler)});
+    }
+    return textures;
+}
+
+Result<GpuTexture> plain_texture(gpu::Device& device, const std::array<std::uint8_t, 4>& texel) {
+    Result<gpu::Image> image = upload_texels(device, 1, 1, false, false, texel);
+    if (!image) return fail(image.error());
+    Result<gpu::Sampler> sampler = gpu::make_sampler(device, {});
+    if (!sampler) return fail(sampler.error());
+    return GpuTexture{std::move(*image), std::move(*sampler)};
+}
+
+}  // namespace bolt::render

@@ -1,0 +1,17 @@
+// A picture on the CPU: what offscreen rendering is for.
+#pragma once
+
+#include "engine/render/renderer.hpp"
+
+namespace bolt::render {
+
+struct Picture {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;  // sRGB, rows from the top
+};
+
+// One picture for each eye.
+Result<std::vector<Picture>> take_pictures(gpu::Device& device, gpu::Frames& frames, Renderer& renderer,
+                                           const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent);
+
+}  // namespace bolt::render

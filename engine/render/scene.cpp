@@ -1,0 +1,80 @@
+#include "engine/render/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/assets/topology.hpp"
+
+namespace bolt::render {
+
+namespace {
+
+// Visits the nodes of the default scene.
+template <class Visit>
+void walk(const assets::Model& model, const Visit& visit) {
+    std::vector<int> waiting(model.roots.rbegin(), model.roots.rend());
+    while (!waiting.empty()) {
+        const auto node = static_cast<std::size_t>(waiting.back());
+        waiting.pop_back();
+        visit(node);
+        waiting.insert(waiting.end(), model.nodes[node].children.rbegin(), model.nodes[node].children.rend());
+    }
+}
+
+shared::Light make_light(const assets::Light& light, const glm::mat4& world) {
+    shared::Light to{};
+    const glm::vec3 forward = -glm::normalize(glm::vec3(world[2]));
+    to.color = glm::vec4(light.color * light.intensity, 0.0F);
+    to.direction = glm::vec4(forward, light.range);
+    to.position = glm::vec4(glm::vec3(world[3]), light.type == assets::LightType::directional ? 0.0F
+                                                 : light.type == assets::LightType::point     ? 1.0F
+                                                                                              : 2.0F);
+    const float inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
+    to.cone.x = 1.0F / std::max(inner - outer, 1e-3F);
+    to.cone.y = -outer * to.cone.x;
+    return to;
+}
+
+}  // namespace
+
+void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const glm::mat4& world) {
+    const std::vector<glm::mat4> transforms = assets::world_transforms(model);
+    walk(model, [&](std::size_t node) {
+        if (model.nodes[node].mesh < 0) return;
+        Object object;
+        object.model = &gpu_model;
+        object.mesh = static_cast<std::uint32_t>(model.nodes[node].mesh);
+        object.world = world * transforms[node];
+        scene.objects.push_back(object);
+    });
+}
+
+void place_lights(Scene& scene, const assets::Model& model, const glm::mat4& world) {
+    const std::vector<glm::mat4> transforms = assets::world_transforms(model);
+    walk(model, [&](std::size_t node) {
+        if (model.nodes[node].light < 0) return;
+        const assets::Light& light = model.lights[static_cast<std::size_t>(model.nodes[node].light)];
+        scene.lights.push_back({make_light(light, world * transforms[node]), false});
+    });
+    const auto directional = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                          [](const SceneLight& l) { return l.light.position.w == 0.0F; });
+    if (directional == scene.lights.end()) return;
+    std::rotate(scene.lights.begin(), directional, directional + 1);
+    scene.lights.front().casts_shadow = true;
+}
+
+Box bounds(const Scene& scene) {
+    Box box;
+    for (const Object& object : scene.objects) {
+        const MeshRange range = object.model->meshes[object.mesh];
+        for (std::uint32_t i = 0; i < range.count; ++i) {
+            const Box moved = transformed(object.model->parts[range.first + i].box, object.world);
+            box.add(moved.low);
+            box.add(moved.high);
+        }
+    }
+    return box;
+}
+
+}  // namespace bolt::render

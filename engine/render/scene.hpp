@@ -1,0 +1,52 @@
+// What is to be drawn: plain values, filled anew for every frame.
+#pragma once
+
+#include <string>
+
+#include "engine/render/environment_light.hpp"
+#include "engine/render/gpu_model.hpp"
+
+namespace bolt::render {
+
+struct Object {
+    const GpuModel* model = nullptr;
+    std::uint32_t mesh = 0;
+    glm::mat4 world{1.0F};
+    glm::vec4 tint{0.0F};  // w: how much of the material's colour it replaces
+    float opacity = 1.0F;  // below 1: a ghost
+    bool flat = false;     // its own colour, without light
+    bool moves = false;    // drawn into the shadow map anew each frame
+};
+
+struct SceneLight {
+    shared::Light light{};
+    bool casts_shadow = false;  // the first light only, if it is directional
+};
+
+struct Scene {
+    std::vector<Object> objects;
+    std::vector<SceneLight> lights;
+    const EnvironmentLight* environment = nullptr;
+    float environment_intensity = 1.0F;
+    float environment_turn = 0.0F;  // rad about Y
+    float exposure = 1.0F;
+    glm::vec4 background{0.0F};  // w: 1 shows it, 0 the environment
+};
+
+// A point of view. Any projection with depth 1 near and 0 far.
+struct Eye {
+    glm::vec3 position{0.0F};
+    glm::mat4 clip_from_world{1.0F};
+};
+
+// The meshes of a model's default scene where its nodes stand, moved by `world`.
+void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
+           const glm::mat4& world = glm::mat4(1.0F));
+
+// KHR_lights_punctual lights of the model. The first directional one is moved to the front and casts a
+// shadow.
+void place_lights(Scene& scene, const assets::Model& model, const glm::mat4& world = glm::mat4(1.0F));
+
+Box bounds(const Scene& scene);
+
+}  // namespace bolt::render

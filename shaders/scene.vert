@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_multiview : require
+#include "shaders/frame.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 texcoord;
+layout(location = 4) in vec4 color;
+
+layout(location = 0) out vec3 at;
+layout(location = 1) out vec3 normal_out;
+layout(location = 2) out vec4 tangent_out;
+layout(location = 3) out vec2 texcoord_out;
+layout(location = 4) out vec4 color_out;
+layout(location = 5) flat out uint instance_out;
+
+void main() {
+    const Instance instance = instances[gl_InstanceIndex];
+    const vec4 world = instance.world_from_object * vec4(position, 1.0);
+    const mat3 m = mat3(instance.world_from_object);
+    // Normals go by the cofactors: right for every scale, and for mirrored parts after the sign of the determinant.
+    const mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+    const float side = dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
+    at = world.xyz;
+    normal_out = side * (cofactors * normal.xyz);
+    tangent_out = vec4(m * tangent.xyz, side * tangent.w);
+    texcoord_out = texcoord;
+    color_out = color;
+    instance_out = uint(gl_InstanceIndex);
+    gl_Position = frame.views[gl_ViewIndex].clip_from_world * world;
+}

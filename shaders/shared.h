@@ -1,0 +1,90 @@
+// What CPU and GPU share: compiled as GLSL (std430 and std140 lay these out alike: every member is a vec4, a mat4 or four
+// scalars) and as C++ (offsets asserted in engine/render/shared.cpp).
+#ifndef BOLT_SHADERS_SHARED_H
+#define BOLT_SHADERS_SHARED_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+namespace bolt::render::shared {
+using uint = std::uint32_t;
+using vec4 = glm::vec4;
+using mat4 = glm::mat4;
+#endif
+
+// One eye, wall or screen.
+struct View {
+    mat4 clip_from_world;
+    mat4 world_from_clip;
+    vec4 eye;  // metres; w unused
+};
+
+struct Light {
+    vec4 position;   // w: 0 directional, 1 point, 2 spot
+    vec4 direction;  // in which it shines; w: range, 0: unlimited
+    vec4 color;      // times intensity; w unused
+    vec4 cone;       // spot: scale and offset of the cosine
+};
+
+#define MAX_VIEWS 4
+#define MAX_LIGHTS 8
+
+struct Frame {
+    View views[MAX_VIEWS];
+    Light lights[MAX_LIGHTS];
+    vec4 diffuse[9];        // of the environment: shading::Harmonics
+    mat4 shadow_from_world; // of light 0, when it casts a shadow
+    vec4 environment;       // x: intensity, y: turn about Y, rad, z: highest level of the specular chain, w: exposure
+    vec4 picture;           // width, height, 1/width, 1/height
+    vec4 background;        // rgb; w: 1 show it, 0 show the environment
+    uint light_count;
+    uint shadows;           // 1: light 0 casts a shadow
+    uint view_count;
+    uint unused;
+};
+
+struct Instance {
+    mat4 world_from_object;
+    vec4 tint;      // w: 0 as it is … 1 replaced by rgb
+    uint material;
+    uint flags;     // INSTANCE_…
+    float opacity;
+    uint unused;
+};
+
+#define INSTANCE_FLAT 1u   // no light: the colour itself (guides, marks)
+
+struct Material {
+    vec4 base_color;
+    vec4 emissive;           // strength included; w: alpha cutoff, below 0: opaque
+    vec4 specular_color;     // rgb; w: specular
+    float metallic;
+    float roughness;
+    float coat;
+    float coat_roughness;
+    float f0;                // ((ior − 1) / (ior + 1))²
+    float anisotropy;
+    float anisotropy_rotation;
+    float normal_scale;
+    float occlusion_strength;
+    uint textures;           // TEXTURE_… bits that are there
+    uint unused_a;
+    uint unused_b;
+    vec4 uv[10];             // two rows a texture: base, metallic-roughness, normal, occlusion, emissive
+};
+
+#define TEXTURE_BASE 1u
+#define TEXTURE_METALLIC_ROUGHNESS 2u
+#define TEXTURE_NORMAL 4u
+#define TEXTURE_OCCLUSION 8u
+#define TEXTURE_EMISSIVE 16u
+
+// Bits of the scene pipelines' specialization constant.
+#define SCENE_TEXTURED 1u
+#define SCENE_VERTEX_COLORS 2u
+
+#ifdef __cplusplus
+}  // namespace bolt::render::shared
+#endif
+#endif

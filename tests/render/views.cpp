@@ -1,0 +1,126 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/base/random.hpp"
+#include "engine/render/draw_list.hpp"
+#include "tests/render/support.hpp"
+
+using namespace bolt;
+using namespace bolt::render;
+
+namespace {
+
+// Three balls of different stuff, lit by the studio.
+struct Still {
+    test::Studio studio;
+    assets::Model model;
+    GpuModel gpu_model;
+    EnvironmentLight light = studio.light(shading::studio(128));
+    Scene scene;
+
+    Still() {
+        assets::Material metal;
+        metal.base_color = {0.9F, 0.6F, 0.3F, 1.0F};
+        metal.roughness = 0.3F;
+        model = test::sphere(metal, 32);
+        gpu_model = studio.upload(model);
+        for (const float x : {-2.2F, 0.0F, 2.2F}) {
+            glm::mat4 world(1.0F);
+            world[3] = {x, 0.2F * x, -0.3F * x, 1.0F};
+            place(scene, model, gpu_model, world);
+        }
+        scene.objects[1].tint = {0.2F, 0.5F, 0.9F, 1.0F};
+        scene.environment = &light;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("several views at once are what single pictures are") {
+    Still still;
+    Perspective p;
+    p.fov = 0.7F;
+    const Eye eyes[] = {make_eye({-0.032F, 0.5F, 8}, {-0.032F, 0, 0}, p),
+                        make_eye({0.032F, 0.5F, 8}, {0.032F, 0, 0}, p)};
+    const std::vector<Picture> both = still.studio.shoot(still.scene, eyes, {96, 96});
+    REQUIRE(both.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Picture one = still.studio.shoot(still.scene, eyes[i], {96, 96});
+        CHECK(test::largest_difference(both[i], one) <= 1);
+    }
+    CHECK(test::largest_difference(both[0], both[1]) > 20);  // they are not the same picture
+}
+
+TEST_CASE("two walls that share an edge make the picture of one wall without a seam") {
+    Still still;
+    const glm::vec3 eye(0.4F, 0.3F, 8.0F);
+    const auto wall = [&](float from, float to) {
+        return make_wall_eye(eye, {from, -2, 4}, {to, -2, 4}, {from, 2, 4}, 0.1F, 50.0F);
+    };
+    const Picture whole = still.studio.shoot(still.scene, wall(-4, 4), {128, 64});
+    const Picture left = still.studio.shoot(still.scene, wall(-4, 0), {64, 64});
+    const Picture right = still.studio.shoot(still.scene, wall(0, 4), {64, 64});
+    int largest = 0;
+    for (std::uint32_t y = 0; y < 64; ++y)
+        for (std::uint32_t x = 0; x < 128; ++x) {
+            const glm::ivec4 d =
+                test::pixel(whole, x, y) - (x < 64 ? test::pixel(left, x, y) : test::pixel(right, x - 64, y));
+            largest = std::max({largest, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        }
+    CHECK(largest <= 1);
+    // A wall turned by a right angle: a point on the common edge is on both edges.
+    const Eye side = make_wall_eye(eye, {4, -2, 4}, {4, -2, 12}, {4, 2, 4}, 0.1F, 50.0F);
+    const Eye ahead = wall(-4, 4);
+    for (const float y : {-2.0F, 0.0F, 1.5F}) {
+        const glm::vec4 a = ahead.clip_from_world * glm::vec4(4, y, 4, 1),
+                        b = side.clip_from_world * glm::vec4(4, y, 4, 1);
+        CHECK(a.x / a.w == doctest::Approx(1.0).epsilon(1e-4));
+        CHECK(b.x / b.w == doctest::Approx(-1.0).epsilon(1e-4));
+        CHECK(a.y / a.w == doctest::Approx(static_cast<double>(b.y / b.w)).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("the same scene gives the same bits, and another size, back and forth, too") {
+    Still still;
+    Perspective p;
+    const Eye eye = make_eye({1, 1, 8}, {0, 0, 0}, p);
+    const Picture first = still.studio.shoot(still.scene, eye, {80, 60});
+    (void)still.studio.shoot(still.scene, eye, {33, 17});
+    CHECK(still.studio.shoot(still.scene, eye, {80, 60}).rgba == first.rgba);
+}
+
+TEST_CASE("culling never loses what is in sight, and instances are gathered") {
+    Still still;
+    Random random(5);
+    Perspective p;
+    for (int round = 0; round < 2000; ++round) {
+        const auto coordinate = [&] { return static_cast<float>(random.uniform(-5.0, 5.0)); };
+        const Eye eye = make_eye({coordinate(), coordinate(), coordinate()},
+                                 {coordinate(), coordinate(), coordinate()}, p);
+        Box box;
+        for (int i = 0; i < 2; ++i) box.add({coordinate(), coordinate(), coordinate()});
+        bool visible = false;
+        for (int i = 0; i < 50; ++i) {
+            const auto between = [&](int axis) {
+                return static_cast<float>(
+                    random.uniform(static_cast<double>(box.low[axis]), static_cast<double>(box.high[axis])));
+            };
+            const glm::vec4 c = eye.clip_from_world * glm::vec4(between(0), between(1), between(2), 1.0F);
+            visible |=
+                c.w > 0.0F && std::abs(c.x) <= c.w && std::abs(c.y) <= c.w && c.z >= 0.0F && c.z <= c.w;
+        }
+        if (visible) REQUIRE(in_sight(box, eye.clip_from_world));
+    }
+    const Eye away = make_eye({0, 0, 8}, {0, 0, 20}, p);
+    CHECK(make_draw_list(still.scene, {&away, 1}).draws.empty());
+    const Eye eye = make_eye({0, 0, 12}, {0, 0, 0}, p);
+    const DrawList list = make_draw_list(still.scene, {&eye, 1});
+    REQUIRE(list.draws.size() == 1);
+    CHECK(list.draws[0].instances == 3);
+    still.scene.objects[0].opacity = 0.5F;
+    const DrawList ghost = make_draw_list(still.scene, {&eye, 1});
+    REQUIRE(ghost.draws.size() == 2);
+    CHECK_FALSE(ghost.draws[0].kind.blends);
+    CHECK(ghost.draws[1].kind.blends);
+}
