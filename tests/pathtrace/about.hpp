@@ -1,0 +1,11 @@
+// doctest's approximation of floats, which it takes as doubles.
+#pragma once
+
+#include <doctest/doctest.h>
+
+namespace bolt {
+
+inline doctest::Approx about(double value) { return doctest::Approx(value); }
+inline doctest::Approx about(float value) { return doctest::Approx(static_cast<double>(value)); }
+
+}  // namespace bolt

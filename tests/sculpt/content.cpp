@@ -1,0 +1,53 @@
+#include "tools/sculpt/content_files.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "engine/assets/gltf.hpp"
+#include "engine/base/file.hpp"
+
+using namespace bolt;
+
+namespace {
+
+std::filesystem::path content() {
+    const char* path = std::getenv("BOLTWRIGHT_CONTENT");
+    return path == nullptr ? "content" : path;
+}
+
+void check_same(const std::filesystem::path& made, const std::filesystem::path& name) {
+    CAPTURE(name);
+    const Result<std::string> now = read_file(made / name, std::size_t{16} << 20U, ErrorCode::failed);
+    const Result<std::string> kept = read_file(content() / name, std::size_t{16} << 20U, ErrorCode::failed);
+    REQUIRE(now.has_value());
+    REQUIRE(kept.has_value());
+    const bool same = *now == *kept;
+    CHECK_MESSAGE(same, "not what bolt-sculpt makes: run bolt-sculpt all -o content");
+    CHECK(now->size() <= (std::size_t{8} << 20U));
+}
+
+}  // namespace
+
+TEST_CASE("Making hands, workshop and environment again gives the files that are kept") {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "bolt_sculpt_test";
+    std::filesystem::remove_all(folder);
+    REQUIRE(sculpt::write_hands(folder).has_value());
+    REQUIRE(sculpt::write_workshop(folder).has_value());
+    REQUIRE(sculpt::write_environment(folder).has_value());
+    check_same(folder, "hands/hand_left.glb");
+    check_same(folder, "hands/hand_right.glb");
+    check_same(folder, "environments/workshop.glb");
+    check_same(folder, "environments/workshop.hdr");
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("The kept files read as models") {
+    const Result<assets::Model> hand = assets::read_gltf(content() / "hands/hand_right.glb");
+    REQUIRE(hand.has_value());
+    CHECK(hand->skins.size() == 1);
+    CHECK(hand->skins[0].joints.size() == 26);
+    const Result<assets::Model> workshop = assets::read_gltf(content() / "environments/workshop.glb");
+    REQUIRE(workshop.has_value());
+    CHECK(workshop->lights.size() >= 3);
+}

@@ -1,0 +1,133 @@
+#include "tools/sculpt/pose.hpp"
+
+#include <doctest/doctest.h>
+
+#include "support.hpp"
+#include "tools/sculpt/field.hpp"
+
+using namespace bolt;
+using namespace bolt::sculpt;
+
+namespace {
+
+TriMesh bent(const assets::Model& hand, const Pose& pose) {
+    const Result<assets::Model> out = posed(hand, pose);
+    REQUIRE(out.has_value());
+    return test::as_stored(*out);
+}
+
+// The digit that a point past the web belongs to; 5: palm or cuff.
+std::size_t digit_of(const Vec3& p) {
+    std::size_t best = 0;
+    for (std::size_t d = 1; d < 5; ++d) {
+        if (test::shape().finger(d, p) < test::shape().finger(best, p)) best = d;
+    }
+    const double web = test::shape().travel(best, 1) + (best == 0 ? 16 * mm : 24 * mm);
+    const bool own = test::shape().along(best, p).travel > web && test::shape().finger(best, p) < 1.5 * mm;
+    return own ? best : 5;
+}
+
+}  // namespace
+
+TEST_CASE("At rest the skin is the mesh itself") {
+    const TriMesh rest = test::as_stored(test::hands().right);
+    const TriMesh same = bent(test::hands().right, Pose());
+    double furthest = 0.0;
+    for (std::size_t i = 0; i < rest.positions.size(); ++i) {
+        furthest = std::max(furthest, glm::length(rest.positions[i] - same.positions[i]));
+    }
+    CHECK(furthest < 2e-6);
+}
+
+TEST_CASE("A bent finger leaves its neighbours where they are") {
+    const TriMesh rest = test::as_stored(test::hands().right);
+    for (std::size_t moved = 0; moved < 5; ++moved) {
+        Pose pose;
+        const Digit& digit = digits[moved];
+        for (std::size_t k = 1; k + 1 < digit.count; ++k) pose.flex(digit.first + k, 60.0);
+        const TriMesh now = bent(test::hands().right, pose);
+        std::array<double, 6> furthest{};
+        std::array<std::size_t, 6> count{};
+        for (std::size_t i = 0; i < rest.positions.size(); ++i) {
+            const std::size_t owner = digit_of(rest.positions[i]);
+            furthest[owner] = std::max(furthest[owner], glm::length(rest.positions[i] - now.positions[i]));
+            ++count[owner];
+        }
+        for (std::size_t d = 0; d < 5; ++d) {
+            CAPTURE(moved);
+            CAPTURE(d);
+            CHECK(count[d] > 100);
+            if (d == moved) {
+                CHECK(furthest[d] > 25 * mm);
+            } else {
+                CHECK(furthest[d] < 2e-6);
+            }
+        }
+    }
+}
+
+TEST_CASE("Poses keep the hand's volume and turn hardly a triangle over") {
+    for (const bool left : {false, true}) {
+        const assets::Model& hand = left ? test::hands().left : test::hands().right;
+        const TriMesh rest = test::as_stored(hand);
+        const double whole = volume(weld(rest));
+        for (const std::string_view name : pose_names) {
+            CAPTURE(name);
+            const Pose pose = *named_pose(name);
+            const Result<assets::Model> out = posed(hand, left ? mirrored(pose) : pose);
+            REQUIRE(out.has_value());
+            const TriMesh now = test::as_stored(*out);
+            CHECK(volume(now) > 0.85 * whole);
+            CHECK(volume(now) < 1.15 * whole);
+            // Turned over: the triangle looks against the normals that its own corners carry along.
+            std::size_t over = 0;
+            std::size_t t = 0;
+            double area_over = 0.0;
+            double area = 0.0;
+            for (const assets::Primitive& part : out->meshes[0].primitives) {
+                for (std::size_t i = 0; i < part.indices.size(); i += 3, ++t) {
+                    Vec3 mean(0.0);
+                    for (std::size_t k = 0; k < 3; ++k) mean += Vec3(part.normals[part.indices[i + k]]);
+                    const Vec3 looks = area_vector(now, now.triangles[t]);
+                    area += glm::length(looks);
+                    if (glm::dot(mean, looks) >= 0.0) continue;
+                    ++over;
+                    area_over += glm::length(looks);
+                }
+            }
+            // Linear blending folds the skin into itself inside a joint bent by a right angle; nobody sees
+            // it.
+            CHECK(over < now.triangles.size() / 33);
+            CHECK(area_over < 0.01 * area);
+        }
+    }
+}
+
+TEST_CASE("In a fist the tips reach the palm; in a pinch thumb and index meet") {
+    const assets::Model& hand = test::hands().right;
+    const Result<Skeleton> rest = posed_joints(hand, Pose());
+    const Result<Skeleton> fist = posed_joints(hand, *named_pose("fist"));
+    const Result<Skeleton> pinch = posed_joints(hand, *named_pose("pinch"));
+    REQUIRE((rest && fist && pinch));
+    for (const std::size_t tip : {index_tip, middle_tip, ring_tip, little_tip}) {
+        CHECK(glm::length(rest->position[tip] - rest->position[palm]) > 75 * mm);
+        CHECK(glm::length(fist->position[tip] - fist->position[palm]) < 45 * mm);
+    }
+    const double open_gap = glm::length(rest->position[thumb_tip] - rest->position[index_tip]);
+    const double gap = glm::length(pinch->position[thumb_tip] - pinch->position[index_tip]);
+    CHECK(open_gap > 60 * mm);
+    CHECK(gap < 24 * mm);  // the thickness of two finger tips
+}
+
+TEST_CASE("What is no hand is refused") {
+    assets::Model nothing;
+    CHECK_FALSE(posed(nothing, Pose()).has_value());
+    assets::Model lacking = test::hands().right;
+    for (assets::Node& node : lacking.nodes) {
+        if (node.name == "ring_distal") node.name = "ring_dsital";
+    }
+    const Result<assets::Model> out = posed(lacking, Pose());
+    REQUIRE_FALSE(out.has_value());
+    CHECK(out.error().what.find("ring_distal") != std::string::npos);
+    CHECK_FALSE(named_pose("wave").has_value());
+}

@@ -1,0 +1,57 @@
+// The Trowbridge–Reitz distribution and what goes with it, in the frame whose third axis is the normal.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+
+namespace bolt::pathtrace {
+
+inline float pow5(float x) { return x * x * x * x * x; }
+
+inline float ggx(const glm::vec3& half, const glm::vec2& alpha) {
+    const float x = half.x / alpha.x;
+    const float y = half.y / alpha.y;
+    const float t = x * x + y * y + half.z * half.z;
+    return 1.0F / (std::numbers::pi_v<float> * alpha.x * alpha.y * t * t);
+}
+
+// |v| stretched by the roughness: the root in Smith's functions.
+inline float stretched(const glm::vec3& v, const glm::vec2& alpha) {
+    return std::sqrt(alpha.x * alpha.x * v.x * v.x + alpha.y * alpha.y * v.y * v.y + v.z * v.z);
+}
+
+// Smith's height-correlated G2 over 4 N·L N·V (Heitz 2014, eq. 99).
+inline float visibility(const glm::vec3& out, const glm::vec3& in, const glm::vec2& alpha) {
+    return 0.5F / (in.z * stretched(out, alpha) + out.z * stretched(in, alpha));
+}
+
+inline float masking(const glm::vec3& v, const glm::vec2& alpha) {
+    return 2.0F * v.z / (v.z + stretched(v, alpha));
+}
+
+// A half vector as `out` sees them. E. Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 7(4),
+// 2018.
+inline glm::vec3 sample_half(const glm::vec3& out, const glm::vec2& alpha, const glm::vec2& u) {
+    const glm::vec3 v = glm::normalize(glm::vec3(alpha.x * out.x, alpha.y * out.y, out.z));
+    const float flat = v.x * v.x + v.y * v.y;
+    const glm::vec3 t1 = flat > 1e-12F ? glm::vec3(-v.y, v.x, 0.0F) / std::sqrt(flat) : glm::vec3(1, 0, 0);
+    const glm::vec3 t2 = glm::cross(v, t1);
+    const float radius = std::sqrt(u.x);
+    const float angle = 2.0F * std::numbers::pi_v<float> * u.y;
+    const float x = radius * std::cos(angle);
+    const float s = 0.5F * (1.0F + v.z);
+    const float y = (1.0F - s) * std::sqrt(std::max(0.0F, 1.0F - x * x)) + s * radius * std::sin(angle);
+    const glm::vec3 n = x * t1 + y * t2 + std::sqrt(std::max(0.0F, 1.0F - x * x - y * y)) * v;
+    return glm::normalize(glm::vec3(alpha.x * n.x, alpha.y * n.y, std::max(1e-7F, n.z)));
+}
+
+// Per solid angle of the reflected direction.
+inline float half_density(const glm::vec3& out, const glm::vec3& half, const glm::vec2& alpha) {
+    return masking(out, alpha) * ggx(half, alpha) / (4.0F * out.z);
+}
+
+}  // namespace bolt::pathtrace

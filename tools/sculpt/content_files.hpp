@@ -1,0 +1,14 @@
+// The files below content/ that this program makes.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/base/result.hpp"
+
+namespace bolt::sculpt {
+
+Status write_hands(const std::filesystem::path& content);        // hands/hand_{left,right}.glb
+Status write_workshop(const std::filesystem::path& content);     // environments/workshop.glb
+Status write_environment(const std::filesystem::path& content);  // environments/workshop.hdr
+
+}  // namespace bolt::sculpt

@@ -1,0 +1,101 @@
+// The 26 joints of XR_EXT_hand_tracking (OpenXR 1.0, section 12.31) in a relaxed open hand. Frames as the
+// extension has them: −Z from the wrist towards the tip along the bone that begins at the joint, +Y out of
+// the back of the hand or nail, +X to the right. Positions in the frame of the wrist joint, metres.
+//
+// Lengths of the bones and of the soft tissue at the tips: A. Buryanov, V. Kotiuk, Proportions of hand
+// segments, Int. J. Morphol. 28(3), 2010, 755-758, means of 66 hands. With a carpus of 32 mm the hand is 189
+// mm long, the median man's (S. Pheasant, Bodyspace, 1996: 190 mm long, 87 mm broad).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "engine/base/math.hpp"
+
+namespace bolt::sculpt {
+
+// In the order of XrHandJointEXT; names of nodes are those of the enumeration in lower case.
+enum Joint : std::size_t {
+    palm,
+    wrist,
+    thumb_metacarpal,
+    thumb_proximal,
+    thumb_distal,
+    thumb_tip,
+    index_metacarpal,
+    index_proximal,
+    index_intermediate,
+    index_distal,
+    index_tip,
+    middle_metacarpal,
+    middle_proximal,
+    middle_intermediate,
+    middle_distal,
+    middle_tip,
+    ring_metacarpal,
+    ring_proximal,
+    ring_intermediate,
+    ring_distal,
+    ring_tip,
+    little_metacarpal,
+    little_proximal,
+    little_intermediate,
+    little_distal,
+    little_tip,
+    joint_count
+};
+
+inline constexpr std::array<std::string_view, joint_count> joint_names{"palm",
+                                                                       "wrist",
+                                                                       "thumb_metacarpal",
+                                                                       "thumb_proximal",
+                                                                       "thumb_distal",
+                                                                       "thumb_tip",
+                                                                       "index_metacarpal",
+                                                                       "index_proximal",
+                                                                       "index_intermediate",
+                                                                       "index_distal",
+                                                                       "index_tip",
+                                                                       "middle_metacarpal",
+                                                                       "middle_proximal",
+                                                                       "middle_intermediate",
+                                                                       "middle_distal",
+                                                                       "middle_tip",
+                                                                       "ring_metacarpal",
+                                                                       "ring_proximal",
+                                                                       "ring_intermediate",
+                                                                       "ring_distal",
+                                                                       "ring_tip",
+                                                                       "little_metacarpal",
+                                                                       "little_proximal",
+                                                                       "little_intermediate",
+                                                                       "little_distal",
+                                                                       "little_tip"};
+
+// The wrist's own is joint_count. Everything else hangs on the wrist: palm and metacarpals directly.
+constexpr std::size_t parent_of(std::size_t joint) {
+    if (joint == wrist) return joint_count;
+    const bool first = joint == palm || joint == thumb_metacarpal ||
+                       (joint >= index_metacarpal && (joint - index_metacarpal) % 5 == 0);
+    return first ? static_cast<std::size_t>(wrist) : joint - 1;
+}
+
+// A digit from its metacarpal to its tip: joints first, first + 1, ... first + count − 1.
+struct Digit {
+    std::size_t first = 0, count = 0;
+};
+inline constexpr std::array<Digit, 5> digits{Digit{thumb_metacarpal, 4}, Digit{index_metacarpal, 5},
+                                             Digit{middle_metacarpal, 5}, Digit{ring_metacarpal, 5},
+                                             Digit{little_metacarpal, 5}};
+
+struct Skeleton {
+    std::array<Vec3, joint_count> position{};
+    std::array<Quat, joint_count> rotation{};
+};
+
+// The right hand: its thumb points to −X. The left hand is mirrored() in the plane x = 0.
+Skeleton right_skeleton();
+Skeleton mirrored(const Skeleton& skeleton);
+
+}  // namespace bolt::sculpt

@@ -1,0 +1,88 @@
+// bolt-sculpt: makes the hands, the workshop and its light; the same bytes every time.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "engine/assets/gltf.hpp"
+#include "engine/base/console.hpp"
+#include "engine/base/file.hpp"
+#include "game/cli/program.hpp"
+#include "tools/sculpt/content_files.hpp"
+#include "tools/sculpt/pose.hpp"
+
+namespace {
+
+using bolt::Status;
+using Work = Status (*)(const std::filesystem::path&);
+
+Status make_all(const std::filesystem::path& content) {
+    for (const Work work :
+         {&bolt::sculpt::write_hands, &bolt::sculpt::write_workshop, &bolt::sculpt::write_environment}) {
+        if (Status s = work(content); !s) return s;
+    }
+    return {};
+}
+
+void add_maker(CLI::App& app, int& exit_code, const std::string& name, const std::string& what, Work work) {
+    CLI::App* command = app.add_subcommand(name, what);
+    auto folder = std::make_shared<std::string>();
+    command->add_option("-o,--out", *folder, "the content folder to write below")->required();
+    command->callback([folder, work, &exit_code] {
+        const Status done = work(*folder);
+        exit_code = done ? 0 : bolt::complain(done.error());
+    });
+}
+
+struct PoseOptions {
+    std::string hand, out, pose = "fist";
+};
+
+Status write_posed(const PoseOptions& options) {
+    if (Status s = bolt::keep_apart(options.hand, options.out); !s) return s;
+    const auto hand = bolt::assets::read_gltf(options.hand);
+    if (!hand) return tl::unexpected(hand.error());
+    const auto right = bolt::sculpt::named_pose(options.pose);
+    if (!right)
+        return bolt::fail(bolt::ErrorCode::usage, "no pose '" + options.pose + "'",
+                          "open, relaxed, fist, pinch or grip");
+    const bool left = !hand->meshes.empty() && hand->meshes[0].name == "hand_left";
+    auto model = bolt::sculpt::posed(*hand, left ? bolt::sculpt::mirrored(*right) : *right);
+    if (!model) {
+        bolt::Error error = model.error();
+        error.file = options.hand;
+        return bolt::fail(error);
+    }
+    return bolt::assets::write_glb(options.out, *model);
+}
+
+void add_pose(CLI::App& app, int& exit_code) {
+    CLI::App* command =
+        app.add_subcommand("pose", "Writes a copy of a hand in a pose, without its skin, to look at.");
+    auto options = std::make_shared<PoseOptions>();
+    command->add_option("HAND", options->hand, "hand_left.glb or hand_right.glb")->required();
+    command->add_option("--pose", options->pose, "open, relaxed, fist, pinch or grip");
+    command->add_option("-o,--out", options->out, "the .glb to write")->required();
+    command->callback([options, &exit_code] {
+        const Status done = write_posed(*options);
+        exit_code = done ? 0 : bolt::complain(done.error());
+    });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Makes hands, workshop and environment for Boltwright.", "bolt-sculpt");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "bolt-sculpt " BOLTWRIGHT_VERSION);
+    int exit_code = 0;
+    add_maker(app, exit_code, "hands", "The two gloved hands.", bolt::sculpt::write_hands);
+    add_maker(app, exit_code, "workshop", "Bench, floor, wall, tools and lights.",
+              bolt::sculpt::write_workshop);
+    add_maker(app, exit_code, "environment", "The workshop's light as a Radiance picture.",
+              bolt::sculpt::write_environment);
+    add_maker(app, exit_code, "all", "All of them.", make_all);
+    add_pose(app, exit_code);
+    return bolt::cli::run_program(app, argc, argv, exit_code);
+}

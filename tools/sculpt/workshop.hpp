@@ -1,0 +1,16 @@
+// The workshop as a glTF model: floor, back wall, a bench with a clamping plate, a tool board, two strip
+// lights.
+//
+// Frame: metres, Y up, +Z towards the trainee; origin in the middle of the clamping plate, whose upper face
+// is y = 0. The empty node `machine_mount` stands there: a machine's foot goes on y = 0 with its middle on
+// the node, its length along x. The plate is 1.00 m by 0.62 m; the floor is at y = −0.85 m.
+#pragma once
+
+#include "engine/assets/model.hpp"
+#include "engine/base/result.hpp"
+
+namespace bolt::sculpt {
+
+Result<assets::Model> make_workshop();
+
+}  // namespace bolt::sculpt
