@@ -55,6 +55,14 @@ struct WrenchDesign {
     double jaw = 0.0;            // m, opening
     double head_angle = 0.0;     // rad, between jaw and handle
     double handle_length = 0.0;  // m, jaw centre to the grip
+    std::string model;           // path of its .glb; empty: none is named
+};
+
+// Paths of the .glb files that show an assembly; empty where the file names none.
+struct ModelFiles {
+    std::string model;
+    std::string far_level;  // the same with fewer triangles
+    std::string contact;    // what the tool touches
 };
 
 // Flange that couples the joints: a plate on an elastic foundation (see haptics/joint/group.hpp). Ours.
@@ -95,6 +103,7 @@ struct Assembly {
     std::vector<Pass> passes;
     WrenchDesign wrench;
     FlangeDesign flange;
+    ModelFiles models;
     std::vector<View> views;
 };
 

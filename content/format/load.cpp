@@ -74,9 +74,22 @@ std::string folder_name(const fs::path& file) {
     return whole.parent_path().filename().string();
 }
 
-}  // namespace
+fs::path whole_path(const fs::path& path) {
+    std::error_code problem;
+    fs::path whole = fs::weakly_canonical(fs::absolute(path), problem);
+    return problem ? path : whole;
+}
 
-Loaded parse_assembly(std::string_view text, std::string_view file, std::string_view variant) {
+// An assembly of content/ may name what lies in content/, any other only what lies in its own folder.
+FilePlaces places_of(const fs::path& file) {
+    const fs::path folder = whole_path(file).parent_path(), content = whole_path(content_folder());
+    const auto differs = std::mismatch(content.begin(), content.end(), folder.begin(), folder.end());
+    const bool inside = !content.empty() && differs.first == content.end();
+    return {file.parent_path(), content_folder() / "tools", inside ? content : folder};
+}
+
+Loaded parse(std::string_view text, std::string_view file, std::string_view variant,
+             const FilePlaces& places) {
     Loaded loaded;
     loaded.assembly.file = file;
     loaded.assembly.text = text;
@@ -84,7 +97,7 @@ Loaded parse_assembly(std::string_view text, std::string_view file, std::string_
     if (!document) return loaded;
     const std::vector<Error> repeated = std::move(loaded.errors);
     Reader reader(*document);
-    Assembly assembly = read_assembly(reader, variant);
+    Assembly assembly = read_assembly(reader, variant, places);
     assembly.name = folder_name(fs::path(file));
     assembly.file = std::move(loaded.assembly.file);
     assembly.text = std::move(loaded.assembly.text);
@@ -103,6 +116,12 @@ Loaded parse_assembly(std::string_view text, std::string_view file, std::string_
         loaded.errors.push_back(std::move(last));
     }
     return loaded;
+}
+
+}  // namespace
+
+Loaded parse_assembly(std::string_view text, std::string_view file, std::string_view variant) {
+    return parse(text, file, variant, {fs::path(file).parent_path(), "tools", {}});
 }
 
 Loaded load_assembly(const fs::path& where, std::string_view variant) {
@@ -127,7 +146,7 @@ Loaded load_assembly(const fs::path& where, std::string_view variant) {
         loaded.errors.push_back(text.error());
         return loaded;
     }
-    return parse_assembly(*text, file.string(), variant);
+    return parse(*text, file.string(), variant, places_of(file));
 }
 
 fs::path content_folder() {

@@ -18,10 +18,12 @@ struct Loaded {
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 
-// `file` is only for messages. `variant`: which of the file's "variants" to apply; empty: the file's default.
+// `file` is for messages, and what the text names is taken from its folder; no file is looked for. `variant`:
+// which of the file's "variants" to apply; empty: the file's default.
 Loaded parse_assembly(std::string_view text, std::string_view file, std::string_view variant = {});
 
-// `where` is a folder with an assembly.json, a file, or a name under content/assemblies.
+// `where` is a folder with an assembly.json, a file, or a name under content/assemblies. The files that it
+// names have to be there, within content/ or, for an assembly that lies elsewhere, within its own folder.
 Loaded load_assembly(const std::filesystem::path& where, std::string_view variant = {});
 
 // Folder that holds content/ (schema/, assemblies/): $BOLTWRIGHT_CONTENT, else beside the program or above it

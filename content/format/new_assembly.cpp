@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view schema_name = "assembly.schema.json";
+constexpr std::size_t model_size_limit = 64U << 20U;  // bytes
 
 tl::unexpected<Error> refused(const fs::path& path, ErrorCode code, std::string what, std::string expected) {
     Error error;
@@ -37,6 +38,39 @@ void replace_value(std::string& text, const char* pointer, std::string_view valu
     const nlohmann::json json = std::string(value);
     text.replace(start, token_end(text, start) - start,
                  json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+// Takes a member out of the text, with its comma: the one behind it or, of the last member, the one before
+// it.
+void remove_member(std::string& text, const JsonDocument& document, std::string_view pointer) {
+    std::size_t begin = document.offset(pointer, Part::key), end = token_end(text, document.offset(pointer));
+    const std::size_t next = skip_space(text, end);
+    if (next < text.size() && text[next] == ',')
+        end = skip_space(text, next + 1);
+    else
+        begin = text.find_last_of(',', begin);
+    text.erase(begin, end - begin);
+}
+
+// The template's models are copied with it, its wrench stays where all wrenches are. What is not there is not
+// named.
+std::vector<fs::path> take_models(std::string& text) {
+    std::vector<fs::path> copies;
+    const fs::path content = content_folder(), own = content / "assemblies" / template_name();
+    for (const char* pointer : {"/model", "/model_far", "/contact_model", "/tool/model"}) {
+        std::vector<Error> errors;
+        const auto document = JsonDocument::parse(text, {}, errors);
+        const nlohmann::json::json_pointer at(pointer);
+        if (!document || !document->root().contains(at)) continue;
+        const bool tool = std::string_view(pointer) == "/tool/model";
+        const fs::path file = (tool ? content / "tools" : own) / document->root().at(at).get<std::string>();
+        std::error_code ignored;
+        if (!fs::is_regular_file(file, ignored))
+            remove_member(text, *document, pointer);
+        else if (!tool)
+            copies.push_back(file);
+    }
+    return copies;
 }
 
 bool is_among_assemblies(const fs::path& folder) {
@@ -102,6 +136,11 @@ Status create_assembly(const fs::path& folder, std::string_view name) {
     replace_value(text, "/$schema",
                   inside ? "../../schema/" + std::string(schema_name) : std::string(schema_name));
     for (const char* title : {"/title/en", "/title/de", "/title/zh"}) replace_value(text, title, name);
+    for (const fs::path& model : take_models(text)) {
+        const auto bytes = read_file(model, model_size_limit, ErrorCode::failed);
+        if (!bytes) return fail(bytes.error());
+        if (auto written = made.file(target / model.filename(), *bytes); !written) return written;
+    }
     if (auto written = made.file(target / "assembly.json", text); !written) return written;
     if (!inside)
         if (auto written = made.file(target / schema_name, schema_text()); !written) return written;

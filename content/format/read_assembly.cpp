@@ -111,7 +111,7 @@ std::string choose_variant(Reader& reader, std::string_view asked, const std::ve
 
 }  // namespace
 
-Assembly read_assembly(Reader& reader, std::string_view variant) {
+Assembly read_assembly(Reader& reader, std::string_view variant, const FilePlaces& places) {
     Assembly assembly;
     const Node root = reader.root();
     reader.member(root, "$schema");  // for editors only
@@ -123,6 +123,7 @@ Assembly read_assembly(Reader& reader, std::string_view variant) {
     assembly.published = read_published(reader);
     assembly.flange = read_flange(reader);
     assembly.views = read_views(reader);
+    assembly.models = read_model_files(reader, places);
 
     for (const Node& node : reader.items(reader.member(root, "variants")))
         assembly.variants.push_back(
@@ -133,6 +134,7 @@ Assembly read_assembly(Reader& reader, std::string_view variant) {
         if (other.name != assembly.variant) read_tool(reader, read_joints(reader, other.name));
     assembly.joints = read_joints(reader, assembly.variant);
     assembly.wrench = read_tool(reader, assembly.joints);
+    assembly.wrench.model = read_tool_model(reader, places);
     assembly.passes = read_passes(reader, assembly.joints);
     return assembly;
 }

@@ -263,7 +263,7 @@ const Mistake mistakes[] = {
 }  // namespace
 
 TEST_CASE("every mistake is told where it stands and what was expected") {
-    const std::string good = shipped("cover-m8");
+    const std::string good = cover();
     for (const Mistake& c : mistakes) {
         CAPTURE(std::string(c.from));
         CAPTURE(std::string(c.to));
@@ -275,7 +275,7 @@ TEST_CASE("every mistake is told where it stands and what was expected") {
 }
 
 TEST_CASE("all mistakes of a file are told in one run, in the order of the file") {
-    std::string text = shipped("cover-m8");
+    std::string text = cover();
     const auto edit = [&](const char* from, const char* to) { text = edited(std::move(text), from, to); };
     edit("\"jaw_mm\": 13.2", "\"jaw_mm\": 17");
     edit("\"class\": \"8.8\"", "\"class\": \"8.9\"");
@@ -318,7 +318,7 @@ TEST_CASE("all mistakes of a file are told in one run, in the order of the file"
 }
 
 TEST_CASE("a repeated id hides nothing that an order has wrong") {
-    const std::string good = edited(shipped("cover-m8"), "\"id\": \"B2\"", "\"id\": \"B1\"");
+    const std::string good = edited(cover(), "\"id\": \"B2\"", "\"id\": \"B1\"");
     const std::string twice =
         "47:13: /joints/1/id: \"B1\" is the \"id\" of another joint too; expected a name of its own; it is "
         "used "
@@ -347,7 +347,7 @@ TEST_CASE("a repeated id hides nothing that an order has wrong") {
 }
 
 TEST_CASE("a joint without a usable id stands for one unknown name of an order, not for two") {
-    const std::string good = edited(shipped("cover-m8"), "\"id\": \"B2\"", "\"id\": 2");
+    const std::string good = edited(cover(), "\"id\": \"B2\"", "\"id\": 2");
     CHECK(messages(good).size() == 1);
     const auto all = messages(edited(good, "\"B1\", \"B3\",", "\"B1\", \"Q99\","));
     REQUIRE(all.size() == 3);
@@ -356,7 +356,7 @@ TEST_CASE("a joint without a usable id stands for one unknown name of an order, 
 
 TEST_CASE("what was refused keeps only those checks from being made that need it") {
     const auto with = [](const char* from, const char* to) {
-        const std::string text = edited(shipped("cover-m8"), from, to);
+        const std::string text = edited(cover(), from, to);
         return messages(edited(edited(text, "\"bolt_length_mm\": 30", "\"bolt_length_mm\": 20"),
                                "\"snug_torque_Nm\": 5", "\"snug_torque_Nm\": 19"));
     };
@@ -375,7 +375,7 @@ TEST_CASE("what was refused keeps only those checks from being made that need it
 TEST_CASE("a thread that is written another way is told as it should be, and never as another diameter") {
     const auto expected = [](const std::string& size) {
         const auto loaded =
-            bolt::content::parse_assembly(edited(shipped("cover-m8"), "\"M8\",", "\"" + size + "\","), "f");
+            bolt::content::parse_assembly(edited(cover(), "\"M8\",", "\"" + size + "\","), "f");
         CAPTURE(size);
         REQUIRE(loaded.errors.size() >= 1);
         return loaded.errors.front().pointer.ends_with("/size") ? loaded.errors.front().expected
@@ -413,7 +413,7 @@ TEST_CASE("a mistake that only a variant makes is told, and once however many va
 TEST_CASE("a file with hundreds of mistakes is cut short") {
     std::string joints;
     for (int i = 0; i < 400; ++i) joints += "{\"id\": 1},\n";
-    const auto all = messages(edited(shipped("cover-m8"), "\"joints\": [", "\"joints\": [" + joints));
+    const auto all = messages(edited(cover(), "\"joints\": [", "\"joints\": [" + joints));
     CHECK(all.size() == 201);
     CHECK(all.back().find("are not shown; mend these first") != std::string::npos);
 }

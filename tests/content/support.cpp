@@ -15,12 +15,22 @@ std::string shipped(std::string_view name) {
     return *text;
 }
 
+std::string cover() {
+    const auto path = bolt::content::content_folder().parent_path() / "tests" / "data" / "cover.json";
+    const auto text = bolt::read_file(path, 1U << 22U, bolt::ErrorCode::failed);
+    REQUIRE_MESSAGE(text, path.string());
+    return *text;
+}
+
 std::string_view everything() {
     return R"({
   "$schema": "assembly.schema.json",
   "title": {"en": "Bracket", "de": "Konsole", "zh": "支架", "fr": "Console"},
   "lesson": {"en": "Tighten."},
   "sources": "Made up.",
+  "model": "bracket.glb",
+  "model_far": "bracket.far.glb",
+  "contact_model": "bracket.contact.glb",
   "law": "published",
   "published": {
     "nut_mass_g": 33.3, "alpha_deg": 30, "beta_deg": 30, "mu": 0.3, "mu1": 0.4, "mu2": 0.3, "pitch_mm": 2,
@@ -29,7 +39,7 @@ std::string_view everything() {
     "T_max_Nm": 72.126, "kappa1_Nm_per_deg2": 0.0015, "theta_max_turns": 20.05, "yield_width_deg": 90,
     "transition_width_deg": 30, "contact_end_mm2": 0.01
   },
-  "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_angle_deg": 15, "handle_length_mm": 180},
+  "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_angle_deg": 15, "handle_length_mm": 180, "model": "wrench_18.glb"},
   "flange": {"thickness_mm": 20, "E_GPa": 70, "poisson": 0.33, "interface_stiffness_GPa_per_m": 500},
   "materials": {"grey iron": {"E_GPa": 105}},
   "joint_types": {

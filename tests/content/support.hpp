@@ -12,6 +12,10 @@ namespace content_test {
 // assembly.json of an assembly under content/assemblies.
 std::string shipped(std::string_view name);
 
+// A small file without mistakes whose lines and columns stay as they are, whatever is shipped:
+// tests/data/cover.json.
+std::string cover();
+
 // A small file without mistakes that uses every property of the schema.
 std::string_view everything();
 

@@ -86,7 +86,7 @@ const Slip slips[] = {
 }  // namespace
 
 TEST_CASE("a syntax error is told in plain words where it stands") {
-    const std::string good = shipped("cover-m8");
+    const std::string good = cover();
     for (const Slip& c : slips) {
         CAPTURE(c.from);
         CAPTURE(c.to);
@@ -141,7 +141,7 @@ TEST_CASE("what is JSON but no object is refused as a whole") {
 }
 
 TEST_CASE("a byte order mark is no mistake and does not move the columns") {
-    CHECK(messages("\xEF\xBB\xBF" + shipped("cover-m8")).empty());
+    CHECK(messages("\xEF\xBB\xBF" + cover()).empty());
     CHECK(only_message("\xEF\xBB\xBF[]") == "1:1: a list [...] cannot stand here; expected an object {...}");
     CHECK(only_message("\xEF\xBB\xBF") == "1:1: the file is empty; expected '{'");
 }
@@ -166,7 +166,7 @@ TEST_CASE("the bracket that is blamed is the innermost that is open, unless the 
 }
 
 TEST_CASE("Windows line ends are lines too") {
-    std::string text = edited(shipped("cover-m8"), "\"M8x30\"", "\"M8x30 \"");
+    std::string text = edited(cover(), "\"M8x30\"", "\"M8x30 \"");
     for (std::size_t i = 0; (i = text.find('\n', i)) != std::string::npos; i += 2) text.insert(i, "\r");
     const auto loaded = bolt::content::parse_assembly(text, "f");
     REQUIRE_FALSE(loaded.ok());

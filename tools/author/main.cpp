@@ -2,6 +2,7 @@
 
 #include "game/cli/program.hpp"
 #include "tools/author/commands.hpp"
+#include "tools/author/import_command.hpp"
 
 int main(int argc, char** argv) {
     CLI::App app("Makes and checks Boltwright assemblies.", "bolt-author");
@@ -10,6 +11,7 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     bolt::author::add_new(app, exit_code);
     bolt::author::add_validate(app, exit_code);
+    bolt::author::add_import_step(app, exit_code);
     bolt::author::add_curve(app, exit_code);
     bolt::author::add_torque(app, exit_code);
     return bolt::cli::run_program(app, argc, argv, exit_code);

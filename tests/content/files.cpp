@@ -1,0 +1,180 @@
+// The .glb files that an assembly names: where they are looked for, and what is said when they are not there.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "content/format/embedded.hpp"
+#include "content/format/json_document.hpp"
+#include "content/format/new_assembly.hpp"
+#include "engine/base/file.hpp"
+#include "support.hpp"
+
+using namespace bolt;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A content folder of its own, with an assembly in it and one beside it; $BOLTWRIGHT_CONTENT while it lives.
+struct World {
+    fs::path root = fs::temp_directory_path() / ("boltwright-files-" + std::to_string(::getpid()));
+    fs::path inside = root / "content" / "assemblies" / "pump", outside = root / "elsewhere";
+    std::string before = content::content_folder().string();
+
+    World() {
+        fs::remove_all(root);
+        for (const fs::path& folder :
+             {inside, outside, root / "content" / "tools", root / "content" / "schema"})
+            fs::create_directories(folder);
+        touch("content/schema/assembly.schema.json");
+        touch("content/tools/wrench_13.glb");
+        touch("content/assemblies/pump/pump.glb");
+        touch("content/assemblies/shared.glb");
+        touch("elsewhere/bracket.glb");
+        touch("far.glb");
+        ::setenv("BOLTWRIGHT_CONTENT", (root / "content").c_str(), 1);
+    }
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+    ~World() {
+        ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1);
+        std::error_code ignored;
+        fs::remove_all(root, ignored);
+    }
+    void touch(const char* name) const { REQUIRE(write_file(root / name, "x")); }
+};
+
+constexpr const char* cover = R"({
+  "title": { "en": "Cover" }, "lesson": { "en": "Tighten." },
+  "tool": { "kind": "open_end_wrench", "jaw_mm": 13.2, "handle_length_mm": 140 },
+  "joint_types": {
+    "M8": {
+      "size": "M8", "class": "8.8", "bolt_length_mm": 30, "members": [{ "thickness_mm": 19, "material": "steel" }],
+      "friction_thread": 0.12, "friction_bearing": 0.12, "spec": { "strategy": "torque", "target_torque_Nm": 20 }
+    }
+  },
+  "joints": [{ "id": "B1", "type": "M8", "position_mm": [0, 0, 0] }],
+  "passes": [{ "kind": "run_down" }, { "kind": "tighten", "percent": 100 }, { "kind": "recheck" }]
+}
+)";
+
+// A small assembly with these members added to the file and to its tool.
+content::Loaded with(const fs::path& folder, const std::string& members, const std::string& of_tool = {}) {
+    std::string text = content_test::edited(cover, "\"title\": {", members + "\"title\": {");
+    text = content_test::edited(std::move(text), "\"jaw_mm\"", of_tool + "\"jaw_mm\"");
+    REQUIRE(write_file(folder / "assembly.json", text));
+    return content::load_assembly(folder);
+}
+
+std::string only(const content::Loaded& loaded) {
+    REQUIRE(loaded.errors.size() == 1);
+    const std::string message = loaded.errors[0].message();
+    return message.substr(message.find("assembly.json") + std::string_view("assembly.json:").size());
+}
+
+}  // namespace
+
+TEST_CASE("the files of an assembly are found from its folder, those of a tool in content/tools") {
+    const World world;
+    const auto loaded = with(
+        world.inside, R"("model": "pump.glb", "model_far": "../shared.glb", "contact_model": "./pump.glb", )",
+        R"("model": "wrench_13.glb", )");
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    CHECK(loaded.assembly.models.model == (world.inside / "pump.glb").string());
+    CHECK(fs::equivalent(loaded.assembly.models.far_level, world.inside.parent_path() / "shared.glb"));
+    CHECK(loaded.assembly.models.contact == (world.inside / "pump.glb").string());
+    CHECK(fs::equivalent(loaded.assembly.wrench.model, world.root / "content" / "tools" / "wrench_13.glb"));
+    const auto none = with(world.outside, "");
+    CHECK(none.ok());
+    CHECK(none.assembly.models.model.empty());
+    CHECK(none.assembly.wrench.model.empty());
+    CHECK(with(world.outside, R"("model": "bracket.glb", )").ok());
+}
+
+TEST_CASE("a file that is not there: where it is named, and the nearest that is") {
+    const World world;
+    CHECK(only(with(world.inside, R"("model": "bump.glb", )")) ==
+          R"(2:12: /model: there is no file "bump.glb" in the assembly's folder; did you mean "pump.glb"?)");
+    CHECK(
+        only(with(world.outside, R"("model_far": "pump.far.glb", )")) ==
+        R"(2:16: /model_far: there is no file "pump.far.glb" in the assembly's folder; expected "bracket.glb")");
+    CHECK(
+        only(with(world.inside, R"("contact_model": "none/pump.glb", )")) ==
+        R"(2:20: /contact_model: there is no file "none/pump.glb" in the assembly's folder; expected a file; no .glb is there)");
+    CHECK(
+        only(with(world.inside, "", R"("model": "wrench_31.glb", )")) ==
+        R"(3:49: /tool/model: there is no file "wrench_31.glb" in content/tools; did you mean "wrench_13.glb"?)");
+    fs::create_directories(world.inside / "folder.glb");
+    CHECK_FALSE(with(world.inside, R"("model": "folder.glb", )").ok());
+}
+
+TEST_CASE("nothing outside is named") {
+    const World world;
+    CHECK(
+        only(with(world.inside, R"("model": "../../../far.glb", )")) ==
+        R"(2:12: /model: "../../../far.glb" leads out of the content folder; expected a file in the content folder)");
+    CHECK(
+        only(with(world.outside, R"("model": "../far.glb", )")) ==
+        R"(2:12: /model: "../far.glb" leads out of the assembly's folder; expected a file in the assembly's folder)");
+    CHECK(
+        only(with(world.inside, "", R"("model": "../assemblies/shared.glb", )")) ==
+        R"(3:49: /tool/model: "../assemblies/shared.glb" leads out of content/tools; expected a file in content/tools)");
+    fs::create_symlink(world.root / "far.glb", world.inside / "link.glb");
+    CHECK(only(with(world.inside, R"("model": "link.glb", )")).find("leads out") != std::string::npos);
+    for (const char* name : {"/etc/far.glb", "C:far.glb", "sub\\\\far.glb"}) {
+        CAPTURE(name);
+        CHECK(only(with(world.inside, "\"model\": \"" + std::string(name) + "\", "))
+                  .find("is not a relative path; expected a path from the assembly's folder") !=
+              std::string::npos);
+    }
+    CHECK(
+        only(with(world.inside, R"("model": "pump.step", )")) ==
+        R"(2:12: /model: "pump.step" is no .glb file; expected a binary glTF file: bolt-author import-step makes one from STEP)");
+}
+
+TEST_CASE("a text that is read from elsewhere than its folder names its files all the same") {
+    const auto loaded = content::parse_assembly(content_test::everything(), "there/f.json");
+    REQUIRE(loaded.ok());
+    CHECK(loaded.assembly.models.model == "there/bracket.glb");
+    CHECK(loaded.assembly.models.far_level == "there/bracket.far.glb");
+    CHECK(loaded.assembly.models.contact == "there/bracket.contact.glb");
+    CHECK(loaded.assembly.wrench.model == "tools/wrench_18.glb");
+}
+
+TEST_CASE("a new assembly brings its models with it, and names none that is not there") {
+    const World world;
+    const auto made = [&](const char* name) {
+        REQUIRE(content::create_assembly(world.root / "content" / "assemblies" / name, name));
+        const auto loaded = content::load_assembly(name);
+        for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+        return loaded.assembly;
+    };
+    const content::Assembly bare = made("bare");
+    CHECK(bare.models.model.empty());
+    CHECK(bare.models.far_level.empty());
+    CHECK(bare.models.contact.empty());
+    CHECK(bare.wrench.model.empty());
+
+    std::vector<Error> errors;
+    const auto document = content::JsonDocument::parse(content::template_text(), {}, errors);
+    const auto& named = document->root();
+    fs::create_directories(world.root / "content" / "assemblies" / content::template_name());
+    int count = 0;
+    for (const char* key : {"model", "model_far", "contact_model"}) {
+        if (!named.contains(key)) continue;
+        world.touch(("content/assemblies/" + std::string(content::template_name()) + "/" +
+                     named[key].get<std::string>())
+                        .c_str());
+        ++count;
+    }
+    const content::Assembly full = made("full");
+    int copied = 0;
+    for (const std::string& file : {full.models.model, full.models.far_level, full.models.contact}) {
+        if (file.empty()) continue;
+        CHECK(fs::path(file).parent_path() == world.root / "content" / "assemblies" / "full");
+        ++copied;
+    }
+    CHECK(copied == count);
+}

@@ -1,0 +1,277 @@
+#include "support.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/assets/gltf.hpp"
+#include "engine/base/file.hpp"
+
+namespace geometry_test {
+
+namespace fs = std::filesystem;
+using namespace bolt;
+
+namespace {
+
+constexpr const char* text_head = R"({
+  "title": { "en": "Cover" },
+  "lesson": { "en": "Tighten." },
+  "model": "machine.glb",
+  "tool": { "kind": "open_end_wrench", "jaw_mm": 13.2, "handle_length_mm": 140 },
+  "joint_types": {
+    "M8x30": {
+      "size": "M8", "class": "8.8", "bolt_length_mm": 30,
+      "members": [{ "thickness_mm": 6, "material": "aluminium" }, { "thickness_mm": 10, "material": "steel" }],
+      "washer_under_head": true, "washer_under_nut": true, "friction_thread": 0.12, "friction_bearing": 0.12,
+      "spec": { "strategy": "torque", "target_torque_Nm": 20 }
+    }
+  },
+  "passes": [{ "kind": "run_down" }, { "kind": "tighten", "percent": 100 }, { "kind": "recheck" }],
+  "joints": [
+)";
+
+std::string text_for(const std::vector<Vec3>& positions) {
+    std::string text = text_head;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        text += fmt::format(
+            "    {{ \"id\": \"B{0}\", \"type\": \"M8x30\", \"node\": \"joint_B{0}\", \"position_mm\": "
+            "[{1:g}, {2:g}, "
+            "{3:g}] }}{4}\n",
+            i + 1, positions[i].x, positions[i].y, positions[i].z, i + 1 < positions.size() ? "," : "");
+    return text + "  ]\n}\n";
+}
+
+Shape prism(const std::vector<glm::dvec2>& outline, double low, double high) {
+    Shape shape;
+    shape.between(std::vector<glm::dvec2>(outline.size(), glm::dvec2(0.0)), outline, low, high);
+    return shape;
+}
+
+Shape ring(const std::vector<glm::dvec2>& inner, const std::vector<glm::dvec2>& outer, double low,
+           double high) {
+    Shape shape;
+    shape.between(inner, outer, low, high);
+    return shape;
+}
+
+void append(Shape& shape, const Shape& other) {
+    const auto base = static_cast<std::uint32_t>(shape.points.size());
+    shape.points.insert(shape.points.end(), other.points.begin(), other.points.end());
+    for (const std::uint32_t i : other.indices) shape.indices.push_back(base + i);
+}
+
+int add_node(assets::Model& model, const std::string& name, int mesh, const Vec3& place) {
+    assets::Node node;
+    node.name = name;
+    node.mesh = mesh;
+    node.translation = glm::vec3(place);
+    model.nodes.push_back(node);
+    return static_cast<int>(model.nodes.size()) - 1;
+}
+
+int add_mesh(assets::Model& model, const Shape& shape) {
+    model.meshes.push_back(mesh_of(shape));
+    return static_cast<int>(model.meshes.size()) - 1;
+}
+
+// A content folder of the test's own, for as long as it lives.
+struct World {
+    fs::path root = fs::temp_directory_path() / ("boltwright-geometry-" + std::to_string(::getpid()));
+    std::string before = content::content_folder().string();
+    fs::path folder = root / "assemblies" / "machine";
+
+    World() {
+        fs::remove_all(root);
+        for (const fs::path& made : {root / "schema", root / "tools", folder}) fs::create_directories(made);
+        REQUIRE(write_file(root / "schema" / "assembly.schema.json", "{}"));
+        ::setenv("BOLTWRIGHT_CONTENT", root.c_str(), 1);
+    }
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+    ~World() {
+        ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1);
+        std::error_code ignored;
+        fs::remove_all(root, ignored);
+    }
+};
+
+std::vector<std::string> without_file(const std::vector<Error>& errors) {
+    std::vector<std::string> lines;
+    for (const Error& error : errors) {
+        CHECK(error.code == ErrorCode::bad_content);
+        CHECK(error.line > 0);
+        CHECK(error.column > 0);
+        lines.push_back(error.message().substr(error.file.size() + 1));
+    }
+    return lines;
+}
+
+}  // namespace
+
+void Shape::quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const auto base = static_cast<std::uint32_t>(points.size());
+    points.insert(points.end(), {a, b, c, d});
+    indices.insert(indices.end(), {base, base + 1, base + 2, base, base + 2, base + 3});
+}
+
+void Shape::between(const std::vector<glm::dvec2>& inner, const std::vector<glm::dvec2>& outer, double low,
+                    double high, bool closed) {
+    const auto at = [](const glm::dvec2& p, double y) { return Vec3{p.x, y, p.y}; };
+    const std::size_t n = inner.size(), last = closed ? n : n - 1;
+    for (std::size_t i = 0; i < last; ++i) {
+        const std::size_t k = (i + 1) % n;
+        quad(at(inner[i], high), at(inner[k], high), at(outer[k], high), at(outer[i], high));
+        quad(at(inner[i], low), at(outer[i], low), at(outer[k], low), at(inner[k], low));
+        quad(at(outer[i], low), at(outer[i], high), at(outer[k], high), at(outer[k], low));
+        quad(at(inner[i], low), at(inner[k], low), at(inner[k], high), at(inner[i], high));
+    }
+    if (closed) return;
+    quad(at(inner[0], low), at(inner[0], high), at(outer[0], high), at(outer[0], low));
+    quad(at(inner[last], low), at(outer[last], low), at(outer[last], high), at(inner[last], high));
+}
+
+void Shape::box(const Vec3& low, const Vec3& high) {
+    between({{low.x, low.z}, {high.x, low.z}}, {{low.x, high.z}, {high.x, high.z}}, low.y, high.y, false);
+}
+
+std::vector<glm::dvec2> circle(double radius, int points, Vec3 middle) {
+    std::vector<glm::dvec2> outline;
+    for (int i = 0; i < points; ++i) {
+        const double angle = i * 2.0 * pi / points;
+        outline.emplace_back(middle.x + radius * std::cos(angle), middle.z + radius * std::sin(angle));
+    }
+    return outline;
+}
+
+std::vector<glm::dvec2> hexagon(double across_flats, int points) {
+    std::vector<glm::dvec2> outline;
+    for (int i = 0; i < points; ++i) {
+        const double angle = i * 2.0 * pi / points;
+        const double radius = 0.5 * across_flats / std::cos(wrap(angle - pi / 6.0, pi / 3.0));
+        outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return outline;
+}
+
+std::vector<glm::dvec2> square(double side, int points, Vec3 middle) {
+    std::vector<glm::dvec2> outline;
+    for (int i = 0; i < points; ++i) {
+        const double angle = i * 2.0 * pi / points;
+        const double radius = 0.5 * side / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+        outline.emplace_back(middle.x + radius * std::cos(angle), middle.z + radius * std::sin(angle));
+    }
+    return outline;
+}
+
+Shape sector(double inner, double outer, double from_deg, double to_deg, double low, double high) {
+    const int steps = std::max(1, static_cast<int>(std::ceil((to_deg - from_deg) / 5.0)));
+    std::vector<glm::dvec2> near, far;
+    for (int i = 0; i <= steps; ++i) {
+        // A wrench turns about +Y, from X towards -Z.
+        const double angle = -to_radians(to_deg + (from_deg - to_deg) * i / steps);
+        near.emplace_back(inner * std::cos(angle), inner * std::sin(angle));
+        far.emplace_back(outer * std::cos(angle), outer * std::sin(angle));
+    }
+    Shape shape;
+    shape.between(near, far, low, high, false);
+    return shape;
+}
+
+assets::Mesh mesh_of(const Shape& shape) {
+    assets::Primitive primitive;
+    for (const Vec3& p : shape.points) primitive.positions.emplace_back(p * mm);
+    primitive.indices = shape.indices;
+    assets::Mesh mesh;
+    mesh.primitives.push_back(std::move(primitive));
+    return mesh;
+}
+
+std::vector<geometry::Triangle> triangles_of(const Shape& shape) {
+    std::vector<geometry::Triangle> triangles;
+    for (std::size_t i = 0; i + 2 < shape.indices.size(); i += 3)
+        triangles.push_back({shape.points[shape.indices[i]] * mm, shape.points[shape.indices[i + 1]] * mm,
+                             shape.points[shape.indices[i + 2]] * mm, 0});
+    return triangles;
+}
+
+Machine::Machine(std::vector<Vec3> positions, const NutAndBolt& sizes) {
+    Shape cover, base, bolt = prism(circle(sizes.bolt_diameter / 2.0), 0.0, sizes.bolt_length);
+    append(bolt, prism(hexagon(13.0), -5.3, 0.0));
+    const int bolt_mesh = add_mesh(model, bolt);
+    const int washer = add_mesh(model, ring(circle(4.2), circle(8.0), 0.0, 1.6));
+    const int nut = add_mesh(model, ring(circle(4.0), hexagon(sizes.nut_flats), 0.0, 6.8));
+    int index = 0;
+    for (const Vec3& place : positions) {
+        const Vec3 hole = place + Vec3{sizes.hole_shift, 0.0, sizes.hole_shift};
+        append(base, ring(circle(sizes.hole / 2.0, 48, hole), square(sizes.side, 48, place), place.y - 10.0,
+                          place.y + sizes.plate_low));
+        append(cover, ring(circle(4.5, 48, place), square(sizes.side, 48, place), place.y - sizes.grip,
+                           place.y - 10.0));
+        const std::string id = "B" + std::to_string(++index);
+        const int joint = add_node(model, "joint_" + id, -1, place * mm);
+        model.roots.push_back(joint);
+        const double head = -sizes.grip - 1.6;
+        for (const auto& [name, mesh, shift] : {std::tuple{"_bolt", bolt_mesh, Vec3{0.0, head, 0.0}},
+                                                {"_washer_head", washer, {0.0, head, 0.0}},
+                                                {"_washer_nut", washer, {0.0, sizes.washer_low, 0.0}},
+                                                {"_nut", nut, {sizes.nut_shift, sizes.nut_low, 0.0}}}) {
+            const int child = add_node(model, id + name, mesh, shift * mm);
+            model.nodes[static_cast<std::size_t>(joint)].children.push_back(child);
+        }
+    }
+    add("cover", cover);
+    add("base", base);
+}
+
+int Machine::node(const std::string& name) {
+    for (std::size_t i = 0; i < model.nodes.size(); ++i)
+        if (model.nodes[i].name == name) return static_cast<int>(i);
+    FAIL("no node " << name);
+    return -1;
+}
+
+void Machine::add(const std::string& name, const Shape& shape) {
+    const int mesh = add_mesh(model, shape);
+    model.roots.push_back(add_node(model, name, mesh, Vec3{0.0}));
+}
+
+std::string all(const std::vector<std::string>& messages) {
+    return fmt::format("{}", fmt::join(messages, "\n"));
+}
+
+void replace(std::string& text, std::string_view from, std::string_view to) {
+    const std::size_t at = text.find(from);
+    REQUIRE_MESSAGE(at != std::string::npos, std::string(from));
+    text.replace(at, from.size(), to);
+}
+
+Said check(const Machine& machine, const Edit& edit, const Machine* far, const assets::Model* contact,
+           const assets::Model* tool) {
+    const World world;
+    std::vector<Vec3> positions;
+    for (const assets::Node& node : machine.model.nodes)
+        if (node.name.starts_with("joint_")) positions.push_back(Vec3(node.translation) / mm);
+    for (Vec3& p : positions) p = Vec3{std::round(p.x), std::round(p.y), std::round(p.z)};
+    std::string text = text_for(positions);
+    if (far != nullptr) replace(text, "\"machine.glb\",", "\"machine.glb\", \"model_far\": \"far.glb\",");
+    if (contact != nullptr)
+        replace(text, "\"machine.glb\",", "\"machine.glb\", \"contact_model\": \"contact.glb\",");
+    if (tool != nullptr) replace(text, "\"jaw_mm\"", "\"model\": \"wrench.glb\", \"jaw_mm\"");
+    if (edit) edit(text);
+    REQUIRE(write_file(world.folder / "assembly.json", text));
+    REQUIRE(assets::write_glb(world.folder / "machine.glb", machine.model));
+    if (far != nullptr) REQUIRE(assets::write_glb(world.folder / "far.glb", far->model));
+    if (contact != nullptr) REQUIRE(assets::write_glb(world.folder / "contact.glb", *contact));
+    if (tool != nullptr) REQUIRE(assets::write_glb(world.root / "tools" / "wrench.glb", *tool));
+    const auto loaded = content::load_assembly(world.folder);
+    for (const Error& error : loaded.errors) FAIL(error.message());
+    const auto findings = geometry::check_geometry(loaded.assembly);
+    return {without_file(findings.errors), without_file(findings.notes)};
+}
+
+}  // namespace geometry_test

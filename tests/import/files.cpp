@@ -1,0 +1,214 @@
+// What is no STEP file, what cannot be written, and the same bytes every time.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <stdexcept>
+
+#include "engine/base/random.hpp"
+#include "support.hpp"
+#include "tools/import/guard.hpp"
+
+using namespace import_test;
+
+namespace {
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string good_file(const Folder& folder) {
+    StepMaker maker;
+    const TDF_Label root = maker.assembly("things");
+    const TopoDS_Shape box = BRepPrimAPI_MakeBox(40.0, 60.0, 20.0).Shape();
+    const TopoDS_Shape block = BRepAlgoAPI_Cut(box, BRepPrimAPI_MakeCylinder(10.0, 20.0).Shape()).Shape();
+    const TDF_Label part = maker.part("block", block, "#2F5D62");
+    maker.paint_face(part, face_towards(block, 0.0, 0.0, 1.0), "#A8A9A6");
+    maker.place(root, part, "block_1", moved(1.0, 0.0, 0.0));
+    maker.place(root, part, "block_2", moved(100.0, 0.0, 0.0));
+    maker.place(root, maker.part("ring", BRepPrimAPI_MakeTorus(30.0, 8.0).Shape(), "#C8A24A"), "ring_1",
+                moved(0.0, 0.0, 50.0));
+    maker.write(folder / "good.step");
+    return bytes(folder / "good.step");
+}
+
+}  // namespace
+
+TEST_CASE("what is no STEP file is refused with the file's name and what was expected") {
+    const Folder folder;
+    const std::string good = good_file(folder);
+    std::filesystem::create_directory(folder / "folder.step");
+    const std::string header = good.substr(0, good.find("DATA;"));
+    struct Case {
+        const char* name;
+        std::string text;
+        const char* what;
+    };
+    const Case cases[] = {
+        {"empty.step", "", "is empty"},
+        {"text.step", "Dear reader,\nthis is a letter.\n", "no STEP file"},
+        {"binary.step", std::string(5000, '\x7F') + std::string(3, '\0'), "no STEP file"},
+        {"magic.step", "ISO-10303-21;", "cut short"},
+        {"half.step", good.substr(0, good.size() / 2), "cut short"},
+        {"header.step", header + "DATA;\nENDSEC;\nEND-ISO-10303-21;\n", "no shape"},
+        {"rubbish.step", header + "DATA;\n#1=((((;\n'''\nENDSEC;\nEND-ISO-10303-21;\n", ""},
+        {"house.step",
+         "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n",
+         "IFC"},
+    };
+    for (const Case& one : cases) {
+        CAPTURE(one.name);
+        write(folder / one.name, one.text);
+        const auto imported = import(folder / one.name, folder / "out");
+        REQUIRE(imported.errors.size() == 1);
+        const Error& error = imported.errors[0];
+        CHECK(error.code == ErrorCode::bad_content);
+        CHECK(error.file == (folder / one.name).string());
+        CHECK(error.what.find(one.what) != std::string::npos);
+        CHECK(error.expected.find("expected") == 0);
+    }
+    for (const char* name : {"folder.step", "not_there.step"}) {
+        const auto imported = import(folder / name, folder / "out");
+        REQUIRE(imported.errors.size() == 1);
+        CHECK(imported.errors[0].code == ErrorCode::bad_content);
+    }
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));  // nothing was begun
+}
+
+TEST_CASE("a file damaged anywhere ends in an error or a model, never otherwise") {
+    const Folder folder;
+    const std::string good = good_file(folder);
+    Random random(7);
+    int taken = 0, refused = 0;
+    for (int i = 0; i < 60; ++i) {
+        std::string text = good;
+        const std::size_t begin = text.find("DATA;") + 5;
+        for (int k = 0; k <= i % 4; ++k) {
+            const std::size_t at = begin + random.bits() % (text.size() - begin - 100);
+            switch (random.bits() % 4U) {
+                case 0:
+                    text[at] = static_cast<char>('0' + random.bits() % 10U);
+                    break;
+                case 1:
+                    text.erase(at, 1U + random.bits() % 30U);
+                    break;
+                case 2:
+                    text.insert(at, "#99999");
+                    break;
+                default:
+                    text[at] = static_cast<char>(random.bits() % 256U);
+                    break;
+            }
+        }
+        write(folder / "damaged.step", text);
+        CAPTURE(i);
+        const int code = step_import::run_guarded(folder / "damaged.step", [&] {
+            step_import::ImportOptions options;
+            options.step = folder / "damaged.step";
+            options.folder = folder / "out";
+            const auto imported = step_import::import_step(options, [](double, const std::string&) {});
+            if (imported.ok()) return imported.report.triangles > 0 ? 0 : 99;
+            return static_cast<int>(imported.errors[0].code);
+        });
+        CHECK((code == 0 || code == 3));
+        ++(code == 0 ? taken : refused);
+    }
+    CHECK(taken > 5);  // not every digit matters
+    CHECK(refused > 5);
+}
+
+TEST_CASE("a crash in the work is told as bad content, an exit code is passed on") {
+    CHECK(step_import::run_guarded("x.step", [] { return 0; }) == 0);
+    CHECK(step_import::run_guarded("x.step", [] { return 4; }) == 4);
+    CHECK(step_import::run_guarded("x.step", []() -> int { throw std::runtime_error("thrown"); }) == 1);
+    CHECK(step_import::run_guarded("x.step", []() -> int {
+              (void)raise(SIGSEGV);
+              return 0;
+          }) == 3);
+}
+
+TEST_CASE("what cannot be written is said") {
+    const Folder folder;
+    (void)good_file(folder);
+    write(folder / "file", "in the way");
+    for (const std::filesystem::path& where : {folder / "file", folder / "file" / "below"}) {
+        const auto imported = import(folder / "good.step", where);
+        REQUIRE(imported.errors.size() == 1);
+        CHECK(imported.errors[0].code == ErrorCode::failed);
+        CHECK(imported.errors[0].file.find("file") != std::string::npos);
+    }
+    if (geteuid() != 0) {
+        std::filesystem::create_directory(folder / "locked");
+        std::filesystem::permissions(folder / "locked", std::filesystem::perms::owner_read);
+        CHECK(import(folder / "good.step", folder / "locked").errors[0].code == ErrorCode::failed);
+    }
+    step_import::ImportOptions options;
+    options.name = "../elsewhere";
+    const auto imported = import(folder / "good.step", folder / "out", options);
+    REQUIRE(imported.errors.size() == 1);
+    CHECK(imported.errors[0].code == ErrorCode::usage);
+}
+
+TEST_CASE("the same STEP file gives the same bytes") {
+    const Folder folder;
+    (void)good_file(folder);
+    step_import::ImportOptions options;
+    options.far_level = true;
+    options.far_triangles = 200;
+    for (const char* out : {"a", "b"}) REQUIRE(import(folder / "good.step", folder / out, options).ok());
+    for (const char* file : {"good.glb", "good.far.glb", "good.contact.glb"}) {
+        CAPTURE(file);
+        CHECK(bytes(folder / "a" / file) == bytes(folder / "b" / file));
+    }
+}
+
+TEST_CASE("the far level: same nodes, fewer triangles, within its budget and the error that it states") {
+    const Folder folder;
+    (void)good_file(folder);
+    step_import::ImportOptions options;
+    options.far_level = true;
+    options.far_triangles = 600;
+    options.deflection_mm = 0.02;
+    const auto imported = import(folder / "good.step", folder / "out", options);
+    REQUIRE(imported.ok());
+    const assets::Model near = load(folder / "out" / "good.glb"), far = load(folder / "out" / "good.far.glb");
+    REQUIRE(near.nodes.size() == far.nodes.size());
+    for (std::size_t i = 0; i < near.nodes.size(); ++i) CHECK(near.nodes[i].name == far.nodes[i].name);
+    CHECK(imported.report.triangles > 2000);
+    CHECK(imported.report.far_triangles <= 600);
+    CHECK(imported.report.far_triangles > 50);
+    // Every vertex that is left of the torus is on it: points of the surface are chosen, not moved.
+    const int node = node_named(far, "ring_1");
+    const auto& ring = far.meshes[static_cast<std::size_t>(far.nodes[static_cast<std::size_t>(node)].mesh)];
+    double most = 0.0;
+    for (const glm::vec3& p : ring.primitives[0].positions) {
+        const double r = std::hypot(static_cast<double>(p.x), static_cast<double>(p.z)) - 0.030;
+        most = std::max(most, std::abs(std::hypot(r, static_cast<double>(p.y)) - 0.008));
+    }
+    CHECK(most < 1e-6);
+    // And its volume is that of the torus within the error times its surface.
+    const double error = (imported.report.far_deflection_mm + imported.report.far_error_mm) * 1e-3;
+    CHECK(imported.report.far_error_mm > 0.0);
+    CHECK(std::abs(volume(ring) - 2.0 * pi * pi * 0.030 * 0.008 * 0.008) <
+          4.0 * pi * pi * 0.030 * 0.008 * error);
+}
+
+TEST_CASE("the summary has every figure and file") {
+    const Folder folder;
+    (void)good_file(folder);
+    const auto imported = import(folder / "good.step", folder / "out");
+    REQUIRE(imported.ok());
+    const std::string text = step_import::summary(imported.report);
+    for (const char* word :
+         {"block", "ring", "2 parts, 3 instances", "deflection: 0.1 mm", "painted_cast_iron", "watertight",
+          "joints: 0 found", "good.glb", "good.contact.glb", "millimetre"}) {
+        CAPTURE(word);
+        CHECK(text.find(word) != std::string::npos);
+    }
+}

@@ -1,0 +1,74 @@
+// STEP files made on the spot, so that every number a test expects is known in closed form.
+#pragma once
+
+#include <TDF_Label.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopoDS_Shape.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <filesystem>
+#include <gp_Trsf.hxx>
+#include <string>
+
+#include "engine/assets/model.hpp"
+#include "engine/base/math.hpp"
+#include "tools/import/import_step.hpp"
+
+namespace import_test {
+
+using namespace bolt;
+
+// An empty folder that goes away with the test.
+class Folder {
+  public:
+    Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder();
+    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+class StepMaker {
+  public:
+    StepMaker();
+    TDF_Label part(const std::string& name, const TopoDS_Shape& shape, const std::string& colour = {});
+    TDF_Label assembly(const std::string& name);
+    // OpenCASCADE's writer drops the name of what is not moved: a place of its own keeps it.
+    TDF_Label place(const TDF_Label& parent, const TDF_Label& what, const std::string& name,
+                    const gp_Trsf& where = {});
+    void paint(const TDF_Label& label, const std::string& colour);
+    void paint_face(const TDF_Label& part, const TopoDS_Shape& face, const std::string& colour);
+    void material(const TDF_Label& part, const std::string& name);
+    void write(const std::filesystem::path& path, const char* unit = "MM");
+
+  private:
+    Handle(TDocStd_Document) document_;
+    Handle(XCAFDoc_ShapeTool) shapes_;
+    Handle(XCAFDoc_ColorTool) colours_;
+};
+
+gp_Trsf moved(double x, double y, double z);
+
+// A face of the shape whose outward normal is (x, y, z).
+TopoDS_Shape face_towards(const TopoDS_Shape& shape, double x, double y, double z);
+
+// Fasteners without threads, along +Z. Head below z = 0, shank from 0 to length; nut and washer from 0
+// upward.
+TopoDS_Shape hexagon_bolt(double d, double flats, double head, double length);
+TopoDS_Shape hexagon_nut(double flats, double height, double hole);
+TopoDS_Shape ring(double outer, double inner, double height);
+
+step_import::Imported import(const std::filesystem::path& step, const std::filesystem::path& folder,
+                             step_import::ImportOptions options = {});
+
+assets::Model load(const std::filesystem::path& glb);
+int node_named(const assets::Model& model, const std::string& name);  // −1: there is none
+glm::dmat4 world(const assets::Model& model, int node);
+double volume(const assets::Mesh& mesh);  // m³, of a closed mesh
+std::string bytes(const std::filesystem::path& file);
+
+}  // namespace import_test
