@@ -4,10 +4,11 @@ set -euo pipefail
 list="$(dirname "$0")/../packages.txt"
 missing=()
 for group in "$@"; do
-    while read -r package; do
+    while read -r package instead; do
+        [[ -z $instead ]] || ! command -v "$instead" >/dev/null || continue
         status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
         [[ $status == "install ok installed" ]] || missing+=("$package")
-    done < <(awk -v group="$group" '!/^#/ && $2 == group { print $1 }' "$list")
+    done < <(awk -v group="$group" '!/^#/ && $2 == group { print $1, $3 }' "$list")
 done
 [[ ${#missing[@]} -gt 0 ]] || exit 0
 echo "Installing: ${missing[*]}"

@@ -111,8 +111,8 @@ mkfifo pipe && (cat pipe > piped.html &) && expect 0 '' "$bin/boltwright" report
 check "a pipe stays a pipe" test -p pipe
 
 # A locking nut is run down with the wrench.
-mkdir locking && sed 's/"lubrication": "oiled"/"lubrication": "oiled", "prevailing_torque_Nm": 4/' \
-    pump-cover/assembly.json > locking/assembly.json
+cp -r pump-cover locking
+sed -i 's/"lubrication": "oiled"/"lubrication": "oiled", "prevailing_torque_Nm": 4/' locking/assembly.json
 expect 0 'score' "$bin/boltwright" train locking --headless --quiet --out locked
 
 # What is wrong is said, with the right exit code.

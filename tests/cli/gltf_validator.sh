@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# Everything that is shipped as .glb is without an error or a warning of the Khronos glTF validator, and bolt-author
+# validate says what that program finds. $1: programs, $2: sources.
+set -uo pipefail
+bin=$1
+sources=$2
+runner=$sources/tools/gltf-validator
+if [[ ! -d $runner/node_modules/gltf-validator ]] || ! command -v node >/dev/null; then
+    echo "left out: tools/install-node-tools.sh has not installed the validator"
+    exit 77
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+bad() { echo "FAILED: $1"; failed=1; }
+
+# Files that are wrong: a reference to a scene that is not there, a name that is misspelt (a warning), no glTF at all.
+glb() {
+    python3 - "$1" "$2" <<'PY'
+import struct, sys
+text = sys.argv[2].encode()
+text += b' ' * (-len(text) % 4)
+chunk = struct.pack('<I4s', len(text), b'JSON') + text
+open(sys.argv[1], 'wb').write(struct.pack('<4sII', b'glTF', 2, 12 + len(chunk)) + chunk)
+PY
+}
+glb "$work/good.glb" '{"asset":{"version":"2.0"}}'
+glb "$work/error.glb" '{"asset":{"version":"2.0"},"scene":5}'
+glb "$work/warning.glb" '{"asset":{"version":"2.0"},"scens":[]}'
+echo "no glTF" > "$work/none.glb"
+node "$runner/validate.mjs" "$work"/{good,error,warning,none}.glb > "$work/said.json" || bad "the runner failed"
+python3 - "$work/said.json" <<'PY' || bad "the runner does not say what is wrong"
+import json, sys
+good, error, warning, none = json.load(open(sys.argv[1]))
+assert good['messages'] == [], good
+assert [(m['severity'], m['code'], m['pointer']) for m in error['messages']] == [(0, 'UNRESOLVED_REFERENCE', '/scene')], error
+assert [(m['severity'], m['code'], m['pointer']) for m in warning['messages']] == [(1, 'UNEXPECTED_PROPERTY', '/scens')], warning
+assert len(none['messages']) == 1 and none['messages'][0]['severity'] == 0, none
+PY
+
+# What is shipped.
+mapfile -d '' shipped < <(find "$sources/content" -name '*.glb' -print0 | sort -z)
+if [[ ${#shipped[@]} -gt 0 ]]; then
+    node "$runner/validate.mjs" "${shipped[@]}" > "$work/shipped.json" || bad "the runner failed on what is shipped"
+    python3 - "$work/shipped.json" "${#shipped[@]}" <<'PY' || bad "what is shipped is not without a warning"
+import json, sys
+reports = json.load(open(sys.argv[1]))
+assert len(reports) == int(sys.argv[2])
+lines = [f"{r['file']}: {m['pointer']}: {m['message']} ({m['code']})" for r in reports for m in r['messages']]
+print('\n'.join(lines))
+sys.exit(1 if lines else 0)
+PY
+fi
+
+# bolt-author validate runs it, and says where it is left out.
+mkdir -p "$work/content/assemblies/cover" "$work/content/schema" "$work/content/tools"
+cp "$sources/content/schema/assembly.schema.json" "$work/content/schema"
+cp "$work/error.glb" "$work/content/tools/wrench.glb"
+export BOLTWRIGHT_CONTENT=$work/content BOLTWRIGHT_GLTF_VALIDATOR=$runner
+cat > "$work/content/assemblies/cover/assembly.json" <<'JSON'
+{
+  "title": { "en": "Cover" }, "lesson": { "en": "Tighten." },
+  "tool": { "kind": "open_end_wrench", "jaw_mm": 13.2, "handle_length_mm": 140, "model": "wrench.glb" },
+  "joint_types": { "M8": { "size": "M8", "class": "8.8", "bolt_length_mm": 30, "members": [{ "thickness_mm": 19, "material": "steel" }],
+    "friction_thread": 0.12, "friction_bearing": 0.12, "spec": { "strategy": "torque", "target_torque_Nm": 20 } } },
+  "joints": [{ "id": "B1", "type": "M8", "position_mm": [0, 0, 0] }],
+  "passes": [{ "kind": "run_down" }, { "kind": "tighten", "percent": 100 }, { "kind": "recheck" }]
+}
+JSON
+"$bin/bolt-author" validate cover > "$work/out" 2> "$work/err"
+[[ $? -eq 3 ]] || bad "an error of the validator is no bad content"
+grep -q 'tools/wrench.glb: /scene: .*UNRESOLVED_REFERENCE, an error of the Khronos glTF validator' "$work/err" ||
+    { bad "the validator's error is not told"; cat "$work/err"; }
+BOLTWRIGHT_GLTF_VALIDATOR=$work "$bin/bolt-author" validate cover > "$work/out" 2> "$work/err"
+[[ $? -eq 0 ]] || { bad "without the validator its check is left out"; cat "$work/err"; }
+grep -q 'the Khronos glTF validator is not installed, so its checks are left out' "$work/out" || bad "that is not told"
+mkdir -p "$work/broken/node_modules/gltf-validator"
+echo 'process.exit(3)' > "$work/broken/validate.mjs"
+BOLTWRIGHT_GLTF_VALIDATOR=$work/broken "$bin/bolt-author" validate cover > "$work/out" 2> "$work/err"
+[[ $? -eq 1 ]] && grep -q 'the Khronos glTF validator: it failed' "$work/err" || bad "a validator that fails is not told"
+cp "$work/good.glb" "$work/content/tools/wrench.glb"
+"$bin/bolt-author" validate cover > "$work/out" 2> "$work/err" || { bad "a good file is refused"; cat "$work/err"; }
+
+[[ $failed -eq 0 ]] && echo "${#shipped[@]} shipped files, no errors, no warnings"
+exit $failed
