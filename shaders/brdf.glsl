@@ -50,7 +50,7 @@ struct Seen {
 Seen see(Surface s, sampler2D albedo_table) {
     const float nv = clamp(dot(s.normal, s.out_dir), 0.0, 1.0);
     const vec2 size = vec2(textureSize(albedo_table, 0));
-    const float roughness = sqrt(sqrt(s.alpha.x * s.alpha.y));
+    const float roughness = sqrt(length(s.alpha) * 0.70710678);
     const vec2 ab = texture(albedo_table, (vec2(sqrt(nv), roughness) * (size - 1.0) + 0.5) / size).xy;
     const float gain = 1.0 / (ab.x + ab.y) - 1.0;
     const vec3 dielectric = (s.f0 * ab.x + s.f90 * ab.y) * (1.0 + s.f0 * gain);

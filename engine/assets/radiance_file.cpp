@@ -29,12 +29,12 @@ void append(void* context, void* data, int size) {
 
 }  // namespace
 
-Result<HdrImage> read_hdr(const std::filesystem::path& path) {
+Result<RadianceImage> read_hdr(const std::filesystem::path& path) {
     const auto file = read_file(path, std::size_t{1} << 28U, ErrorCode::bad_content);
     if (!file) return fail(file.error());
     const auto* bytes = reinterpret_cast<const stbi_uc*>(file->data());
     const int size = static_cast<int>(file->size());
-    HdrImage image;
+    RadianceImage image;
     int channels = 0;
     if (stbi_is_hdr_from_memory(bytes, size) == 0) return hdr_error(path, "is no Radiance .hdr file");
     const std::unique_ptr<float, Free> pixels(
@@ -49,7 +49,7 @@ Result<HdrImage> read_hdr(const std::filesystem::path& path) {
     return image;
 }
 
-Status write_hdr(const std::filesystem::path& path, const HdrImage& image) {
+Status write_hdr(const std::filesystem::path& path, const RadianceImage& image) {
     std::string bytes;
     if (stbi_write_hdr_to_func(append, &bytes, image.width, image.height, 3,
                                reinterpret_cast<const float*>(image.pixels.data())) == 0)

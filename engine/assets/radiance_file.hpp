@@ -1,4 +1,5 @@
-// Radiance .hdr files: pictures of light.
+// Light from all around, as an equirectangular image of radiance (the middle column is −Z, the right half +X,
+// the top row +Y), and the Radiance .hdr files that hold such images.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +10,13 @@
 
 namespace bolt::assets {
 
-struct HdrImage {
+struct RadianceImage {
     int width = 0, height = 0;
-    std::vector<glm::vec3> pixels;  // radiance, rows from the top
+    std::vector<glm::vec3> pixels;  // rows from the top
 };
 
 // Refuses what is no such file, or has values that are not finite.
-Result<HdrImage> read_hdr(const std::filesystem::path& path);
-Status write_hdr(const std::filesystem::path& path, const HdrImage& image);
+Result<RadianceImage> read_hdr(const std::filesystem::path& path);
+Status write_hdr(const std::filesystem::path& path, const RadianceImage& image);
 
 }  // namespace bolt::assets

@@ -1,17 +1,15 @@
-// Light from all around, as an equirectangular image of radiance: the middle column is −Z, the right half +X,
-// the top row +Y.
+// Light from all around, looked up by direction.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "engine/assets/radiance_file.hpp"
+
 namespace bolt::shading {
 
-struct RadianceImage {
-    int width = 0, height = 0;
-    std::vector<glm::vec3> pixels;  // rows from the top
-};
+using assets::RadianceImage;
 
 // Where a unit direction lies in the image, both in [0, 1], and back.
 glm::vec2 to_square(const glm::vec3& direction);
@@ -24,6 +22,6 @@ RadianceImage constant(const glm::vec3& radiance);
 
 // The light of a photographer's table: a large soft box above, one to either side, a dim surrounding that
 // brightens upwards.
-RadianceImage studio(int width = 512);
+RadianceImage studio(int width = 256);
 
 }  // namespace bolt::shading

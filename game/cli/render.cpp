@@ -142,9 +142,7 @@ Result<Subject> load_subject(const RenderOptions& options) {
 
 Result<shading::RadianceImage> load_light(const std::string& name) {
     if (name == "studio") return shading::studio();
-    Result<assets::HdrImage> image = assets::read_hdr(name);
-    if (!image) return fail(image.error());
-    return shading::RadianceImage{image->width, image->height, std::move(image->pixels)};
+    return assets::read_hdr(name);
 }
 
 struct FrameTime {

@@ -5,13 +5,14 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "engine/shading/albedo.hpp"
+#include "engine/shading/ggx.hpp"
 #include "tests/pathtrace/about.hpp"
-#include "tools/pathtrace/albedo.hpp"
 #include "tools/pathtrace/bsdf.hpp"
-#include "tools/pathtrace/ggx.hpp"
 #include "tools/pathtrace/sampler.hpp"
 
 using namespace bolt::pathtrace;
+using namespace bolt::shading;
 using bolt::about;
 
 namespace {

@@ -11,11 +11,9 @@
 #include "tools/models/cover/cover.hpp"
 #include "tools/models/document.hpp"
 #include "tools/models/flange/flange.hpp"
+#include "tools/models/reducer/zq350.hpp"
 #include "tools/models/wrench/torque_wrench.hpp"
 #include "tools/models/wrench/wrench.hpp"
-#ifdef BOLT_ZQ350
-#include "tools/models/reducer/zq350.hpp"
-#endif
 
 namespace {
 
@@ -49,9 +47,7 @@ int main(int argc, char** argv) {
     std::string which = "all", content;
     int exit_code = 0;
     const std::vector<Model> models = {
-#ifdef BOLT_ZQ350
         {"zq350", "assemblies/zq350/zq350.step", bolt::models::add_zq350},
-#endif
         {"dn200-pn16", "assemblies/dn200-pn16/dn200-pn16.step", bolt::models::add_dn200_pn16},
         {"cover-m8", "assemblies/cover-m8/cover-m8.step", bolt::models::add_cover_m8},
         {"tools", "tools/wrench-13.step",

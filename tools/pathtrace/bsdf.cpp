@@ -1,9 +1,11 @@
 #include "tools/pathtrace/bsdf.hpp"
 
-#include "tools/pathtrace/albedo.hpp"
-#include "tools/pathtrace/ggx.hpp"
+#include "engine/shading/albedo.hpp"
+#include "engine/shading/ggx.hpp"
 
 namespace bolt::pathtrace {
+
+using namespace shading;  // ggx.hpp and albedo.hpp
 
 namespace {
 

@@ -1,30 +1,19 @@
-// Light from all around, as an equirectangular image of radiance: the middle column is −Z, the right half +X,
-// the top row +Y.
+// Light from all around: looked up, and sampled where it is bright.
 #pragma once
 
-#include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/base/result.hpp"
+#include "engine/shading/radiance.hpp"
 
 namespace bolt::pathtrace {
 
-struct RadianceImage {
-    int width = 0, height = 0;
-    std::vector<glm::vec3> pixels;  // rows from the top
-};
-
-// A Radiance .hdr file.
-Result<RadianceImage> read_hdr(const std::filesystem::path& path);
-Status write_hdr(const std::filesystem::path& path, const RadianceImage& image);
-
-// The built-in light of a photographer's table: a large soft box above, one to either side, a dim surrounding
-// that brightens upwards.
-RadianceImage studio(int width = 256);
-
-RadianceImage constant(const glm::vec3& radiance);
+using assets::read_hdr;
+using assets::write_hdr;
+using shading::constant;
+using shading::RadianceImage;
+using shading::studio;
 
 struct DirectionSample {
     glm::vec3 direction{0.0F};

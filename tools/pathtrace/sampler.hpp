@@ -6,20 +6,13 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
+#include "engine/shading/radical_inverse.hpp"
+
 namespace bolt::pathtrace {
 
-inline std::uint32_t reverse_bits(std::uint32_t x) {
-    x = (x << 16U) | (x >> 16U);
-    x = ((x & 0x00FF00FFU) << 8U) | ((x & 0xFF00FF00U) >> 8U);
-    x = ((x & 0x0F0F0F0FU) << 4U) | ((x & 0xF0F0F0F0U) >> 4U);
-    x = ((x & 0x33333333U) << 2U) | ((x & 0xCCCCCCCCU) >> 2U);
-    return ((x & 0x55555555U) << 1U) | ((x & 0xAAAAAAAAU) >> 1U);
-}
-
-// 24 bits, so that the result is below one as a float.
-inline float unit_float(std::uint32_t x) { return static_cast<float>(x >> 8U) * 0x1p-24F; }
-
-inline float radical_inverse(std::uint32_t i) { return unit_float(reverse_bits(i)); }
+using shading::radical_inverse;
+using shading::reverse_bits;
+using shading::unit_float;
 
 // A hash with good avalanche (Murmur3's finalizer) of a pair.
 inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
