@@ -11,7 +11,7 @@ layout(constant_id = 0) const uint bits = 0u;
 layout(set = 0, binding = 3) uniform sampler2D albedo_table;
 layout(set = 0, binding = 4) uniform samplerCube specular_levels;
 layout(set = 0, binding = 5) uniform sampler2DShadow shadow_map;
-layout(set = 0, binding = 6) uniform sampler2D ambient_occlusion;
+layout(set = 0, binding = 6) uniform sampler2DArray ambient_occlusion;
 layout(set = 1, binding = 0) uniform sampler2D base_map;
 layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_map;
 layout(set = 1, binding = 2) uniform sampler2D normal_map;
@@ -71,6 +71,18 @@ vec3 arriving(Light light, out vec3 l) {
     const float cone = clamp(dot(light.direction.xyz, -l) * light.cone.x + light.cone.y, 0.0, 1.0);
     const float fade = (light.position.w == 0.0 ? 1.0 : near) * (light.position.w == 2.0 ? cone * cone : 1.0);
     return light.color.rgb * fade;
+}
+
+// What is kept away comes back in part from the neighbours that keep it away, the more the brighter they are; they are taken to
+// be as bright as the surface itself (Jimenez et al. 2016, as in occlusion.frag).
+vec3 returned(float ao, vec3 albedo) {
+    const vec3 a = 2.0404 * albedo - 0.3324, b = -4.7951 * albedo + 0.6417, c = 2.7552 * albedo + 0.6903;
+    return max(vec3(ao), ((ao * a + b) * ao + c) * ao);
+}
+
+// Specular occlusion from the ambient one (S. Lagarde and C. de Rousiers, Moving Frostbite to PBR, 2014).
+float mirrored_share(float nv, float ao, float roughness) {
+    return clamp(pow(nv + ao, exp2(-16.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);
 }
 
 void main() {
@@ -135,16 +147,13 @@ void main() {
 
     const Seen seen = see(s, albedo_table);
     const vec2 screen = gl_FragCoord.xy * frame.picture.zw;
-    const float ao = min(s.occlusion, textureLod(ambient_occlusion, screen, 0.0).r);
+    const float ao = min(s.occlusion, textureLod(ambient_occlusion, vec3(screen, gl_ViewIndex), 0.0).r);
     const float nv = clamp(dot(n, s.out_dir), 0.0, 1.0);
-    // Specular occlusion from the ambient one (S. Lagarde and C. de Rousiers, Moving Frostbite to PBR, 2014).
-    const float specular_ao = clamp(pow(nv + ao, exp2(-16.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);
-
     vec3 color = s.emission;
-    color += seen.below_coat * (seen.diffuse * diffuse_light(n) * ao +
-                                seen.specular * specular_light(specular_levels, reflect(-s.out_dir, n), roughness) * specular_ao);
+    color += seen.below_coat * (seen.diffuse * diffuse_light(n) * returned(ao, seen.diffuse) +
+                                seen.specular * specular_light(specular_levels, reflect(-s.out_dir, n), roughness) * mirrored_share(nv, ao, roughness));
     if (s.coat > 0.0)
-        color += seen.coat * specular_light(specular_levels, reflect(-s.out_dir, s.coat_normal), m.coat_roughness) * specular_ao;
+        color += seen.coat * specular_light(specular_levels, reflect(-s.out_dir, s.coat_normal), m.coat_roughness) * mirrored_share(nv, ao, m.coat_roughness);
     for (uint i = 0u; i < frame.light_count; ++i) {
         vec3 l;
         vec3 light = arriving(frame.lights[i], l);

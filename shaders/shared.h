@@ -37,6 +37,7 @@ struct Frame {
     mat4 shadow_from_world; // of light 0, when it casts a shadow
     vec4 environment;       // x: intensity, y: turn about Y, rad, z: highest level of the specular chain, w: exposure
     vec4 picture;           // width, height, 1/width, 1/height
+    vec4 occlusion;         // x: radius of ambient occlusion, m
     vec4 background;        // rgb; w: 1 show it, 0 show the environment
     uint light_count;
     uint shadows;           // 1: light 0 casts a shadow

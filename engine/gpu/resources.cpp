@@ -76,9 +76,9 @@ Result<Image> Image::create(Device& device, const ImageInfo& given) {
         vkBindImageMemory(device.get(), image.image_, image.allocation_.memory, image.allocation_.offset);
     if (Status made = check(bound, "binding an image"); !made) return fail(made.error());
 
-    const VkImageViewType type = given.cube         ? VK_IMAGE_VIEW_TYPE_CUBE
-                                 : given.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
-                                                    : VK_IMAGE_VIEW_TYPE_2D;
+    const VkImageViewType type = given.cube                        ? VK_IMAGE_VIEW_TYPE_CUBE
+                                 : given.layers > 1 || given.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                                                   : VK_IMAGE_VIEW_TYPE_2D;
     Result<ImageView> view = image.view(type, 0, given.mips, 0, given.layers);
     if (!view) return fail(view.error());
     image.view_ = std::move(*view);

@@ -32,6 +32,7 @@ shared::Frame describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D
                      static_cast<float>(environment.levels.info().mips - 1), scene.exposure};
     const auto width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
     f.picture = {width, height, 1.0F / width, 1.0F / height};
+    f.occlusion.x = scene.occlusion_radius;
     f.background = scene.background;
     const bool shades = !scene.lights.empty() && scene.lights.front().casts_shadow &&
                         scene.lights.front().light.position.w == 0.0F && !scene.objects.empty();
@@ -97,14 +98,17 @@ struct Renderer::Passes {
     shared::Frame shared;
     std::uint32_t views;  // drawn in one pass
     gpu::Piece frame_block{};
+    VkImageView occlusion_view = VK_NULL_HANDLE;  // what the scene reads
 
     Status put_frame();
     Status shadow();
     Status picture(const DrawList& list);
+    Status occlusion(Targets& target, const DrawList& list, const gpu::Piece& instances);
 
   private:
     Result<VkDescriptorSet> frame_set(const gpu::Pipeline& pipeline, const gpu::Piece& instances,
                                       const gpu::Piece& materials);
+    Status fill(const gpu::Pipeline& pipeline, VkDescriptorSet set, const gpu::Image& target);
     Result<VkDescriptorSet> texture_set(const gpu::Pipeline& pipeline, const GpuModel& model,
                                         std::uint32_t material);
     Status draw_scene(const DrawList& list, const gpu::Piece& instances, const gpu::Piece& materials);
@@ -196,7 +200,7 @@ Result<VkDescriptorSet> Renderer::Passes::frame_set(const gpu::Pipeline& pipelin
         .image(4, environment.levels.view(), clamped)
         .image(5, renderer.shadow_map_.view(), renderer.comparing_.get(),
                VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL)
-        .image(6, renderer.white_.image.view(), clamped)
+        .image(6, occlusion_view, clamped)
         .finish();
 }
 
@@ -262,6 +266,94 @@ Status Renderer::Passes::draw_sky() {
     return {};
 }
 
+// A whole image, from nothing but what the set holds.
+Status Renderer::Passes::fill(const gpu::Pipeline& pipeline, VkDescriptorSet set, const gpu::Image& target) {
+    const VkCommandBuffer commands = frame.commands();
+    gpu::image_barrier_discarding(commands, target.get(), Use::sampled, Use::color_target);
+    VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    color.imageView = target.view();
+    color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    rendering.renderArea.extent = target.info().extent;
+    rendering.layerCount = 1;
+    rendering.viewMask = views > 1 ? (1U << views) - 1U : 0U;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachments = &color;
+    vkCmdBeginRendering(commands, &rendering);
+    set_area(commands, target.info().extent);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle.get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout.get(), 0, 1, &set, 0,
+                            nullptr);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+    vkCmdEndRendering(commands);
+    gpu::image_barrier(commands, target.get(), Use::color_target, Use::sampled);
+    return {};
+}
+
+Status Renderer::Passes::occlusion(Targets& target, const DrawList& list, const gpu::Piece& instances) {
+    if (Status made = renderer.make_occlusion_targets(target); !made) return made;
+    const auto pipelines = renderer.occlusion_pipelines(views);
+    if (!pipelines) return fail(pipelines.error());
+    const auto& [depth_pipeline, slices, smooth] = **pipelines;
+    gpu::Device& device = *renderer.device_;
+    const auto set_of = [&](const gpu::Pipeline& pipeline, const auto& bind) -> Result<VkDescriptorSet> {
+        Result<gpu::SetWriter> writer = gpu::SetWriter::create(device, frame, pipeline, 0);
+        if (!writer) return fail(writer.error());
+        return bind(*writer).finish();
+    };
+    const VkSampler nearest = renderer.nearest_.get();
+    constexpr VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+    const auto depth_set = set_of(
+        depth_pipeline, [&](gpu::SetWriter & w) -> auto& {
+            return w.piece(0, frame_block).piece(1, instances);
+        });
+    if (!depth_set) return fail(depth_set.error());
+    const auto slices_set = set_of(
+        slices, [&](gpu::SetWriter & w) -> auto& {
+            return w.piece(0, frame_block).image(3, target.small_depth.view(), nearest, depth_layout);
+        });
+    if (!slices_set) return fail(slices_set.error());
+    const auto smooth_set = set_of(
+        smooth, [&](gpu::SetWriter & w) -> auto& {
+            return w.image(3, target.small_depth.view(), nearest, depth_layout)
+                .image(4, target.raw_occlusion.view(), nearest);
+        });
+    if (!smooth_set) return fail(smooth_set.error());
+
+    const VkCommandBuffer commands = frame.commands();
+    gpu::image_barrier_discarding(commands, target.small_depth.get(), Use::depth_read, Use::depth_target,
+                                  depth_range);
+    VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    depth.imageView = target.small_depth.view();
+    depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    rendering.renderArea.extent = target.small_depth.info().extent;
+    rendering.layerCount = 1;
+    rendering.viewMask = views > 1 ? (1U << views) - 1U : 0U;
+    rendering.pDepthAttachment = &depth;
+    vkCmdBeginRendering(commands, &rendering);
+    set_area(commands, target.small_depth.info().extent);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, depth_pipeline.handle.get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, depth_pipeline.layout.get(), 0, 1,
+                            &*depth_set, 0, nullptr);
+    const GpuModel* bound = nullptr;
+    for (const Draw& d : list.draws) {
+        if (d.kind.blends) continue;
+        if (std::exchange(bound, d.model) != d.model) bind_geometry(commands, *d.model);
+        draw(commands, d);
+    }
+    vkCmdEndRendering(commands);
+    gpu::image_barrier(commands, target.small_depth.get(), Use::depth_target, Use::depth_read, depth_range);
+    if (Status done = fill(slices, *slices_set, target.raw_occlusion); !done) return done;
+    if (Status done = fill(smooth, *smooth_set, target.occlusion); !done) return done;
+    occlusion_view = target.occlusion.view();
+    return {};
+}
+
 Status Renderer::Passes::draw_into(const Targets& target, const DrawList& list, const gpu::Piece& instances,
                                    const gpu::Piece& materials) {
     const VkCommandBuffer commands = frame.commands();
@@ -307,11 +399,14 @@ Status Renderer::Passes::picture(const DrawList& list) {
     frame.begin_timing("scene");
     const shared::Frame all = shared;
     for (std::size_t pass = 0; pass < renderer.targets_.size(); ++pass) {
-        const Targets& target = renderer.targets_[pass];
+        Targets& target = renderer.targets_[pass];
         if (pass > 0) {
             shared.views[0] = all.views[pass];
             if (Status put = put_frame(); !put) return put;
         }
+        occlusion_view = renderer.white_array_.get();
+        if (shared.occlusion.x > 0.0F)
+            if (Status done = occlusion(target, list, *instances); !done) return done;
         gpu::image_barrier_discarding(commands, target.drawn.get(), Use::color_target, Use::color_target);
         gpu::image_barrier_discarding(commands, target.depth.get(), Use::depth_target, Use::depth_target,
                                       depth_range);

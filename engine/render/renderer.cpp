@@ -32,7 +32,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device, const Re
 
 Status Renderer::prepare(const RendererOptions& options) {
     if (Status s = take(cache_, gpu::PipelineCache::open(*device_, options.pipeline_cache)); !s) return s;
-    for (const char* name : {"scene.vert", "scene.frag", "shadow.vert", "sky.vert", "sky.frag"}) {
+    for (const char* name : {"scene.vert", "scene.frag", "shadow.vert", "depth.vert", "screen.vert",
+                             "occlusion.frag", "smooth.frag", "sky.vert", "sky.frag"}) {
         Result<gpu::Shader> shader = gpu::make_shader(name, scene_shaders(name));
         if (!shader) return fail(shader.error());
         shaders_.emplace(name, std::move(*shader));
@@ -64,9 +65,14 @@ Status Renderer::prepare(const RendererOptions& options) {
         !s)
         return s;
     if (Status s = take(white_, plain_texture(*device_, {255, 255, 255, 255})); !s) return s;
+    if (Status s = take(white_array_, white_.image.view(VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, 1, 0, 1)); !s)
+        return s;
     gpu::SamplerInfo clamped;
     clamped.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     if (Status s = take(clamped_, gpu::make_sampler(*device_, clamped)); !s) return s;
+    clamped.filter = VK_FILTER_NEAREST;
+    if (Status s = take(nearest_, gpu::make_sampler(*device_, clamped)); !s) return s;
+    clamped.filter = VK_FILTER_LINEAR;
     clamped.compares = true;
     return take(comparing_, gpu::make_sampler(*device_, clamped));
 }
@@ -80,7 +86,8 @@ bool Renderer::multiview() const {
 Status Renderer::resize(gpu::Frame& frame, VkExtent2D extent, std::uint32_t views) {
     if (extent_.width == extent.width && extent_.height == extent.height && views_ == views) return {};
     for (Targets& targets : targets_)
-        for (gpu::Image* image : {&targets.drawn, &targets.depth, &targets.picture})
+        for (gpu::Image* image : {&targets.drawn, &targets.depth, &targets.picture, &targets.small_depth,
+                                  &targets.raw_occlusion, &targets.occlusion})
             frame.retire(std::move(*image));
     targets_.clear();
     views_ = 0;  // until all is there
@@ -149,6 +156,49 @@ Result<const gpu::Pipeline*> Renderer::sky_pipeline(std::uint32_t views) {
     Result<gpu::Pipeline> made = gpu::make_graphics_pipeline(*device_, cache_, info);
     if (!made) return fail(made.error());
     return &sky_pipelines_.emplace(views, std::move(*made)).first->second;
+}
+
+Status Renderer::make_occlusion_targets(Targets& targets) {
+    if (targets.occlusion.get() != VK_NULL_HANDLE) return {};
+    gpu::ImageInfo info;
+    info.extent = {(extent_.width + 1) / 2, (extent_.height + 1) / 2};
+    info.layers = views_a_pass_;
+    info.array = true;
+    info.format = depth_format;
+    info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    if (Status s = take(targets.small_depth, gpu::Image::create(*device_, info)); !s) return s;
+    info.format = occlusion_format;
+    info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    if (Status s = take(targets.raw_occlusion, gpu::Image::create(*device_, info)); !s) return s;
+    return take(targets.occlusion, gpu::Image::create(*device_, info));
+}
+
+Result<const Renderer::OcclusionPipelines*> Renderer::occlusion_pipelines(std::uint32_t views) {
+    const auto known = occlusion_pipelines_.find(views);
+    if (known != occlusion_pipelines_.end()) return &known->second;
+    OcclusionPipelines made;
+    gpu::GraphicsInfo info;
+    info.view_mask = view_mask(views);
+    info.vertex = &shaders_.at("depth.vert");
+    info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0}};
+    info.strides = {position_size};
+    info.depth = depth_format;
+    info.cull = VK_CULL_MODE_NONE;
+    if (Status s = take(made.depth, gpu::make_graphics_pipeline(*device_, cache_, info)); !s)
+        return fail(s.error());
+    info.vertex = &shaders_.at("screen.vert");
+    info.streams.clear();
+    info.strides.clear();
+    info.depth = VK_FORMAT_UNDEFINED;
+    info.depth_test = info.depth_write = false;
+    info.colors = {occlusion_format};
+    info.fragment = &shaders_.at("occlusion.frag");
+    if (Status s = take(made.slices, gpu::make_graphics_pipeline(*device_, cache_, info)); !s)
+        return fail(s.error());
+    info.fragment = &shaders_.at("smooth.frag");
+    if (Status s = take(made.smooth, gpu::make_graphics_pipeline(*device_, cache_, info)); !s)
+        return fail(s.error());
+    return &occlusion_pipelines_.emplace(views, std::move(made)).first->second;
 }
 
 }  // namespace bolt::render

@@ -1,6 +1,7 @@
 // The frame, from the scene to a picture: an ordered list of passes (frame.cpp reads like it).
 //
 //   shadow   depth of what light 0 sees; kept while nothing in it moves
+//   occlusion  how much light neighbours keep away, at half the size, if the scene asks for it
 //   scene    everything, 4 samples a pixel, lit and tone-mapped, resolved into the target
 //
 // Several views are drawn in one pass by multiview, a layer each; on software rasterisers one after the
@@ -18,6 +19,7 @@ namespace bolt::render {
 // Pictures are 8-bit sRGB, one layer a view.
 inline constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat occlusion_format = VK_FORMAT_R8_UNORM;
 
 struct RendererOptions {
     std::uint32_t shadow_size = 2048;
@@ -33,6 +35,7 @@ struct RendererOptions {
 // Images as large as a picture, with a layer for each view that is drawn in the same pass.
 struct Targets {
     gpu::Image drawn, depth, picture;
+    gpu::Image small_depth, raw_occlusion, occlusion;  // half the size; made when a scene asks for them
 };
 
 // Where a view's picture is.
@@ -68,6 +71,11 @@ class Renderer {
     [[nodiscard]] bool multiview() const;
     Result<const gpu::Pipeline*> scene_pipeline(const Kind& kind, std::uint32_t views);
     Result<const gpu::Pipeline*> sky_pipeline(std::uint32_t views);
+    struct OcclusionPipelines {
+        gpu::Pipeline depth, slices, smooth;
+    };
+    Result<const OcclusionPipelines*> occlusion_pipelines(std::uint32_t views);
+    Status make_occlusion_targets(Targets& targets);
 
     gpu::Device* device_ = nullptr;
     RendererOptions options_;
@@ -76,10 +84,12 @@ class Renderer {
     gpu::Pipeline shadow_pipeline_;
     std::map<std::pair<Kind, std::uint32_t>, gpu::Pipeline> scene_pipelines_;
     std::map<std::uint32_t, gpu::Pipeline> sky_pipelines_;
+    std::map<std::uint32_t, OcclusionPipelines> occlusion_pipelines_;
     gpu::Image albedo_table_, shadow_map_;
     EnvironmentLight no_environment_;
-    gpu::Sampler clamped_, comparing_;
+    gpu::Sampler clamped_, comparing_, nearest_;
     GpuTexture white_;
+    gpu::ImageView white_array_;
     std::vector<Targets> targets_;  // one a pass
     VkExtent2D extent_{};
     std::uint32_t views_ = 0, views_a_pass_ = 1;

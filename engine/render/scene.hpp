@@ -30,7 +30,8 @@ struct Scene {
     float environment_intensity = 1.0F;
     float environment_turn = 0.0F;  // rad about Y
     float exposure = 1.0F;
-    glm::vec4 background{0.0F};  // w: 1 shows it, 0 the environment
+    float occlusion_radius = 0.0F;  // m, how far parts keep light from each other; 0: not at all
+    glm::vec4 background{0.0F};     // w: 1 shows it, 0 the environment
 };
 
 // A point of view. Any projection with depth 1 near and 0 far.

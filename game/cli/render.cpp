@@ -29,7 +29,7 @@ struct RenderOptions {
     std::string eye, target, size = "1280x720";
     double fov_deg = 35.0;
     int frames = 1;
-    bool stereo = false, validate = false;
+    bool stereo = false, validate = false, no_key = false;
 };
 
 struct Pose {
@@ -195,11 +195,12 @@ Status render_all(const RenderOptions& options) {
         return fail(ErrorCode::bad_content, fmt::format("{}: nothing in it can be drawn", options.what),
                     "a mesh in the default scene");
     render::place_lights(scene, subject->model);
-    if (scene.lights.empty()) scene.lights.push_back(key_light());
+    if (scene.lights.empty() && !options.no_key) scene.lights.push_back(key_light());
     scene.environment = &*light;
     scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
 
     const render::Box box = render::bounds(scene);
+    scene.occlusion_radius = 0.04F * glm::distance(box.low, box.high);
     render::Perspective lens;
     lens.aspect = static_cast<float>(extent->width) / static_cast<float>(extent->height);
     lens.fov = static_cast<float>(to_radians(options.fov_deg));
@@ -278,6 +279,7 @@ void add_render(CLI::App& app, int& exit_code) {
     command->add_option("--frames", options->frames, "Draw it this often")->check(CLI::Range(1, 100000));
     command->add_option("--timings", options->timings, "Write the frames' times to this JSON file");
     command->add_option("--light", options->light, "studio, or a Radiance .hdr file");
+    command->add_flag("--no-key", options->no_key, "Without the lamp that is added to a model that has none");
     command->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     command->add_flag("--validate", options->validate,
                       "Run under the Vulkan validation layers; any message is an error");

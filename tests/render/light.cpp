@@ -153,3 +153,43 @@ TEST_CASE("a plate shades the one below it, and only there") {
     (void)studio.shoot(scene, make_eye({0, 10, 0}, {0, 0, 0}, p), extent);
     CHECK(studio.renderer().statistics().shadow_drawn);
 }
+
+TEST_CASE("ambient occlusion: a floor is free, and half of its sky is gone where a wall stands on it") {
+    test::Studio studio;
+    assets::Material dark = white(0.0F, 1.0F);
+    dark.specular = 0.0F;
+    dark.base_color = {0.1F, 0.1F, 0.1F, 1.0F};
+    dark.double_sided = true;
+    const assets::Model model = test::plate(dark);
+    const GpuModel gpu_model = studio.upload(model);
+    const EnvironmentLight light = studio.light(shading::constant(glm::vec3(5.0F)));
+    Scene scene;
+    scene.environment = &light;
+    const glm::mat4 floor(glm::vec4(4, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 4, 0),
+                          glm::vec4(0, 0, 0, 1));
+    const glm::mat4 wall(glm::vec4(0, 4, 0, 0), glm::vec4(-1, 0, 0, 0), glm::vec4(0, 0, 4, 0),
+                         glm::vec4(0, 4, 0, 1));
+    place(scene, model, gpu_model, floor);
+    place(scene, model, gpu_model, wall);
+    scene.occlusion_radius = 1.0F;
+    Perspective p;
+    p.fov = 0.7F;
+    p.znear = 1.0F;
+    // On the right of the wall at x = 0, looking down on the floor.
+    const Eye eye = make_eye({4, 7, 0}, {1.6F, 0, 0}, p);
+    const Picture picture = studio.shoot(scene, eye, {160, 120});
+    const auto free_share = [&](float x) {
+        const glm::vec4 clip = eye.clip_from_world * glm::vec4(x, 0, 0.1F, 1);
+        const auto column = static_cast<std::uint32_t>((clip.x / clip.w + 1.0F) * 80.0F);
+        const auto row = static_cast<std::uint32_t>((clip.y / clip.w + 1.0F) * 60.0F);
+        return test::grey_radiance(static_cast<std::uint8_t>(test::pixel(picture, column, row).g)) / 0.5;
+    };
+    CHECK(free_share(2.5F) == doctest::Approx(1.0).epsilon(0.04));
+    CHECK(free_share(0.06F) < 0.72);  // a half, and what fades in between
+    CHECK(free_share(0.06F) > 0.40);
+    CHECK(free_share(0.5F) > free_share(0.06F) + 0.1);
+    CHECK(free_share(0.5F) < 1.0);
+    scene.occlusion_radius = 0.0F;
+    const Picture without = studio.shoot(scene, eye, {160, 120});
+    CHECK(test::largest_difference(picture, without) > 30);
+}

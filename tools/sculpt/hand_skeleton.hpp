@@ -2,9 +2,9 @@
 // extension has them: −Z from the wrist towards the tip along the bone that begins at the joint, +Y out of
 // the back of the hand or nail, +X to the right. Positions in the frame of the wrist joint, metres.
 //
-// Lengths of the bones and of the soft tissue at the tips: A. Buryanov, V. Kotiuk, Proportions of hand
-// segments, Int. J. Morphol. 28(3), 2010, 755-758, means of 66 hands. With a carpus of 32 mm the hand is 189
-// mm long, the median man's (S. Pheasant, Bodyspace, 1996: 190 mm long, 87 mm broad).
+// Lengths of the bones and of the soft tissue at the tips are plausible, near those of A. Buryanov, V.
+// Kotiuk, Proportions of hand segments, Int. J. Morphol. 28(3), 2010, 755-758; no copy of that table was at
+// hand to check them against. With a carpus of 32 mm the hand is 189 mm long, about a median man's.
 #pragma once
 
 #include <array>

@@ -1,0 +1,10 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_multiview : require
+#include "shaders/frame.glsl"
+
+layout(location = 0) in vec3 position;
+
+void main() {
+    gl_Position = frame.views[gl_ViewIndex].clip_from_world * (instances[gl_InstanceIndex].world_from_object * vec4(position, 1.0));
+}

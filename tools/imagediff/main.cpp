@@ -1,0 +1,56 @@
+// bolt-imagediff: how far a picture is from its reference.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/base/console.hpp"
+#include "game/cli/program.hpp"
+#include "tools/imagediff/compare.hpp"
+
+namespace {
+
+using namespace bolt;
+
+struct Options {
+    std::string reference, test, flips;
+    double most_flip = 1.0;
+    int most_channel = 255;
+};
+
+Status run(const Options& options) {
+    const Result<imagediff::Picture> reference = imagediff::read_png(options.reference);
+    if (!reference) return fail(reference.error());
+    const Result<imagediff::Picture> test = imagediff::read_png(options.test);
+    if (!test) return fail(test.error());
+    const Result<imagediff::Difference> difference = imagediff::compare(*reference, *test);
+    if (!difference) return fail(difference.error());
+    if (!options.flips.empty())
+        if (Status kept = imagediff::write_flips(options.flips, *reference, difference->flips); !kept)
+            return kept;
+    const std::string text = fmt::format(
+        "mean FLIP {:.4f}, largest difference of a channel {} of 255, {:.2f} % of the pixels differ\n",
+        difference->mean_flip, difference->largest, 100.0 * difference->changed);
+    if (Status said = say(text); !said) return said;
+    if (difference->mean_flip > options.most_flip || difference->largest > options.most_channel)
+        return fail(ErrorCode::failed, fmt::format("{} is too far from {}", options.test, options.reference));
+    return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Holds a picture against its reference.", "bolt-imagediff");
+    Options options;
+    int exit_code = 0;
+    app.add_option("reference", options.reference, "PNG")->required();
+    app.add_option("test", options.test, "PNG of the same size")->required();
+    app.add_option("--most-flip", options.most_flip, "Fail above this mean FLIP (0 … 1)");
+    app.add_option("--most-channel", options.most_channel,
+                   "Fail above this difference of a channel (0 … 255)");
+    app.add_option("--flips", options.flips, "Write the FLIP of every pixel to this PNG");
+    app.callback([&] {
+        const Status done = run(options);
+        exit_code = done ? 0 : complain(done.error());
+    });
+    return cli::run_program(app, argc, argv, exit_code);
+}
