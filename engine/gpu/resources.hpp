@@ -39,10 +39,10 @@ struct ImageInfo {
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{1, 1};
     std::uint32_t mips = 1, layers = 1;
-    bool cube = false;   // six layers a cube
-    bool array = false;  // seen as an array even with one layer
+    bool cube = false;  // six layers a cube
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkImageUsageFlags usage = 0;
+    bool array = false;  // seen as an array even with one layer
 
     [[nodiscard]] VkImageAspectFlags aspect() const;
 };
