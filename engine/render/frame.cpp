@@ -66,6 +66,18 @@ Result<gpu::Piece> put(gpu::Frame& frame, std::span<const T> values) {
     return piece;
 }
 
+// As shaders/tone.glsl has it.
+glm::vec3 pbr_neutral(glm::vec3 color) {
+    constexpr float start = 0.8F - 0.04F, d = 1.0F - start;
+    const float x = std::min({color.r, color.g, color.b});
+    color -= x < 0.08F ? x - 6.25F * x * x : 0.04F;
+    const float peak = std::max({color.r, color.g, color.b});
+    if (peak < start) return color;
+    const float new_peak = 1.0F - d * d / (peak + d - start);
+    const float grey = 1.0F - 1.0F / (0.15F * (peak - new_peak) + 1.0F);
+    return glm::mix(color * (new_peak / peak), glm::vec3(new_peak), grey);
+}
+
 void set_area(VkCommandBuffer commands, VkExtent2D extent) {
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
                               0.0F, 1.0F};
@@ -364,6 +376,10 @@ Status Renderer::Passes::draw_into(const Targets& target, const DrawList& list, 
     color.resolveImageView = target.picture.view();
     color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     color.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    // A plain background is what the picture is cleared to: no pixel of it is shaded.
+    const bool plain = scene.background.w > 0.5F;
+    const glm::vec3 behind = pbr_neutral(glm::vec3(scene.background) * scene.exposure);
+    if (plain) color.clearValue.color = {{behind.r, behind.g, behind.b, 1.0F}};
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     depth.imageView = target.depth.view();
     depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
@@ -383,7 +399,7 @@ Status Renderer::Passes::draw_into(const Targets& target, const DrawList& list, 
     std::erase_if(opaque.draws, [](const Draw& d) { return d.kind.blends; });
     std::erase_if(blending.draws, [](const Draw& d) { return !d.kind.blends; });
     Status drawn = draw_scene(opaque, instances, materials);
-    if (drawn) drawn = draw_sky();
+    if (drawn && !plain) drawn = draw_sky();
     if (drawn) drawn = draw_scene(blending, instances, materials);
     vkCmdEndRendering(commands);
     return drawn;

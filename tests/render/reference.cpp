@@ -69,7 +69,9 @@ double difference_on_the_model(const imagediff::Picture& a, const imagediff::Pic
 }  // namespace
 
 TEST_CASE("paint, zinc and steel of the M8 cover look as path tracing shows them") {
-    const std::filesystem::path content(std::getenv("BOLTWRIGHT_CONTENT"));
+    const char* folder = std::getenv("BOLTWRIGHT_CONTENT");
+    REQUIRE(folder != nullptr);
+    const std::filesystem::path content(folder);
     const auto model = assets::read_gltf(content / "assemblies/cover-m8/cover-m8.glb");
     REQUIRE(model.has_value());
     const glm::vec3 eye(0.13F, 0.14F, 0.2F), target(0.0F, -0.01F, 0.0F);
