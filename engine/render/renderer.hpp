@@ -5,7 +5,8 @@
 //   scene    everything, 4 samples a pixel, lit and tone-mapped, resolved into the target
 //
 // Several views are drawn in one pass by multiview, a layer each; on software rasterisers one after the
-// other, because lavapipe (Mesa 22.3) loses draws of the second view.
+// other, each into images of its own: on lavapipe (Mesa 22.3) the sky did not appear in any layer but the
+// first, with and without multiview, for a reason that was not found.
 #pragma once
 
 #include <array>
