@@ -7,11 +7,12 @@ const float pi = 3.14159265358979;
 struct Surface {
     vec3 position, normal, coat_normal, tangent, out_dir;
     vec3 base_color;
-    float metallic;
+    float metallic, roughness;
     vec2 alpha;      // along tangent and bitangent
     vec3 f0;         // of the dielectric
     float f90;
-    float coat, coat_alpha;
+    float coat, coat_roughness, coat_alpha;
+    bool coated, brushed;  // known when the shader is compiled
     float occlusion;
     vec3 emission;
 };
@@ -61,7 +62,7 @@ Seen see(Surface s, sampler2D albedo_table) {
     const float taken = max(dielectric.x, max(dielectric.y, dielectric.z));
     seen.diffuse = s.base_color * (1.0 - s.metallic) * max(0.0, 1.0 - taken);
     seen.coat = 0.0;
-    if (s.coat > 0.0) {
+    if (s.coated) {
         const float cnv = clamp(dot(s.coat_normal, s.out_dir), 0.0, 1.0);
         const vec2 coat = texture(albedo_table, (vec2(sqrt(cnv), sqrt(s.coat_alpha)) * (size - 1.0) + 0.5) / size).xy;
         seen.coat = s.coat * (0.04 * coat.x + coat.y) * (1.0 + 0.04 * (1.0 / (coat.x + coat.y) - 1.0));
@@ -80,12 +81,12 @@ vec3 reflect_light(Surface s, Seen seen, vec3 l) {
         const float gain = seen.gain;
         const vec3 dielectric = (s.f0 + (vec3(s.f90) - s.f0) * vh) * (1.0 + s.f0 * gain);
         const vec3 metal = (s.base_color + (1.0 - s.base_color) * vh) * (1.0 + s.base_color * gain);
-        const float shape = s.alpha.x == s.alpha.y ? ggx_shape(s.normal, s.alpha.x, s.out_dir, l, h)
-                                                   : ggx_shape(s.normal, s.tangent, s.alpha, s.out_dir, l, h);
+        const float shape = s.brushed ? ggx_shape(s.normal, s.tangent, s.alpha, s.out_dir, l, h)
+                                      : ggx_shape(s.normal, s.alpha.x, s.out_dir, l, h);
         result = (seen.diffuse / pi + mix(dielectric, metal, s.metallic) * shape) * (seen.below_coat * nl);
     }
     const float cnl = dot(s.coat_normal, l);
-    if (s.coat > 0.0 && cnl > 0.0)
+    if (s.coated && cnl > 0.0)
         result += s.coat * (0.04 + 0.96 * vh) * ggx_shape(s.coat_normal, s.coat_alpha, s.out_dir, l, h) * cnl;
     return result;
 }

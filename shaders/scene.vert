@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 #include "shaders/frame.glsl"
+#include "shaders/features.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normal;
@@ -14,20 +15,27 @@ layout(location = 1) out vec3 normal_out;
 layout(location = 2) out vec4 tangent_out;
 layout(location = 3) out vec2 texcoord_out;
 layout(location = 4) out vec4 color_out;
-layout(location = 5) flat out uint instance_out;
+layout(location = 5) flat out vec4 tint;
+layout(location = 6) flat out vec2 mark;  // opacity; 1: no light
 
 void main() {
-    const Instance instance = instances[gl_InstanceIndex];
-    const vec4 world = instance.world_from_object * vec4(position, 1.0);
-    const mat3 m = mat3(instance.world_from_object);
+    const mat4 world_from_object = instances[gl_InstanceIndex].world_from_object;
+    const vec4 world = world_from_object * vec4(position, 1.0);
+    const mat3 m = mat3(world_from_object);
     // Normals go by the cofactors: right for every scale, and for mirrored parts after the sign of the determinant.
     const mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     const float side = dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
     at = world.xyz;
     normal_out = side * (cofactors * normal.xyz);
-    tangent_out = vec4(m * tangent.xyz, side * tangent.w);
-    texcoord_out = texcoord;
-    color_out = color;
-    instance_out = uint(gl_InstanceIndex);
+    tangent_out = has(SCENE_TANGENTS) ? vec4(m * tangent.xyz, side * tangent.w) : vec4(0.0);
+    texcoord_out = has(SCENE_ANY_MAP) ? texcoord : vec2(0.0);
+    color_out = has(SCENE_VERTEX_COLORS) ? color : vec4(1.0);
+    tint = vec4(0.0);
+    mark = vec2(1.0, 0.0);
+    if (has(SCENE_MARKED)) {
+        tint = instances[gl_InstanceIndex].tint;
+        mark.x = instances[gl_InstanceIndex].opacity;
+        mark.y = (instances[gl_InstanceIndex].flags & INSTANCE_FLAT) != 0u ? 1.0 : 0.0;
+    }
     gl_Position = frame.views[gl_ViewIndex].clip_from_world * world;
 }

@@ -48,17 +48,17 @@ struct Frame {
 struct Instance {
     mat4 world_from_object;
     vec4 tint;      // w: 0 as it is … 1 replaced by rgb
-    uint material;
     uint flags;     // INSTANCE_…
     float opacity;
-    uint unused;
+    uint unused_a;
+    uint unused_b;
 };
 
 #define INSTANCE_FLAT 1u   // no light: the colour itself (guides, marks)
 
 struct Material {
     vec4 base_color;
-    vec4 emissive;           // strength included; w: alpha cutoff, below 0: opaque
+    vec4 emissive;           // strength included; w: alpha cutoff
     vec4 specular_color;     // rgb; w: specular
     float metallic;
     float roughness;
@@ -69,21 +69,32 @@ struct Material {
     float anisotropy_rotation;
     float normal_scale;
     float occlusion_strength;
-    uint textures;           // TEXTURE_… bits that are there
     uint unused_a;
     uint unused_b;
+    uint unused_c;
     vec4 uv[10];             // two rows a texture: base, metallic-roughness, normal, occlusion, emissive
 };
 
-#define TEXTURE_BASE 1u
-#define TEXTURE_METALLIC_ROUGHNESS 2u
-#define TEXTURE_NORMAL 4u
-#define TEXTURE_OCCLUSION 8u
-#define TEXTURE_EMISSIVE 16u
-
-// Bits of the scene pipelines' specialization constant.
-#define SCENE_TEXTURED 1u
-#define SCENE_VERTEX_COLORS 2u
+// Bits of the scene pipelines' specialization constant: what a pipeline is for. A software rasteriser runs both sides of every
+// branch, so what a part does not need is not in its shader at all.
+#define SCENE_BASE_MAP 1u
+#define SCENE_METALLIC_ROUGHNESS_MAP 2u
+#define SCENE_NORMAL_MAP 4u
+#define SCENE_OCCLUSION_MAP 8u
+#define SCENE_EMISSIVE_MAP 16u
+#define SCENE_ANY_MAP 31u
+#define SCENE_VERTEX_COLORS 32u
+#define SCENE_TANGENTS 64u
+#define SCENE_COAT 128u
+#define SCENE_ANISOTROPY 256u
+#define SCENE_MASK 512u       // transparent below the cutoff
+#define SCENE_BLEND 1024u     // as opaque as the base colour's alpha
+#define SCENE_MARKED 2048u    // tinted, ghostly or without light
+#define SCENE_SHADOW 4096u    // light 0 casts one
+#define SCENE_OCCLUSION 8192u // ambient occlusion on the screen
+#define SCENE_WIDE 16384u     // maps or colours of its own: more than a material's numbers
+#define LIGHT_PLAIN 32768u    // one colour behind everything, not the environment
+#define SCENE_LIGHTS_SHIFT 16u // the number of lights, four bits
 
 #ifdef __cplusplus
 }  // namespace bolt::render::shared

@@ -1,6 +1,7 @@
 #include "engine/render/draw_list.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <tuple>
@@ -15,9 +16,13 @@ struct Item {
     Kind kind;
     const Object* object = nullptr;
     std::uint32_t model = 0;  // in the order in which models appear
-    std::uint32_t part = 0;
+    std::uint32_t part = 0, level = 0;
     float distance = 0.0F;  // of blending ones, to the first eye
 };
+
+// What says something else at every point than the material's numbers.
+constexpr std::uint32_t own_values =
+    SCENE_BASE_MAP | SCENE_METALLIC_ROUGHNESS_MAP | SCENE_OCCLUSION_MAP | SCENE_VERTEX_COLORS | SCENE_MARKED;
 
 Kind kind_of(const Object& object, const Part& part) {
     const MaterialMaps& maps = object.model->maps[part.material];
@@ -25,9 +30,43 @@ Kind kind_of(const Object& object, const Part& part) {
     kind.blends = maps.blends || object.opacity < 1.0F;
     // A mirrored part shows the other winding.
     kind.double_sided = maps.double_sided || glm::determinant(glm::mat3(object.world)) < 0.0F;
-    kind.textured = object.model->materials[part.material].textures != 0;
-    kind.colors = part.colors;
+    kind.features = object.model->features[part.material];
+    if (part.colors) kind.features |= SCENE_VERTEX_COLORS;
+    if (part.tangents) kind.features |= SCENE_TANGENTS;
+    if (object.flat || object.tint.w > 0.0F || object.opacity < 1.0F) kind.features |= SCENE_MARKED;
+    const std::uint32_t f = kind.features;
+    const bool two_normals = (f & SCENE_COAT) != 0 && (f & SCENE_NORMAL_MAP) != 0;
+    kind.forward = kind.blends || object.flat || two_normals || (f & SCENE_EMISSIVE_MAP) != 0;
+    if (!kind.forward && (f & own_values) != 0) kind.features |= SCENE_WIDE;
     return kind;
+}
+
+// How long a metre is at most in any picture, in pixels: at the corner of the box that is nearest to an eye.
+float pixels_a_metre(const Box& box, std::span<const Eye> eyes, float height_px) {
+    float most = 0.0F;
+    for (const Eye& eye : eyes) {
+        const glm::mat4& m = eye.clip_from_world;
+        float nearest = 1e30F;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec4 point((corner & 1) != 0 ? box.high.x : box.low.x,
+                                  (corner & 2) != 0 ? box.high.y : box.low.y,
+                                  (corner & 4) != 0 ? box.high.z : box.low.z, 1.0F);
+            nearest = std::min(nearest, glm::dot(glm::vec4(m[0].w, m[1].w, m[2].w, m[3].w), point));
+        }
+        if (nearest <= 0.0F) return 1e30F;  // it reaches behind the eye
+        most = std::max(most, glm::length(glm::vec3(m[0].y, m[1].y, m[2].y)) * 0.5F * height_px / nearest);
+    }
+    return most;
+}
+
+std::uint32_t level_of(const Part& part, const Box& box, float scale, std::span<const Eye> eyes,
+                       const Detail& detail) {
+    if (part.levels.size() < 2) return 0;
+    const float allowed =
+        eyes.empty() ? detail.allowed_m : detail.allowed_px / pixels_a_metre(box, eyes, detail.height_px);
+    std::uint32_t level = 0;
+    while (level + 1 < part.levels.size() && part.levels[level + 1].error * scale < allowed) ++level;
+    return level;
 }
 
 bool seen(const Box& box, std::span<const Eye> eyes) {
@@ -37,15 +76,15 @@ bool seen(const Box& box, std::span<const Eye> eyes) {
 
 bool before(const Item& a, const Item& b) {
     if (a.kind.blends != b.kind.blends) return b.kind.blends;
+    if (a.kind.forward != b.kind.forward) return b.kind.forward;
     if (a.kind.blends && a.distance != b.distance) return a.distance > b.distance;
-    return std::tie(a.kind, a.model, a.part) < std::tie(b.kind, b.model, b.part);
+    return std::tie(a.kind, a.model, a.part, a.level) < std::tie(b.kind, b.model, b.part, b.level);
 }
 
-shared::Instance instance_of(const Object& object, std::uint32_t material) {
+shared::Instance instance_of(const Object& object) {
     shared::Instance instance{};
     instance.world_from_object = object.world;
     instance.tint = object.tint;
-    instance.material = material;
     instance.flags = object.flat ? INSTANCE_FLAT : 0U;
     instance.opacity = object.opacity;
     return instance;
@@ -53,9 +92,19 @@ shared::Instance instance_of(const Object& object, std::uint32_t material) {
 
 }  // namespace
 
-DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes) {
+std::uint32_t features_of(const Scene& scene) {
+    std::uint32_t features =
+        static_cast<std::uint32_t>(std::min<std::size_t>(scene.lights.size(), MAX_LIGHTS))
+        << SCENE_LIGHTS_SHIFT;
+    if (casts_shadow(scene)) features |= SCENE_SHADOW;
+    if (scene.occlusion_radius > 0.0F) features |= SCENE_OCCLUSION;
+    return features;
+}
+
+DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Detail& detail) {
     DrawList list;
     std::map<const GpuModel*, std::pair<std::uint32_t, std::uint32_t>> models;  // → order, first material
+    const std::uint32_t scene_features = features_of(scene);
     std::vector<Item> items;
     for (const Object& object : scene.objects) {
         const auto [known, fresh] =
@@ -64,6 +113,7 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes) {
         if (fresh)
             list.materials.insert(list.materials.end(), object.model->materials.begin(),
                                   object.model->materials.end());
+        const float scale = std::cbrt(std::abs(glm::determinant(glm::mat3(object.world))));
         const MeshRange range = object.model->meshes[object.mesh];
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
             const Part& part = object.model->parts[i];
@@ -71,22 +121,29 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes) {
             if (!seen(box, eyes)) continue;
             const float distance =
                 eyes.empty() ? 0.0F : glm::distance(0.5F * (box.low + box.high), eyes.front().position);
-            items.push_back({kind_of(object, part), &object, known->second.first, i, distance});
+            Kind kind = kind_of(object, part);
+            kind.features |= scene_features;
+            items.push_back(
+                {kind, &object, known->second.first, i, level_of(part, box, scale, eyes, detail), distance});
         }
     }
     std::stable_sort(items.begin(), items.end(), before);
     for (const Item& item : items) {
         const Part& part = item.object->model->parts[item.part];
-        const std::uint32_t material = models.at(item.object->model).second + part.material;
         const bool joins = !list.draws.empty() && list.draws.back().kind == item.kind &&
                            list.draws.back().model == item.object->model &&
-                           list.draws.back().part == item.part;
+                           list.draws.back().part == item.part && list.draws.back().level == item.level;
         if (!joins)
-            list.draws.push_back({item.kind, item.object->model, item.part,
+            list.draws.push_back({item.kind, item.object->model, item.part, item.level,
+                                  models.at(item.object->model).second + part.material,
                                   static_cast<std::uint32_t>(list.instances.size()), 0});
         ++list.draws.back().instances;
-        list.instances.push_back(instance_of(*item.object, material));
-        list.triangles += part.index_count / 3;
+        if (item.kind.forward)
+            list.forward = true;
+        else
+            list.features |= item.kind.features;
+        list.instances.push_back(instance_of(*item.object));
+        list.triangles += part.levels[item.level].index_count / 3;
     }
     return list;
 }

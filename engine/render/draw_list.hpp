@@ -7,16 +7,21 @@
 
 namespace bolt::render {
 
-// Which pipeline draws it: what a part needs that others do not.
+// Which pipeline draws it: what a part needs that others do not. Shaders are compiled for just these
+// features: software rasterisers run both sides of every branch.
 struct Kind {
-    bool blends = false, double_sided = false, textured = false, colors = false;
+    bool blends = false;
+    bool forward = false;  // lit as it is drawn: blends, or has more than the geometry buffer keeps
+    bool double_sided = false;
+    std::uint32_t features = 0;  // SCENE_… bits
     friend auto operator<=>(const Kind&, const Kind&) = default;
 };
 
 struct Draw {
     Kind kind;
     const GpuModel* model = nullptr;
-    std::uint32_t part = 0;
+    std::uint32_t part = 0, level = 0;
+    std::uint32_t material = 0;  // of the list
     std::uint32_t first_instance = 0, instances = 0;
 };
 
@@ -24,10 +29,22 @@ struct DrawList {
     std::vector<shared::Instance> instances;
     std::vector<shared::Material> materials;  // of all models
     std::vector<Draw> draws;                  // opaque by state, then what blends, far to near
+    std::uint32_t features = 0;               // SCENE_… bits that any part of the geometry buffer needs
+    bool forward = false;                     // something is lit as it is drawn
     std::uint64_t triangles = 0;
 };
 
+// Which level of detail is drawn: the coarsest whose error stays below this.
+struct Detail {
+    float height_px = 0.0F;   // of the picture
+    float allowed_px = 0.0F;  // as the nearest eye sees it
+    float allowed_m = 0.0F;   // without eyes
+};
+
+// SCENE_… bits of the scene's light, the same for every part.
+std::uint32_t features_of(const Scene& scene);
+
 // What any of the eyes may see. Without eyes: everything (for the shadow map).
-DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes);
+DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Detail& detail);
 
 }  // namespace bolt::render

@@ -1,5 +1,6 @@
 #include "engine/render/gpu_model.hpp"
 
+#include "engine/assets/levels.hpp"
 #include "engine/gpu/transfer.hpp"
 #include "engine/render/materials.hpp"
 #include "engine/render/vertices.hpp"
@@ -17,7 +18,7 @@ Box transformed(const Box& box, const glm::mat4& transform) {
     return moved;
 }
 
-Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model) {
+Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model, const UploadOptions& options) {
     GpuModel gpu_model;
     Vertices all;
     for (const assets::Mesh& mesh : model.meshes) {
@@ -26,30 +27,39 @@ Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model) {
             const Vertices vertices = make_vertices(primitive);
             if (vertices.indices.empty()) continue;
             Part part;
-            part.first_index = static_cast<std::uint32_t>(all.indices.size());
-            part.index_count = static_cast<std::uint32_t>(vertices.indices.size());
+            const auto add_level = [&](const std::vector<std::uint32_t>& indices, float error) {
+                part.levels.push_back({static_cast<std::uint32_t>(all.indices.size()),
+                                       static_cast<std::uint32_t>(indices.size()), error});
+                all.indices.insert(all.indices.end(), indices.begin(), indices.end());
+            };
+            add_level(vertices.indices, 0.0F);
+            if (options.levels)
+                for (const assets::Level& level :
+                     assets::coarser_levels(vertices.positions, vertices.indices))
+                    add_level(level.indices, level.error);
             part.first_vertex = static_cast<std::int32_t>(all.positions.size());
             part.material = static_cast<std::uint32_t>(primitive.material >= 0
                                                            ? static_cast<std::size_t>(primitive.material)
                                                            : model.materials.size());
             part.colors = !primitive.colors.empty();
+            part.tangents = !primitive.tangents.empty();
             for (const glm::vec3& position : vertices.positions) part.box.add(position);
             all.positions.insert(all.positions.end(), vertices.positions.begin(), vertices.positions.end());
             all.attributes.insert(all.attributes.end(), vertices.attributes.begin(),
                                   vertices.attributes.end());
-            all.indices.insert(all.indices.end(), vertices.indices.begin(), vertices.indices.end());
-            gpu_model.triangles += part.index_count / 3;
-            gpu_model.parts.push_back(part);
+            gpu_model.triangles += vertices.indices.size() / 3;
+            gpu_model.parts.push_back(std::move(part));
             ++range.count;
         }
         gpu_model.meshes.push_back(range);
     }
-    for (const assets::Material& material : model.materials) {
+    const auto add_material = [&](const assets::Material& material) {
         gpu_model.materials.push_back(make_material(material));
+        gpu_model.features.push_back(features_of(material));
         gpu_model.maps.push_back(maps_of(material));
-    }
-    gpu_model.materials.push_back(make_material({}));
-    gpu_model.maps.emplace_back();
+    };
+    for (const assets::Material& material : model.materials) add_material(material);
+    add_material({});
 
     const auto upload = [&](gpu::Buffer& to, auto& values, VkBufferUsageFlags usage) -> Status {
         Result<gpu::Buffer> buffer = gpu::upload_buffer(device, std::as_bytes(std::span(values)), usage);

@@ -22,13 +22,20 @@ struct Box {
 // The corners of a box moved by a transform, boxed again.
 Box transformed(const Box& box, const glm::mat4& transform);
 
+// Triangles of a part at one level of detail.
+struct LevelRange {
+    std::uint32_t first_index = 0, index_count = 0;
+    float error = 0.0F;  // m in the mesh's frame: how far it may be from the finest
+};
+
 // What is drawn by one call: a primitive of a mesh.
 struct Part {
-    std::uint32_t first_index = 0, index_count = 0;
+    std::vector<LevelRange> levels;  // finest first, at least one
     std::int32_t first_vertex = 0;
     std::uint32_t material = 0;  // of the model
     bool colors = false;         // has colours at its vertices
-    Box box;                     // in the mesh's frame, m
+    bool tangents = false;
+    Box box;  // in the mesh's frame, m
 };
 
 struct MeshRange {
@@ -53,6 +60,7 @@ struct GpuModel {
     std::vector<Part> parts;
     std::vector<MeshRange> meshes;
     std::vector<shared::Material> materials;  // one more than the model has: the default, last
+    std::vector<std::uint32_t> features;      // SCENE_… bits, beside materials
     std::vector<MaterialMaps> maps;           // beside materials
     std::vector<GpuTexture> textures;
     std::uint64_t triangles = 0;
@@ -67,7 +75,12 @@ struct VertexAttributes {
 };
 static_assert(sizeof(VertexAttributes) == 28);
 
+struct UploadOptions {
+    bool levels = false;  // coarser levels of detail for what has many triangles
+};
+
 // Only triangles are drawn; missing normals become those of the faces. Decodes images.
-Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model);
+Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model,
+                              const UploadOptions& options = {});
 
 }  // namespace bolt::render

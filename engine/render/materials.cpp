@@ -68,10 +68,7 @@ Result<gpu::Image> upload_texels(gpu::Device& device, std::uint32_t width, std::
 shared::Material make_material(const assets::Material& m) {
     shared::Material to{};
     to.base_color = m.base_color;
-    const float cutoff = m.alpha_mode == assets::AlphaMode::mask    ? m.alpha_cutoff
-                         : m.alpha_mode == assets::AlphaMode::blend ? -2.0F
-                                                                    : -1.0F;
-    to.emissive = glm::vec4(m.emissive * m.emissive_strength, cutoff);
+    to.emissive = glm::vec4(m.emissive * m.emissive_strength, m.alpha_cutoff);
     to.specular_color = glm::vec4(m.specular_color, m.specular);
     to.metallic = m.metallic;
     to.roughness = m.roughness;
@@ -84,11 +81,20 @@ shared::Material make_material(const assets::Material& m) {
     to.normal_scale = m.normal_scale;
     to.occlusion_strength = m.occlusion_strength;
     const auto maps = references(m);
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        set_uv(to, i, *maps[i]);
-        if (maps[i]->texture >= 0) to.textures |= 1U << i;
-    }
+    for (std::size_t i = 0; i < maps.size(); ++i) set_uv(to, i, *maps[i]);
     return to;
+}
+
+std::uint32_t features_of(const assets::Material& m) {
+    std::uint32_t features = 0;
+    const auto maps = references(m);
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        if (maps[i]->texture >= 0) features |= 1U << i;  // SCENE_BASE_MAP and its neighbours
+    if (m.clearcoat > 0.0F) features |= SCENE_COAT;
+    if (m.anisotropy > 0.0F) features |= SCENE_ANISOTROPY;
+    if (m.alpha_mode == assets::AlphaMode::mask) features |= SCENE_MASK;
+    if (m.alpha_mode == assets::AlphaMode::blend) features |= SCENE_BLEND;
+    return features;
 }
 
 MaterialMaps maps_of(const assets::Material& m) {

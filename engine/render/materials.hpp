@@ -6,6 +6,8 @@
 namespace bolt::render {
 
 shared::Material make_material(const assets::Material& material);
+// SCENE_… bits of what the material needs of the shader.
+std::uint32_t features_of(const assets::Material& material);
 MaterialMaps maps_of(const assets::Material& material);
 
 // All textures that the materials use, with mips; colours as sRGB, everything else linear.

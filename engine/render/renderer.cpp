@@ -1,6 +1,7 @@
 #include "engine/render/renderer.hpp"
 
-#include "engine/gpu/transfer.hpp"
+#include <glm/matrix.hpp>
+
 #include "engine/render/materials.hpp"
 
 std::span<const std::uint32_t> scene_shaders(std::string_view name);
@@ -9,15 +10,27 @@ namespace bolt::render {
 
 namespace {
 
-constexpr std::uint32_t position_size = sizeof(glm::vec3);
-
-std::uint32_t view_mask(std::uint32_t views) { return views > 1 ? (1U << views) - 1U : 0U; }
-
-template <class T>
-Status take(T& to, Result<T> made) {
-    if (!made) return fail(made.error());
-    to = std::move(*made);
-    return {};
+shared::Frame describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
+                       const EnvironmentLight& environment) {
+    shared::Frame f{};
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        f.views[i].clip_from_world = eyes[i].clip_from_world;
+        f.views[i].world_from_clip = glm::inverse(eyes[i].clip_from_world);
+        f.views[i].eye = glm::vec4(eyes[i].position, 1.0F);
+    }
+    f.view_count = static_cast<std::uint32_t>(eyes.size());
+    f.light_count = static_cast<std::uint32_t>(std::min<std::size_t>(scene.lights.size(), MAX_LIGHTS));
+    for (std::uint32_t i = 0; i < f.light_count; ++i) f.lights[i] = scene.lights[i].light;
+    for (std::size_t i = 0; i < environment.diffuse.size(); ++i)
+        f.diffuse[i] = glm::vec4(environment.diffuse[i], 0.0F);
+    f.environment = {scene.environment_intensity, scene.environment_turn,
+                     static_cast<float>(environment.levels.info().mips - 1), scene.exposure};
+    const auto width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
+    f.picture = {width, height, 1.0F / width, 1.0F / height};
+    f.occlusion.x = scene.occlusion_radius;
+    f.background = scene.background;
+    f.shadows = ShadowPass::describe(scene, f) ? 1 : 0;
+    return f;
 }
 
 }  // namespace
@@ -26,55 +39,40 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device, const Re
     auto renderer = std::make_unique<Renderer>();
     renderer->device_ = &device;
     renderer->options_ = options;
-    if (Status done = renderer->prepare(options); !done) return fail(done.error());
+    if (Status done = renderer->prepare(); !done) return fail(done.error());
     return renderer;
 }
 
-Status Renderer::prepare(const RendererOptions& options) {
-    if (Status s = take(cache_, gpu::PipelineCache::open(*device_, options.pipeline_cache)); !s) return s;
-    for (const char* name : {"scene.vert", "scene.frag", "shadow.vert", "depth.vert", "screen.vert",
-                             "occlusion.frag", "smooth.frag", "sky.vert", "sky.frag"}) {
+Status Renderer::prepare() {
+    if (Status s = take(cache_, gpu::PipelineCache::open(*device_, options_.pipeline_cache)); !s) return s;
+    for (const char* name : {"scene.vert", "surface.frag", "light.frag", "scene.frag", "shadow.vert",
+                             "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag"}) {
         Result<gpu::Shader> shader = gpu::make_shader(name, scene_shaders(name));
         if (!shader) return fail(shader.error());
-        shaders_.emplace(name, std::move(*shader));
+        shaders_.insert_or_assign(name, std::move(*shader));
     }
-    gpu::GraphicsInfo shadow;
-    shadow.vertex = &shaders_.at("shadow.vert");
-    shadow.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0}};
-    shadow.strides = {position_size};
-    shadow.depth = depth_format;
-    shadow.cull = VK_CULL_MODE_NONE;
-    shadow.depth_compare = VK_COMPARE_OP_LESS;
-    shadow.depth_clamp = true;
-    shadow.depth_bias_slope = 1.5F;
-    if (Status s = take(shadow_pipeline_, gpu::make_graphics_pipeline(*device_, cache_, shadow)); !s)
-        return s;
-
-    gpu::ImageInfo map;
-    map.format = depth_format;
-    map.extent = {options.shadow_size, options.shadow_size};
-    map.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    if (Status s = take(shadow_map_, gpu::Image::create(*device_, map)); !s) return s;
-    const Status readable = gpu::run_now(*device_, [&](VkCommandBuffer commands) {
-        gpu::image_barrier(commands, shadow_map_.get(), gpu::Use::undefined, gpu::Use::depth_read,
-                           {VK_IMAGE_ASPECT_DEPTH_BIT});
-    });
-    if (!readable) return readable;
-    if (Status s = take(albedo_table_, upload_albedo_table(*device_)); !s) return s;
     if (Status s = take(no_environment_, upload_environment(*device_, shading::constant(glm::vec3(0.0F)), 8));
         !s)
         return s;
     if (Status s = take(white_, plain_texture(*device_, {255, 255, 255, 255})); !s) return s;
     if (Status s = take(white_array_, white_.image.view(VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, 1, 0, 1)); !s)
         return s;
-    gpu::SamplerInfo clamped;
-    clamped.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    if (Status s = take(clamped_, gpu::make_sampler(*device_, clamped)); !s) return s;
-    clamped.filter = VK_FILTER_NEAREST;
-    if (Status s = take(nearest_, gpu::make_sampler(*device_, clamped)); !s) return s;
-    clamped.filter = VK_FILTER_LINEAR;
-    clamped.compares = true;
-    return take(comparing_, gpu::make_sampler(*device_, clamped));
+    return make_passes();
+}
+
+Status Renderer::make_passes() {
+    const PassMaker maker{*device_, cache_, shaders_};
+    occlusion_.clear();
+    if (Status s = take(shadow_, ShadowPass::create(maker, options_.shadow_size)); !s) return s;
+    if (Status s = take(surfaces_, SurfacePass::create(maker)); !s) return s;
+    return take(light_, LightPass::create(maker));
+}
+
+Result<OcclusionPass*> Renderer::occlusion(std::uint32_t views) {
+    if (const auto known = occlusion_.find(views); known != occlusion_.end()) return &known->second;
+    Result<OcclusionPass> made = OcclusionPass::create({*device_, cache_, shaders_}, views);
+    if (!made) return fail(made.error());
+    return &occlusion_.emplace(views, std::move(*made)).first->second;
 }
 
 bool Renderer::multiview() const {
@@ -86,119 +84,59 @@ bool Renderer::multiview() const {
 Status Renderer::resize(gpu::Frame& frame, VkExtent2D extent, std::uint32_t views) {
     if (extent_.width == extent.width && extent_.height == extent.height && views_ == views) return {};
     for (Targets& targets : targets_)
-        for (gpu::Image* image : {&targets.drawn, &targets.depth, &targets.picture, &targets.small_depth,
-                                  &targets.raw_occlusion, &targets.occlusion})
-            frame.retire(std::move(*image));
+        each_image(targets, [&](gpu::Image& image) { frame.retire(std::move(image)); });
     targets_.clear();
     views_ = 0;  // until all is there
     views_a_pass_ = multiview() ? views : 1;
     for (std::uint32_t first = 0; first < views; first += views_a_pass_) {
-        Targets targets;
-        gpu::ImageInfo info;
-        info.extent = extent;
-        info.layers = views_a_pass_;
-        info.samples = options_.samples;
-        info.format = color_format;
-        info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-        if (Status s = take(targets.drawn, gpu::Image::create(*device_, info)); !s) return s;
-        info.format = depth_format;
-        info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-        if (Status s = take(targets.depth, gpu::Image::create(*device_, info)); !s) return s;
-        info.format = color_format;
-        info.samples = VK_SAMPLE_COUNT_1_BIT;
-        info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                     VK_IMAGE_USAGE_SAMPLED_BIT;
-        if (Status s = take(targets.picture, gpu::Image::create(*device_, info)); !s) return s;
-        targets_.push_back(std::move(targets));
+        Result<Targets> targets = make_targets(*device_, extent, views_a_pass_);
+        if (!targets) return fail(targets.error());
+        targets_.push_back(std::move(*targets));
     }
     extent_ = extent;
     views_ = views;
     return {};
 }
 
-Result<const gpu::Pipeline*> Renderer::scene_pipeline(const Kind& kind, std::uint32_t views) {
-    const auto known = scene_pipelines_.find({kind, views});
-    if (known != scene_pipelines_.end()) return &known->second;
-    gpu::GraphicsInfo info;
-    info.vertex = &shaders_.at("scene.vert");
-    info.fragment = &shaders_.at("scene.frag");
-    info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0},
-                    {1, VK_FORMAT_R16G16B16A16_SNORM, 1, offsetof(VertexAttributes, normal)},
-                    {2, VK_FORMAT_R16G16B16A16_SNORM, 1, offsetof(VertexAttributes, tangent)},
-                    {3, VK_FORMAT_R32G32_SFLOAT, 1, offsetof(VertexAttributes, texcoord)},
-                    {4, VK_FORMAT_R8G8B8A8_UNORM, 1, offsetof(VertexAttributes, color)}};
-    info.strides = {position_size, sizeof(VertexAttributes)};
-    info.colors = {color_format};
-    info.depth = depth_format;
-    info.samples = options_.samples;
-    info.view_mask = view_mask(views);
-    info.cull = kind.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
-    info.blend = kind.blends;
-    info.depth_write = !kind.blends;
-    info.constants = (kind.textured ? SCENE_TEXTURED : 0U) | (kind.colors ? SCENE_VERTEX_COLORS : 0U);
-    Result<gpu::Pipeline> made = gpu::make_graphics_pipeline(*device_, cache_, info);
-    if (!made) return fail(made.error());
-    return &scene_pipelines_.emplace(std::pair{kind, views}, std::move(*made)).first->second;
-}
+Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent) {
+    if (eyes.empty() || eyes.size() > MAX_VIEWS || extent.width == 0 || extent.height == 0)
+        return fail(ErrorCode::failed, "a picture needs one to four eyes and at least one pixel");
+    if (Status sized = resize(frame, extent, static_cast<std::uint32_t>(eyes.size())); !sized) return sized;
+    const EnvironmentLight& environment = scene.environment != nullptr ? *scene.environment : no_environment_;
+    shared::Frame shared = describe(scene, eyes, extent, environment);
+    PassContext context{*device_,      frame,  scene, environment, shared, {},
+                        views_a_pass_, extent, {},    {},          white_, white_array_.get()};
+    const auto put_frame = [&] { return take(context.frame_block, put<shared::Frame>(frame, {&shared, 1})); };
+    if (Status s = put_frame(); !s) return s;
 
-Result<const gpu::Pipeline*> Renderer::sky_pipeline(std::uint32_t views) {
-    const auto known = sky_pipelines_.find(views);
-    if (known != sky_pipelines_.end()) return &known->second;
-    gpu::GraphicsInfo info;
-    info.vertex = &shaders_.at("sky.vert");
-    info.fragment = &shaders_.at("sky.frag");
-    info.colors = {color_format};
-    info.depth = depth_format;
-    info.samples = options_.samples;
-    info.view_mask = view_mask(views);
-    info.cull = VK_CULL_MODE_NONE;
-    info.depth_write = false;
-    Result<gpu::Pipeline> made = gpu::make_graphics_pipeline(*device_, cache_, info);
-    if (!made) return fail(made.error());
-    return &sky_pipelines_.emplace(views, std::move(*made)).first->second;
-}
+    const DrawList list =
+        make_draw_list(scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F});
+    if (Status s = take(context.instances, put<shared::Instance>(frame, list.instances)); !s) return s;
+    if (Status s = take(context.materials, put<shared::Material>(frame, list.materials)); !s) return s;
 
-Status Renderer::make_occlusion_targets(Targets& targets) {
-    if (targets.occlusion.get() != VK_NULL_HANDLE) return {};
-    gpu::ImageInfo info;
-    info.extent = {(extent_.width + 1) / 2, (extent_.height + 1) / 2};
-    info.layers = views_a_pass_;
-    info.array = true;
-    info.format = depth_format;
-    info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    if (Status s = take(targets.small_depth, gpu::Image::create(*device_, info)); !s) return s;
-    info.format = occlusion_format;
-    info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    if (Status s = take(targets.raw_occlusion, gpu::Image::create(*device_, info)); !s) return s;
-    return take(targets.occlusion, gpu::Image::create(*device_, info));
-}
-
-Result<const Renderer::OcclusionPipelines*> Renderer::occlusion_pipelines(std::uint32_t views) {
-    const auto known = occlusion_pipelines_.find(views);
-    if (known != occlusion_pipelines_.end()) return &known->second;
-    OcclusionPipelines made;
-    gpu::GraphicsInfo info;
-    info.view_mask = view_mask(views);
-    info.vertex = &shaders_.at("depth.vert");
-    info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0}};
-    info.strides = {position_size};
-    info.depth = depth_format;
-    info.cull = VK_CULL_MODE_NONE;
-    if (Status s = take(made.depth, gpu::make_graphics_pipeline(*device_, cache_, info)); !s)
-        return fail(s.error());
-    info.vertex = &shaders_.at("screen.vert");
-    info.streams.clear();
-    info.strides.clear();
-    info.depth = VK_FORMAT_UNDEFINED;
-    info.depth_test = info.depth_write = false;
-    info.colors = {occlusion_format};
-    info.fragment = &shaders_.at("occlusion.frag");
-    if (Status s = take(made.slices, gpu::make_graphics_pipeline(*device_, cache_, info)); !s)
-        return fail(s.error());
-    info.fragment = &shaders_.at("smooth.frag");
-    if (Status s = take(made.smooth, gpu::make_graphics_pipeline(*device_, cache_, info)); !s)
-        return fail(s.error());
-    return &occlusion_pipelines_.emplace(views, std::move(made)).first->second;
+    if (Status s = shadow_.draw(context); !s) return s;
+    LightInputs inputs{&shadow_.map(), VK_NULL_HANDLE};
+    for (std::size_t pass = 0; pass < targets_.size(); ++pass) {
+        Targets& targets = targets_[pass];
+        if (pass > 0) {  // a view of its own
+            shared.views[0] = {eyes[pass].clip_from_world, glm::inverse(eyes[pass].clip_from_world),
+                               glm::vec4(eyes[pass].position, 1.0F)};
+            if (Status s = put_frame(); !s) return s;
+        }
+        if (Status s = surfaces_.draw(context, targets, list); !s) return s;
+        if (scene.occlusion_radius > 0.0F) {
+            Result<OcclusionPass*> occluding = occlusion(views_a_pass_);
+            if (!occluding) return fail(occluding.error());
+            if (Status s = (*occluding)->draw(context, targets); !s) return s;
+            inputs.occlusion = targets.occlusion.view();
+        }
+        if (Status s = light_.draw(context, targets, list, inputs); !s) return s;
+        gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::Use::color_target,
+                           gpu::Use::transfer_from);
+    }
+    statistics_ = {list.triangles, static_cast<std::uint32_t>(list.draws.size()),
+                   static_cast<std::uint32_t>(list.instances.size()), shadow_.drawn()};
+    return {};
 }
 
 }  // namespace bolt::render

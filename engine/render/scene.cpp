@@ -64,6 +64,15 @@ void place_lights(Scene& scene, const assets::Model& model, const glm::mat4& wor
     scene.lights.front().casts_shadow = true;
 }
 
+bool casts_shadow(const Object& object) { return object.opacity >= 1.0F && !object.flat; }
+
+bool casts_shadow(const Scene& scene) {
+    return !scene.lights.empty() && scene.lights.front().casts_shadow &&
+           scene.lights.front().light.position.w == 0.0F &&
+           std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [](const Object& object) { return casts_shadow(object); });
+}
+
 Box bounds(const Scene& scene) {
     Box box;
     for (const Object& object : scene.objects) {

@@ -48,6 +48,10 @@ void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
 // shadow.
 void place_lights(Scene& scene, const assets::Model& model, const glm::mat4& world = glm::mat4(1.0F));
 
+// Whether an object gives shadow, and whether light 0 throws one in this scene.
+bool casts_shadow(const Object& object);
+bool casts_shadow(const Scene& scene);
+
 Box bounds(const Scene& scene);
 
 }  // namespace bolt::render

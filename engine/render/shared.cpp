@@ -10,7 +10,7 @@ static_assert(sizeof(Light) == 64);
 static_assert(offsetof(Frame, lights) == 576 && offsetof(Frame, diffuse) == 1088);
 static_assert(offsetof(Frame, shadow_from_world) == 1232 && offsetof(Frame, light_count) == 1360);
 static_assert(sizeof(Frame) == 1376);
-static_assert(sizeof(Instance) == 96 && offsetof(Instance, material) == 80);
+static_assert(sizeof(Instance) == 96 && offsetof(Instance, flags) == 80);
 static_assert(sizeof(Material) == 256 && offsetof(Material, metallic) == 48 && offsetof(Material, uv) == 96);
 
 }  // namespace bolt::render::shared

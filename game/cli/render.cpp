@@ -27,7 +27,7 @@ struct RenderOptions {
     std::string what, png = "out/render.png", timings, light = "studio", gpu;
     std::vector<std::string> views;
     std::string eye, target, size = "1280x720";
-    double fov_deg = 35.0;
+    double fov_deg = 35.0, level_error_px = 0.0;
     int frames = 1;
     bool stereo = false, validate = false, no_key = false;
 };
@@ -182,9 +182,12 @@ Status render_all(const RenderOptions& options) {
     if (!device) return fail(device.error());
     Result<std::unique_ptr<gpu::Frames>> frames = gpu::Frames::create(**device);
     if (!frames) return fail(frames.error());
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(**device, {});
+    render::RendererOptions renderer_options;
+    renderer_options.level_error_px = static_cast<float>(options.level_error_px);
+    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(**device, renderer_options);
     if (!renderer) return fail(renderer.error());
-    Result<render::GpuModel> model = render::upload_model(**device, subject->model);
+    Result<render::GpuModel> model =
+        render::upload_model(**device, subject->model, {options.level_error_px > 0.0});
     if (!model) return fail(model.error());
     Result<render::EnvironmentLight> light = render::upload_environment(**device, *radiance);
     if (!light) return fail(light.error());
@@ -276,6 +279,10 @@ void add_render(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(1.0, 150.0));
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels");
     command->add_flag("--stereo", options->stereo, "Both eyes, side by side");
+    command
+        ->add_option("--level-error", options->level_error_px,
+                     "Coarser levels of detail that are this near, in pixels; 0: every triangle")
+        ->check(CLI::Range(0.0, 100.0));
     command->add_option("--frames", options->frames, "Draw it this often")->check(CLI::Range(1, 100000));
     command->add_option("--timings", options->timings, "Write the frames' times to this JSON file");
     command->add_option("--light", options->light, "studio, or a Radiance .hdr file");

@@ -11,8 +11,8 @@ class Studio {
   public:
     explicit Studio(const render::RendererOptions& options = {});
 
-    render::GpuModel upload(const assets::Model& model) {
-        return gpu_.need(render::upload_model(gpu_.device(), model));
+    render::GpuModel upload(const assets::Model& model, const render::UploadOptions& options = {}) {
+        return gpu_.need(render::upload_model(gpu_.device(), model, options));
     }
     render::EnvironmentLight light(const shading::RadianceImage& image) {
         return gpu_.need(render::upload_environment(gpu_.device(), image));

@@ -113,14 +113,77 @@ TEST_CASE("culling never loses what is in sight, and instances are gathered") {
         if (visible) REQUIRE(in_sight(box, eye.clip_from_world));
     }
     const Eye away = make_eye({0, 0, 8}, {0, 0, 20}, p);
-    CHECK(make_draw_list(still.scene, {&away, 1}).draws.empty());
+    CHECK(make_draw_list(still.scene, {&away, 1}, {}).draws.empty());
     const Eye eye = make_eye({0, 0, 12}, {0, 0, 0}, p);
-    const DrawList list = make_draw_list(still.scene, {&eye, 1});
-    REQUIRE(list.draws.size() == 1);
-    CHECK(list.draws[0].instances == 3);
+    const DrawList list = make_draw_list(still.scene, {&eye, 1}, {});
+    REQUIRE(list.draws.size() == 2);  // the tinted one needs a pipeline of its own
+    CHECK(list.draws[0].instances + list.draws[1].instances == 3);
+    CHECK_FALSE(list.forward);
     still.scene.objects[0].opacity = 0.5F;
-    const DrawList ghost = make_draw_list(still.scene, {&eye, 1});
-    REQUIRE(ghost.draws.size() == 2);
-    CHECK_FALSE(ghost.draws[0].kind.blends);
-    CHECK(ghost.draws[1].kind.blends);
+    const DrawList ghost = make_draw_list(still.scene, {&eye, 1}, {});
+    REQUIRE(ghost.draws.size() == 3);
+    CHECK(ghost.forward);
+    CHECK_FALSE(ghost.draws[1].kind.blends);
+    CHECK(ghost.draws[2].kind.blends);
+}
+
+TEST_CASE(
+    "levels of detail: never further from the part than a picture shows, and coarser the further away") {
+    test::Studio studio;
+    const assets::Model model = test::sphere({}, 96);
+    const GpuModel gpu_model = studio.upload(model, {true});
+    Scene scene;
+    place(scene, model, gpu_model);
+    const Part& part = gpu_model.parts.front();
+    REQUIRE(part.levels.size() > 2);
+    for (std::size_t i = 1; i < part.levels.size(); ++i) {
+        CHECK(part.levels[i].index_count < part.levels[i - 1].index_count);
+        CHECK(part.levels[i].error > part.levels[i - 1].error);
+    }
+    Perspective p;
+    std::uint64_t before = ~std::uint64_t{0};
+    for (const float distance : {1.5F, 6.0F, 40.0F, 400.0F}) {
+        p.zfar = 2.0F * distance;
+        const Eye eye = make_eye({0, 0, distance}, {0, 0, 0}, p);
+        CHECK(make_draw_list(scene, {&eye, 1}, {}).draws.front().level == 0);
+        const DrawList list = make_draw_list(scene, {&eye, 1}, {720.0F, 0.5F, 0.0F});
+        const float metre_px = 0.5F * 720.0F / std::tan(0.5F * p.fov) / (distance - 1.0F);
+        CHECK(part.levels[list.draws.front().level].error * metre_px <= 0.5F);
+        CHECK(list.triangles <= before);
+        before = list.triangles;
+    }
+    CHECK(before < part.levels[0].index_count / 30);
+    // Where it is so near that it reaches behind the eye, nothing is left out.
+    const Eye inside = make_eye({0, 0, 0.5F}, {0, 0, -1}, p);
+    CHECK(make_draw_list(scene, {&inside, 1}, {720.0F, 0.5F, 0.0F}).draws.front().level == 0);
+}
+
+TEST_CASE("the shadow of what stands still is kept while something else moves") {
+    Still still;
+    const assets::Model plate = test::plate({});
+    const GpuModel ground = still.studio.upload(plate);
+    glm::mat4 world(4.0F);  // wide enough that the balls do not change what the map covers
+    world[3] = {0, -1.6F, 0, 1};
+    place(still.scene, plate, ground, world);
+    SceneLight sun;
+    sun.light.direction = {0, -1, 0, 0};
+    sun.light.color = glm::vec4(2.0F);
+    sun.casts_shadow = true;
+    still.scene.lights = {sun};
+    Perspective p;
+    const Eye eye = make_eye({0, 6, 9}, {0, -1, 0}, p);
+    const Picture before = still.studio.shoot(still.scene, eye, {128, 96});
+    CHECK(still.studio.renderer().statistics().shadow_drawn);
+    still.scene.objects[0].moves = true;
+    const Picture apart = still.studio.shoot(still.scene, eye, {128, 96});
+    CHECK(still.studio.renderer().statistics().shadow_drawn);  // what stands still is another set now
+    CHECK(test::largest_difference(before, apart) == 0);
+    still.scene.objects[0].world[3].z += 0.8F;
+    const Picture moved = still.studio.shoot(still.scene, eye, {128, 96});
+    CHECK_FALSE(still.studio.renderer().statistics().shadow_drawn);
+    still.scene.objects[0].moves = false;
+    const Picture anew = still.studio.shoot(still.scene, eye, {128, 96});
+    CHECK(still.studio.renderer().statistics().shadow_drawn);
+    CHECK(test::largest_difference(moved, anew) == 0);
+    CHECK(test::largest_difference(before, moved) > 50);
 }

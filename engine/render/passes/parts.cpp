@@ -1,0 +1,70 @@
+#include "engine/render/passes/parts.hpp"
+
+namespace bolt::render {
+
+namespace {
+
+Result<VkDescriptorSet> maps_set(PassContext& context, const gpu::Pipeline& pipeline, const GpuModel& model,
+                                 const MaterialMaps& maps) {
+    Result<gpu::SetWriter> writer = gpu::SetWriter::create(context.device, context.frame, pipeline, 1);
+    if (!writer) return fail(writer.error());
+    for (const gpu::Binding& map : pipeline.bindings) {  // those that this pass looks at
+        if (map.set != 1) continue;
+        const int which = maps.textures.at(map.binding);
+        const GpuTexture& texture =
+            which >= 0 ? model.textures[static_cast<std::size_t>(which)] : context.white;
+        writer->image(map.binding, texture.image.view(), texture.sampler.get());
+    }
+    return writer->finish();
+}
+
+}  // namespace
+
+gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const Kind& kind, std::uint32_t views) {
+    gpu::GraphicsInfo info;
+    info.vertex = &shaders.at("scene.vert");
+    info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0},
+                    {1, VK_FORMAT_R16G16B16A16_SNORM, 1, offsetof(VertexAttributes, normal)},
+                    {2, VK_FORMAT_R16G16B16A16_SNORM, 1, offsetof(VertexAttributes, tangent)},
+                    {3, VK_FORMAT_R32G32_SFLOAT, 1, offsetof(VertexAttributes, texcoord)},
+                    {4, VK_FORMAT_R8G8B8A8_UNORM, 1, offsetof(VertexAttributes, color)}};
+    info.strides = {sizeof(glm::vec3), sizeof(VertexAttributes)};
+    info.depth = depth_format;
+    info.samples = samples;
+    info.view_mask = view_mask(views);
+    info.cull = kind.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+    info.constants = kind.features;
+    return info;
+}
+
+Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing& drawing) {
+    const VkCommandBuffer commands = context.frame.commands();
+    const gpu::Pipeline* pipeline = nullptr;
+    const GpuModel* model = nullptr;
+    const MaterialMaps* maps = nullptr;
+    for (const Draw& d : list.draws) {
+        if (!drawing.wanted(d.kind)) continue;
+        Result<const gpu::Pipeline*> wanted = drawing.pipeline(d.kind);
+        if (!wanted) return fail(wanted.error());
+        if (std::exchange(pipeline, *wanted) != *wanted) {
+            Result<VkDescriptorSet> set = drawing.frame_set(**wanted);
+            if (!set) return fail(set.error());
+            bind(commands, **wanted, *set);
+            maps = nullptr;
+        }
+        const MaterialMaps& needed = d.model->maps[d.model->parts[d.part].material];
+        if (maps == nullptr || model != d.model || maps->textures != needed.textures) {
+            Result<VkDescriptorSet> set = maps_set(context, **wanted, *d.model, needed);
+            if (!set) return fail(set.error());
+            bind(commands, **wanted, *set, 1);
+        }
+        maps = &needed;
+        if (std::exchange(model, d.model) != d.model) bind_geometry(commands, *d.model);
+        vkCmdPushConstants(commands, pipeline->layout.get(), pipeline->push_stages, 0, sizeof d.material,
+                           &d.material);
+        draw(commands, d);
+    }
+    return {};
+}
+
+}  // namespace bolt::render

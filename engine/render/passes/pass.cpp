@@ -1,0 +1,74 @@
+#include "engine/render/passes/pass.hpp"
+
+namespace bolt::render {
+
+std::uint32_t view_mask(std::uint32_t views) { return views > 1 ? (1U << views) - 1U : 0U; }
+
+void set_area(VkCommandBuffer commands, VkExtent2D extent) {
+    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0F, 1.0F};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+void bind(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorSet set, std::uint32_t index) {
+    if (index == 0) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle.get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout.get(), index, 1, &set,
+                            0, nullptr);
+}
+
+void bind_geometry(VkCommandBuffer commands, const GpuModel& model) {
+    const VkBuffer buffers[] = {model.positions.get(), model.attributes.get()};
+    const VkDeviceSize offsets[] = {0, 0};
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+    vkCmdBindIndexBuffer(commands, model.indices.get(), 0, VK_INDEX_TYPE_UINT32);
+}
+
+void draw(VkCommandBuffer commands, const Draw& d) {
+    const Part& part = d.model->parts[d.part];
+    const LevelRange& level = part.levels[d.level];
+    vkCmdDrawIndexed(commands, level.index_count, d.instances, level.first_index, part.first_vertex,
+                     d.first_instance);
+}
+
+VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load,
+                                     VkAttachmentStoreOp store) {
+    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    info.imageView = view;
+    info.imageLayout = layout;
+    info.loadOp = load;
+    info.storeOp = store;
+    return info;
+}
+
+VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
+                               std::span<const VkRenderingAttachmentInfo> colors,
+                               const VkRenderingAttachmentInfo* depth) {
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea.extent = extent;
+    info.layerCount = 1;
+    info.viewMask = view_mask(views);
+    info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
+    info.pColorAttachments = colors.data();
+    info.pDepthAttachment = depth;
+    return info;
+}
+
+void fill(PassContext& context, const gpu::Pipeline& pipeline, VkDescriptorSet set,
+          const gpu::Image& target) {
+    const VkCommandBuffer commands = context.frame.commands();
+    gpu::image_barrier_discarding(commands, target.get(), gpu::Use::sampled, gpu::Use::color_target);
+    const VkRenderingAttachmentInfo color =
+        attachment(target.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                   VK_ATTACHMENT_STORE_OP_STORE);
+    const VkRenderingInfo rendering = rendering_info(target.info().extent, context.views, {&color, 1});
+    vkCmdBeginRendering(commands, &rendering);
+    set_area(commands, target.info().extent);
+    bind(commands, pipeline, set);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+    vkCmdEndRendering(commands);
+    gpu::image_barrier(commands, target.get(), gpu::Use::color_target, gpu::Use::sampled);
+}
+
+}  // namespace bolt::render

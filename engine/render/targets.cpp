@@ -1,0 +1,58 @@
+#include "engine/render/targets.hpp"
+
+#include "engine/render/passes/pass.hpp"
+
+namespace bolt::render {
+
+namespace {
+
+Status add(gpu::Device& device, const Targets& targets, gpu::Image& to, VkFormat format,
+           VkImageUsageFlags usage, VkSampleCountFlagBits samples, std::uint32_t divisor = 1) {
+    if (to.get() != VK_NULL_HANDLE) return {};
+    gpu::ImageInfo info;
+    info.extent = {(targets.extent.width + divisor - 1) / divisor,
+                   (targets.extent.height + divisor - 1) / divisor};
+    info.layers = targets.layers;
+    info.array = true;  // shaders read the layer of their view
+    info.format = format;
+    info.samples = samples;
+    info.usage = usage;
+    return take(to, gpu::Image::create(device, info));
+}
+
+constexpr VkImageUsageFlags drawn_and_read = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+constexpr VkImageUsageFlags depth_and_read =
+    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+
+}  // namespace
+
+Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers) {
+    Targets t;
+    t.extent = extent;
+    t.layers = layers;
+    if (Status s = add(device, t, t.depth, depth_format, depth_and_read, samples); !s) return fail(s.error());
+    if (Status s = add(device, t, t.surfaces, surface_format, drawn_and_read, samples); !s)
+        return fail(s.error());
+    const VkImageUsageFlags seen = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    if (Status s = add(device, t, t.picture, color_format, seen, VK_SAMPLE_COUNT_1_BIT); !s)
+        return fail(s.error());
+    return t;
+}
+
+Status add_wide_targets(gpu::Device& device, Targets& t) {
+    if (Status s = add(device, t, t.wide_colors, wide_color_format, drawn_and_read, samples); !s) return s;
+    return add(device, t, t.wide_roughs, wide_rough_format, drawn_and_read, samples);
+}
+
+Status add_drawn_target(gpu::Device& device, Targets& t) {
+    return add(device, t, t.drawn, color_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples);
+}
+
+Status add_occlusion_targets(gpu::Device& device, Targets& t) {
+    constexpr VkSampleCountFlagBits one = VK_SAMPLE_COUNT_1_BIT;
+    if (Status s = add(device, t, t.small_depth, small_depth_format, drawn_and_read, one, 2); !s) return s;
+    if (Status s = add(device, t, t.raw_occlusion, occlusion_format, drawn_and_read, one, 2); !s) return s;
+    return add(device, t, t.occlusion, occlusion_format, drawn_and_read, one, 2);
+}
+
+}  // namespace bolt::render

@@ -1,0 +1,34 @@
+// Images as large as a picture, with a layer for each view that is drawn in the same pass.
+#pragma once
+
+#include "engine/gpu/resources.hpp"
+
+namespace bolt::render {
+
+struct Targets {
+    // Four samples a pixel. The wide ones and `drawn` are made when a scene asks for them.
+    gpu::Image depth;
+    gpu::Image surfaces;                               // normal, material, grain (shaders/surface.glsl)
+    gpu::Image wide_colors, wide_roughs;               // base colour and metallic; roughness and occlusion
+    gpu::Image drawn;                                  // lit
+    gpu::Image picture;                                // one sample
+    gpu::Image small_depth, raw_occlusion, occlusion;  // half the size; made when a scene asks for them
+    VkExtent2D extent{};
+    std::uint32_t layers = 1;
+};
+
+Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers);
+Status add_wide_targets(gpu::Device& device, Targets& targets);
+Status add_drawn_target(gpu::Device& device, Targets& targets);
+Status add_occlusion_targets(gpu::Device& device, Targets& targets);
+
+// Visits every image of them.
+template <class Visit>
+void each_image(Targets& targets, const Visit& visit) {
+    for (gpu::Image* image :
+         {&targets.depth, &targets.surfaces, &targets.wide_colors, &targets.wide_roughs, &targets.drawn,
+          &targets.picture, &targets.small_depth, &targets.raw_occlusion, &targets.occlusion})
+        visit(*image);
+}
+
+}  // namespace bolt::render

@@ -1,0 +1,106 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_multiview : require
+// The picture from the surfaces that were drawn: samples of a pixel that show the same surface are lit once, together; where
+// an edge passes through, each side is lit for itself.
+#include "shaders/frame.glsl"
+#include "shaders/features.glsl"
+#include "shaders/lighting.glsl"
+#include "shaders/surface.glsl"
+
+layout(set = 0, binding = 7) uniform sampler2DMSArray depths;
+layout(set = 0, binding = 8) uniform sampler2DMSArray surfaces;
+layout(set = 0, binding = 9) uniform sampler2DMSArray wide_colors;
+layout(set = 0, binding = 10) uniform sampler2DMSArray wide_roughs;
+layout(location = 0) out vec4 color_out;
+
+// Vulkan's standard sample locations, from the pixel's corner.
+const vec2 places[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+const float alike = 0.99;  // cosine between normals of one surface
+
+vec3 world_at(vec2 pixel, float depth) {
+    const vec2 ndc = pixel * frame.picture.zw * 2.0 - 1.0;
+    const vec4 p = frame.views[gl_ViewIndex].world_from_clip * vec4(ndc, depth, 1.0);
+    return p.xyz / p.w;
+}
+
+// What lies behind everything.
+vec3 background(vec2 pixel) {
+    if (has(LIGHT_PLAIN)) return pbr_neutral(frame.background.rgb * frame.environment.w);
+    const vec3 way = world_at(pixel, 1e-6) - frame.views[gl_ViewIndex].eye.xyz;
+    return pbr_neutral(specular_light(specular_levels, way, 0.0) * frame.environment.w);
+}
+
+void main() {
+    const ivec3 pixel = ivec3(gl_FragCoord.xy, gl_ViewIndex);
+    const vec2 corner = vec2(pixel.xy);
+    float depth[4];
+    vec4 packed[4];
+    vec3 normal[4];
+    uint left = 0u;  // samples that wait for light
+    for (int i = 0; i < 4; ++i) {
+        depth[i] = texelFetch(depths, pixel, i).r;
+        packed[i] = texelFetch(surfaces, pixel, i);
+        normal[i] = unpack_normal(packed[i].xy);
+        left |= depth[i] > 0.0 ? 1u << i : 0u;
+    }
+    vec3 sum = background(gl_FragCoord.xy) * float(4 - bitCount(left));
+    while (left != 0u) {
+        int first = 3;
+        vec4 one = packed[3];
+        vec3 n0 = normal[3];
+        float d0 = depth[3];
+        for (int i = 2; i >= 0; --i)
+            if ((left & (1u << i)) != 0u) {
+                first = i;
+                one = packed[i];
+                n0 = normal[i];
+                d0 = depth[i];
+            }
+        // The surface at the middle of the samples that show it.
+        uint together = 0u;
+        vec3 n = vec3(0.0);
+        vec2 place = vec2(0.0);
+        float d = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            const bool same = (left & (1u << i)) != 0u && packed[i].z == one.z && dot(normal[i], n0) > alike &&
+                              abs(depth[i] - d0) < 0.02 * d0;
+            if (i != first && !same) continue;
+            together |= 1u << i;
+            n += normal[i];
+            place += places[i];
+            d += depth[i];
+        }
+        const float share = float(bitCount(together));
+        left &= ~together;
+
+        const uint id = uint(one.z * 65535.0 + 0.5);
+        const Material m = materials[id & (SURFACE_WIDE - 1u)];
+        Surface s;
+        s.position = world_at(corner + place / share, d / share);
+        s.out_dir = normalize(frame.views[gl_ViewIndex].eye.xyz - s.position);
+        n = normalize(n);
+        s.coat_normal = n;
+        // A normal that looks away from the eye is bent back to the rim: what is seen faces the eye.
+        const float facing = dot(n, s.out_dir);
+        s.normal = facing < 0.0 ? normalize(n - facing * s.out_dir) : n;
+        s.tangent = has(SCENE_ANISOTROPY) ? unpack_grain(n, one.w) : vec3(1.0, 0.0, 0.0);
+        s.base_color = m.base_color.rgb;
+        s.metallic = m.metallic;
+        s.roughness = m.roughness;
+        s.occlusion = 1.0;
+        s.emission = m.emissive.rgb;
+        if (has(SCENE_WIDE) && (id & SURFACE_WIDE) != 0u) {
+            const vec4 color = texelFetch(wide_colors, pixel, first);
+            const vec4 rough = texelFetch(wide_roughs, pixel, first);
+            s.base_color = color.rgb;
+            s.metallic = color.a;
+            s.roughness = rough.x;
+            s.occlusion = rough.y;
+        }
+        finish_surface(s, m);
+        if (one.w == SURFACE_NO_GRAIN) s.alpha.x = s.alpha.y;
+        sum += share * shade(s, gl_FragCoord.xy * frame.picture.zw);
+    }
+    color_out = vec4(sum * 0.25, 1.0);
+}

@@ -1,0 +1,93 @@
+// What a surface sends to the eye: image-based light, then every lamp, tone-mapped. What a pipeline does not need is not in it
+// (features: SCENE_… bits).
+#include "shaders/environment.glsl"
+#include "shaders/brdf.glsl"
+#include "shaders/tone.glsl"
+
+layout(set = 0, binding = 3) uniform sampler2D albedo_table;
+layout(set = 0, binding = 4) uniform samplerCube specular_levels;
+layout(set = 0, binding = 5) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = 6) uniform sampler2DArray ambient_occlusion;
+
+// The shadow of light 0: four comparisons, each filtered by the sampler. Points are moved off their surface along the normal
+// by a little more than a texel, so that it does not shade itself.
+float lit(vec3 at, vec3 normal) {
+    const vec2 texel = 1.0 / vec2(textureSize(shadow_map, 0));
+    const mat4 m = frame.shadow_from_world;
+    const float width = 2.0 * texel.x / length(vec3(m[0].x, m[1].x, m[2].x));
+    const vec4 place = m * vec4(at + 1.5 * width * normal, 1.0);
+    const vec3 p = vec3(place.xy * 0.5 + 0.5, place.z);
+    const vec2 step = 0.75 * texel;
+    const float sum = texture(shadow_map, vec3(p.xy + vec2(-step.x, -step.y), p.z)) +
+                      texture(shadow_map, vec3(p.xy + vec2(step.x, -step.y), p.z)) +
+                      texture(shadow_map, vec3(p.xy + vec2(-step.x, step.y), p.z)) +
+                      texture(shadow_map, vec3(p.xy + vec2(step.x, step.y), p.z));
+    const bool outside = any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)));
+    return outside ? 1.0 : 0.25 * sum;
+}
+
+// What arrives of a light, and from where.
+vec3 arriving(Light light, vec3 at, out vec3 l) {
+    const vec3 way = light.position.w == 0.0 ? -light.direction.xyz : light.position.xyz - at;
+    const float d2 = dot(way, way);
+    l = way * inversesqrt(d2);
+    const float x = light.direction.w > 0.0 ? d2 / (light.direction.w * light.direction.w) : 0.0;
+    const float near = clamp(1.0 - x * x, 0.0, 1.0) / max(d2, 1e-6);
+    const float cone = clamp(dot(light.direction.xyz, -l) * light.cone.x + light.cone.y, 0.0, 1.0);
+    const float fade = (light.position.w == 0.0 ? 1.0 : near) * (light.position.w == 2.0 ? cone * cone : 1.0);
+    return light.color.rgb * fade;
+}
+
+// What is kept away comes back in part from the neighbours that keep it away, the more the brighter they are; they are taken to
+// be as bright as the surface itself (Jimenez et al. 2016, as in occlusion.frag).
+vec3 returned(float ao, vec3 albedo) {
+    const vec3 a = 2.0404 * albedo - 0.3324, b = -4.7951 * albedo + 0.6417, c = 2.7552 * albedo + 0.6903;
+    return max(vec3(ao), ((ao * a + b) * ao + c) * ao);
+}
+
+// Specular occlusion from the ambient one (S. Lagarde and C. de Rousiers, Moving Frostbite to PBR, 2014).
+float mirrored_share(float nv, float ao, float roughness) {
+    return clamp(pow(nv + ao, exp2(-16.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);
+}
+
+// What is seen of a material whose base colour, metallic and roughness are known: alphas and what else follows from them.
+void finish_surface(inout Surface s, Material m) {
+    const float alpha = max(s.roughness * s.roughness, 1e-3);
+    s.alpha = vec2(alpha);
+    s.brushed = has(SCENE_ANISOTROPY) && has(SCENE_TANGENTS);
+    if (s.brushed) s.alpha.x = mix(alpha, 1.0, m.anisotropy * m.anisotropy);
+    s.f0 = min(m.f0 * m.specular_color.rgb, vec3(1.0)) * m.specular_color.w;
+    s.f90 = m.specular_color.w;
+    s.coated = has(SCENE_COAT);
+    s.coat = m.coat;
+    s.coat_roughness = m.coat_roughness;
+    s.coat_alpha = max(m.coat_roughness * m.coat_roughness, 1e-3);
+}
+
+vec3 shade(Surface s, vec2 screen) {
+    const Seen seen = see(s, albedo_table);
+    float ao = s.occlusion;
+    if (has(SCENE_OCCLUSION)) ao = min(ao, textureLod(ambient_occlusion, vec3(screen, gl_ViewIndex), 0.0).r);
+    const bool occluded = has(SCENE_OCCLUSION) || has(SCENE_OCCLUSION_MAP);
+    vec3 diffuse = seen.diffuse * diffuse_light(s.normal);
+    vec3 specular = seen.specular * specular_light(specular_levels, reflect(-s.out_dir, s.normal), s.roughness);
+    if (occluded) {
+        const float nv = clamp(dot(s.normal, s.out_dir), 0.0, 1.0);
+        diffuse *= returned(ao, seen.diffuse);
+        specular *= mirrored_share(nv, ao, s.roughness);
+    }
+    vec3 color = s.emission + seen.below_coat * (diffuse + specular);
+    if (s.coated) {
+        vec3 coat = seen.coat * specular_light(specular_levels, reflect(-s.out_dir, s.coat_normal), s.coat_roughness);
+        if (occluded) coat *= mirrored_share(clamp(dot(s.coat_normal, s.out_dir), 0.0, 1.0), ao, s.coat_roughness);
+        color += coat;
+    }
+    const uint light_count = (features >> SCENE_LIGHTS_SHIFT) & 15u;
+    for (uint i = 0u; i < light_count; ++i) {
+        vec3 l;
+        vec3 light = arriving(frame.lights[i], s.position, l);
+        if (has(SCENE_SHADOW) && i == 0u) light *= lit(s.position, s.coat_normal);
+        color += light * reflect_light(s, seen, l);
+    }
+    return pbr_neutral(color * frame.environment.w);
+}

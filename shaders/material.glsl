@@ -1,0 +1,74 @@
+// What a part's material and its maps say at a point.
+layout(set = 1, binding = 0) uniform sampler2D base_map;
+layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_map;
+layout(set = 1, binding = 2) uniform sampler2D normal_map;
+layout(set = 1, binding = 3) uniform sampler2D occlusion_map;
+layout(set = 1, binding = 4) uniform sampler2D emissive_map;
+
+layout(location = 0) in vec3 at;
+layout(location = 1) in vec3 normal_in;
+layout(location = 2) in vec4 tangent_in;
+layout(location = 3) in vec2 texcoord;
+layout(location = 4) in vec4 color_in;
+layout(location = 5) flat in vec4 tint;
+layout(location = 6) flat in vec2 mark;
+
+layout(push_constant) uniform Draw { uint material_index; };
+
+vec2 uv(Material m, uint texture_index) {
+    const vec3 t = vec3(texcoord, 1.0);
+    return vec2(dot(m.uv[2 * texture_index].xyz, t), dot(m.uv[2 * texture_index + 1].xyz, t));
+}
+
+// The plane of a normal map where the mesh has no tangents: from how position and texture change over the picture
+// (C. Schüler, Normal Mapping Without Precomputed Tangents, ShaderX5, 2006).
+mat3 cotangent_frame(vec3 n, vec2 t) {
+    const vec3 px = dFdx(at), py = dFdy(at);
+    const vec2 tx = dFdx(t), ty = dFdy(t);
+    const vec3 a = cross(py, n), b = cross(n, px);
+    const vec3 tangent = a * tx.x + b * ty.x, bitangent = a * tx.y + b * ty.y;
+    const float longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
+    const float scale = longest > 0.0 ? inversesqrt(longest) : 0.0;
+    return mat3(tangent * scale, bitangent * scale, n);
+}
+
+vec4 base_color(Material m) {
+    vec4 base = m.base_color;
+    if (has(SCENE_VERTEX_COLORS)) base *= color_in;
+    if (has(SCENE_BASE_MAP)) base *= texture(base_map, uv(m, 0u));
+    if (has(SCENE_MARKED)) base.rgb = mix(base.rgb, tint.rgb, tint.w);
+    return base;
+}
+
+vec3 plain_normal() {
+    const vec3 n = normalize(normal_in);
+    return gl_FrontFacing ? n : -n;
+}
+
+vec3 mapped_normal(Material m, vec3 n) {
+    if (!has(SCENE_NORMAL_MAP)) return n;
+    const vec2 t = uv(m, 2u);
+    vec3 bump = texture(normal_map, t).xyz * 2.0 - 1.0;
+    bump.xy *= m.normal_scale;
+    mat3 plane = cotangent_frame(n, t);
+    if (has(SCENE_TANGENTS)) {
+        const vec3 given = normalize(tangent_in.xyz - n * dot(n, tangent_in.xyz));
+        plane = mat3(given, cross(n, given) * tangent_in.w, n);
+    }
+    return normalize(plane * bump);
+}
+
+// Metallic, roughness, occlusion.
+vec3 metallic_roughness_occlusion(Material m) {
+    vec3 v = vec3(m.metallic, m.roughness, 1.0);
+    if (has(SCENE_METALLIC_ROUGHNESS_MAP)) v.xy *= texture(metallic_roughness_map, uv(m, 1u)).bg;
+    if (has(SCENE_OCCLUSION_MAP)) v.z += m.occlusion_strength * (texture(occlusion_map, uv(m, 3u)).r - 1.0);
+    return v;
+}
+
+// Along which the metal was brushed.
+vec3 grain_of(Material m, vec3 n) {
+    const vec3 t = normalize(tangent_in.xyz - n * dot(n, tangent_in.xyz));
+    const vec3 b = cross(n, t) * tangent_in.w;
+    return cos(m.anisotropy_rotation) * t + sin(m.anisotropy_rotation) * b;
+}
