@@ -93,7 +93,6 @@ struct Material {
 #define SCENE_SHADOW 4096u    // light 0 casts one
 #define SCENE_OCCLUSION 8192u // ambient occlusion on the screen
 #define SCENE_WIDE 16384u     // maps or colours of its own: more than a material's numbers
-#define LIGHT_PLAIN 32768u    // one colour behind everything, not the environment
 #define SCENE_LIGHTS_SHIFT 16u // the number of lights, four bits
 
 #ifdef __cplusplus

@@ -45,7 +45,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device, const Re
 
 Status Renderer::prepare() {
     if (Status s = take(cache_, gpu::PipelineCache::open(*device_, options_.pipeline_cache)); !s) return s;
-    for (const char* name : {"scene.vert", "surface.frag", "light.frag", "scene.frag", "shadow.vert",
+    for (const char* name : {"scene.vert", "surface.frag", "light.frag", "scene.frag", "sky.frag", "shadow.vert",
                              "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag"}) {
         Result<gpu::Shader> shader = gpu::make_shader(name, scene_shaders(name));
         if (!shader) return fail(shader.error());

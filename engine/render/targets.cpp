@@ -33,6 +33,8 @@ Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32
     if (Status s = add(device, t, t.depth, depth_format, depth_and_read, samples); !s) return fail(s.error());
     if (Status s = add(device, t, t.surfaces, surface_format, drawn_and_read, samples); !s)
         return fail(s.error());
+    if (Status s = add(device, t, t.drawn, color_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples); !s)
+        return fail(s.error());
     const VkImageUsageFlags seen = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if (Status s = add(device, t, t.picture, color_format, seen, VK_SAMPLE_COUNT_1_BIT); !s)
         return fail(s.error());
@@ -44,13 +46,9 @@ Status add_wide_targets(gpu::Device& device, Targets& t) {
     return add(device, t, t.wide_roughs, wide_rough_format, drawn_and_read, samples);
 }
 
-Status add_drawn_target(gpu::Device& device, Targets& t) {
-    return add(device, t, t.drawn, color_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples);
-}
-
 Status add_occlusion_targets(gpu::Device& device, Targets& t) {
     constexpr VkSampleCountFlagBits one = VK_SAMPLE_COUNT_1_BIT;
-    if (Status s = add(device, t, t.small_depth, small_depth_format, drawn_and_read, one, 2); !s) return s;
+    if (Status s = add(device, t, t.small_depth, depth_format, depth_and_read, one, 2); !s) return s;
     if (Status s = add(device, t, t.raw_occlusion, occlusion_format, drawn_and_read, one, 2); !s) return s;
     return add(device, t, t.occlusion, occlusion_format, drawn_and_read, one, 2);
 }

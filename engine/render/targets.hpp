@@ -6,7 +6,7 @@
 namespace bolt::render {
 
 struct Targets {
-    // Four samples a pixel. The wide ones and `drawn` are made when a scene asks for them.
+    // Four samples a pixel. The wide ones are made when a scene asks for them.
     gpu::Image depth;
     gpu::Image surfaces;                               // normal, material, grain (shaders/surface.glsl)
     gpu::Image wide_colors, wide_roughs;               // base colour and metallic; roughness and occlusion
@@ -19,7 +19,6 @@ struct Targets {
 
 Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers);
 Status add_wide_targets(gpu::Device& device, Targets& targets);
-Status add_drawn_target(gpu::Device& device, Targets& targets);
 Status add_occlusion_targets(gpu::Device& device, Targets& targets);
 
 // Visits every image of them.

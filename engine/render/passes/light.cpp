@@ -2,10 +2,35 @@
 
 #include "engine/gpu/transfer.hpp"
 #include "engine/render/materials.hpp"
+#include "engine/render/tone.hpp"
 
 namespace bolt::render {
 
 using gpu::Use;
+
+namespace {
+
+// A triangle over the whole picture, as far away as can be: depth tests tell where something was drawn.
+gpu::GraphicsInfo behind_all(const Shaders& shaders, std::uint32_t views, VkCompareOp compare) {
+    gpu::GraphicsInfo info;
+    info.vertex = &shaders.at("screen.vert");
+    info.colors = {color_format};
+    info.depth = depth_format;
+    info.samples = samples;
+    info.view_mask = view_mask(views);
+    info.cull = VK_CULL_MODE_NONE;
+    info.depth_write = false;
+    info.depth_compare = compare;
+    return info;
+}
+
+void resolve_into(VkRenderingAttachmentInfo& color, const gpu::Image& picture) {
+    color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+    color.resolveImageView = picture.view();
+    color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+}
+
+}  // namespace
 
 Result<LightPass> LightPass::create(const PassMaker& maker) {
     LightPass pass;
@@ -34,27 +59,32 @@ Result<LightPass> LightPass::create(const PassMaker& maker) {
     return pass;
 }
 
-Result<const gpu::Pipeline*> LightPass::light_pipeline(gpu::Device& device, const Key& key) {
-    const auto known = lights_.find(key);
+Result<const gpu::Pipeline*> LightPass::light_pipeline(gpu::Device& device, std::uint32_t features,
+                                                       std::uint32_t views) {
+    const auto known = lights_.find({features, views});
     if (known != lights_.end()) return &known->second;
-    gpu::GraphicsInfo info;
-    info.vertex = &shaders_->at("screen.vert");
+    gpu::GraphicsInfo info = behind_all(*shaders_, views, VK_COMPARE_OP_LESS);
     info.fragment = &shaders_->at("light.frag");
-    info.colors = {color_format};
-    info.samples = key.several ? samples : VK_SAMPLE_COUNT_1_BIT;
-    info.view_mask = view_mask(key.views);
-    info.cull = VK_CULL_MODE_NONE;
-    info.depth_test = info.depth_write = false;
-    info.constants = key.features;
+    info.constants = features;
     Result<gpu::Pipeline> made = gpu::make_graphics_pipeline(device, *cache_, info);
     if (!made) return fail(made.error());
-    return &lights_.emplace(key, std::move(*made)).first->second;
+    return &lights_.emplace(std::pair{features, views}, std::move(*made)).first->second;
 }
 
-Result<const gpu::Pipeline*> LightPass::part_pipeline_of(gpu::Device& device, const Kind& kind,
+Result<const gpu::Pipeline*> LightPass::sky_pipeline(gpu::Device& device, std::uint32_t views) {
+    const auto known = skies_.find(views);
+    if (known != skies_.end()) return &known->second;
+    gpu::GraphicsInfo info = behind_all(*shaders_, views, VK_COMPARE_OP_EQUAL);
+    info.fragment = &shaders_->at("sky.frag");
+    Result<gpu::Pipeline> made = gpu::make_graphics_pipeline(device, *cache_, info);
+    if (!made) return fail(made.error());
+    return &skies_.emplace(views, std::move(*made)).first->second;
+}
+
+Result<const gpu::Pipeline*> LightPass::forward_pipeline(gpu::Device& device, const Kind& kind,
                                                          std::uint32_t views) {
-    const auto known = parts_.find({kind, views});
-    if (known != parts_.end()) return &known->second;
+    const auto known = forwards_.find({kind, views});
+    if (known != forwards_.end()) return &known->second;
     gpu::GraphicsInfo info = part_pipeline(*shaders_, kind, views);
     info.fragment = &shaders_->at("scene.frag");
     info.colors = {color_format};
@@ -62,7 +92,7 @@ Result<const gpu::Pipeline*> LightPass::part_pipeline_of(gpu::Device& device, co
     info.depth_write = !kind.blends;
     Result<gpu::Pipeline> made = gpu::make_graphics_pipeline(device, *cache_, info);
     if (!made) return fail(made.error());
-    return &parts_.emplace(std::pair{kind, views}, std::move(*made)).first->second;
+    return &forwards_.emplace(std::pair{kind, views}, std::move(*made)).first->second;
 }
 
 void LightPass::bind_inputs(PassContext& context, gpu::SetWriter& writer, const LightInputs& inputs) {
@@ -89,28 +119,40 @@ Result<VkDescriptorSet> LightPass::light_set(PassContext& context, const Targets
         .finish();
 }
 
-Status LightPass::draw_forward(PassContext& context, const Targets& targets, const DrawList& list,
-                               const LightInputs& inputs) {
-    const VkCommandBuffer commands = context.frame.commands();
-    context.frame.begin_timing("forward");
-    gpu::image_barrier(commands, targets.drawn.get(), Use::color_target, Use::color_target);
-    gpu::image_barrier(commands, targets.depth.get(), Use::depth_read, Use::depth_target, depth_range);
-    VkRenderingAttachmentInfo color =
-        attachment(targets.drawn.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_LOAD,
-                   VK_ATTACHMENT_STORE_OP_DONT_CARE);
-    color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
-    color.resolveImageView = targets.picture.view();
-    color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    const VkRenderingAttachmentInfo depth =
-        attachment(targets.depth.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_LOAD,
-                   VK_ATTACHMENT_STORE_OP_STORE);
-    const VkRenderingInfo rendering = rendering_info(context.extent, context.views, {&color, 1}, &depth);
-    vkCmdBeginRendering(commands, &rendering);
-    set_area(commands, context.extent);
+Status LightPass::draw_surfaces(PassContext& context, const Targets& targets, const DrawList& list,
+                                const LightInputs& inputs) {
+    constexpr std::uint32_t of_light =
+        SCENE_TANGENTS | SCENE_COAT | SCENE_ANISOTROPY | SCENE_OCCLUSION_MAP | SCENE_WIDE;
+    const std::uint32_t features = (list.features & of_light) | features_of(context.scene);
+    const Result<const gpu::Pipeline*> pipeline = light_pipeline(context.device, features, context.views);
+    if (!pipeline) return fail(pipeline.error());
+    const Result<VkDescriptorSet> set =
+        light_set(context, targets, **pipeline, inputs, (list.features & SCENE_WIDE) != 0);
+    if (!set) return fail(set.error());
+    bind(context.frame.commands(), **pipeline, *set);
+    draw_triangle(context.frame.commands());
+    return {};
+}
+
+Status LightPass::draw_sky(PassContext& context) {
+    const Result<const gpu::Pipeline*> pipeline = sky_pipeline(context.device, context.views);
+    if (!pipeline) return fail(pipeline.error());
+    Result<gpu::SetWriter> writer = gpu::SetWriter::create(context.device, context.frame, **pipeline, 0);
+    if (!writer) return fail(writer.error());
+    const Result<VkDescriptorSet> set = writer->piece(0, context.frame_block)
+                                            .image(4, context.environment.levels.view(), clamped_.get())
+                                            .finish();
+    if (!set) return fail(set.error());
+    bind(context.frame.commands(), **pipeline, *set);
+    draw_triangle(context.frame.commands());
+    return {};
+}
+
+Status LightPass::draw_forward(PassContext& context, const DrawList& list, const LightInputs& inputs) {
     PartDrawing drawing;
     drawing.wanted = [](const Kind& kind) { return kind.forward; };
     drawing.pipeline = [&](const Kind& kind) {
-        return part_pipeline_of(context.device, kind, context.views);
+        return forward_pipeline(context.device, kind, context.views);
     };
     drawing.frame_set = [&](const gpu::Pipeline& made) -> Result<VkDescriptorSet> {
         Result<gpu::SetWriter> writer = gpu::SetWriter::create(context.device, context.frame, made, 0);
@@ -118,44 +160,51 @@ Status LightPass::draw_forward(PassContext& context, const Targets& targets, con
         bind_inputs(context, *writer, inputs);
         return writer->piece(1, context.instances).finish();
     };
-    const Status drawn = draw_parts(context, list, drawing);
-    vkCmdEndRendering(commands);
-    gpu::image_barrier(commands, targets.depth.get(), Use::depth_target, Use::depth_read, depth_range);
-    context.frame.end_timing();
-    return drawn;
+    return draw_parts(context, list, drawing);
 }
 
 Status LightPass::draw(PassContext& context, Targets& targets, const DrawList& list,
                        const LightInputs& inputs) {
-    constexpr std::uint32_t of_light =
-        SCENE_TANGENTS | SCENE_COAT | SCENE_ANISOTROPY | SCENE_OCCLUSION_MAP | SCENE_WIDE;
-    Key key{(list.features & of_light) | features_of(context.scene), context.views, list.forward};
-    if (context.scene.background.w > 0.5F) key.features |= LIGHT_PLAIN;
-    if (list.forward)
-        if (Status made = add_drawn_target(context.device, targets); !made) return made;
-    const Result<const gpu::Pipeline*> pipeline = light_pipeline(context.device, key);
-    if (!pipeline) return fail(pipeline.error());
-    const Result<VkDescriptorSet> set =
-        light_set(context, targets, **pipeline, inputs, (list.features & SCENE_WIDE) != 0);
-    if (!set) return fail(set.error());
-
     const VkCommandBuffer commands = context.frame.commands();
-    context.frame.begin_timing("light");
     gpu::image_barrier_discarding(commands, targets.picture.get(), Use::transfer_from, Use::color_target);
-    const gpu::Image& target = list.forward ? targets.drawn : targets.picture;
-    if (list.forward)
-        gpu::image_barrier_discarding(commands, target.get(), Use::color_target, Use::color_target);
-    const VkRenderingAttachmentInfo color =
-        attachment(target.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                   VK_ATTACHMENT_STORE_OP_STORE);
-    const VkRenderingInfo rendering = rendering_info(context.extent, context.views, {&color, 1});
+    gpu::image_barrier_discarding(commands, targets.drawn.get(), Use::color_target, Use::color_target);
+    // The geometry buffer's depth is tested and read at the same time.
+    context.frame.begin_timing("light");
+    VkRenderingAttachmentInfo color = attachment(
+        targets.drawn.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR,
+        list.forward ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE);
+    if (!list.forward) resolve_into(color, targets.picture);
+    const bool plain = context.scene.background.w > 0.5F;
+    const glm::vec3 behind = pbr_neutral(glm::vec3(context.scene.background) * context.scene.exposure);
+    if (plain) color.clearValue.color = {{behind.r, behind.g, behind.b, 1.0F}};
+    VkRenderingAttachmentInfo depth =
+        attachment(targets.depth.view(), VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, VK_ATTACHMENT_LOAD_OP_LOAD,
+                   VK_ATTACHMENT_STORE_OP_NONE);
+    VkRenderingInfo rendering = rendering_info(context.extent, context.views, {&color, 1}, &depth);
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, context.extent);
-    bind(commands, **pipeline, *set);
-    vkCmdDraw(commands, 3, 1, 0, 0);
+    Status done = draw_surfaces(context, targets, list, inputs);
+    if (done && !plain) done = draw_sky(context);
     vkCmdEndRendering(commands);
     context.frame.end_timing();
-    return list.forward ? draw_forward(context, targets, list, inputs) : Status{};
+    if (!done || !list.forward) return done;
+
+    context.frame.begin_timing("forward");
+    gpu::image_barrier(commands, targets.drawn.get(), Use::color_target, Use::color_target);
+    gpu::image_barrier(commands, targets.depth.get(), Use::depth_read, Use::depth_target, depth_range);
+    color = attachment(targets.drawn.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                       VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_DONT_CARE);
+    resolve_into(color, targets.picture);
+    depth = attachment(targets.depth.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                       VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
+    rendering = rendering_info(context.extent, context.views, {&color, 1}, &depth);
+    vkCmdBeginRendering(commands, &rendering);
+    set_area(commands, context.extent);
+    done = draw_forward(context, list, inputs);
+    vkCmdEndRendering(commands);
+    gpu::image_barrier(commands, targets.depth.get(), Use::depth_target, Use::depth_read, depth_range);
+    context.frame.end_timing();
+    return done;
 }
 
 }  // namespace bolt::render

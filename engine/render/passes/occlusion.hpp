@@ -1,5 +1,5 @@
 // How much light neighbours keep away: depth shrunk to half the size, slices of the horizon around every
-// pixel, smoothed.
+// pixel, smoothed. Where nothing was drawn nothing is computed.
 #pragma once
 
 #include "engine/render/passes/pass.hpp"
@@ -15,6 +15,11 @@ class OcclusionPass {
     Status draw(PassContext& context, Targets& targets);
 
   private:
+    Status shrink(PassContext& context, const Targets& targets);
+    // A triangle over what was drawn, into `target`.
+    void fill(PassContext& context, const Targets& targets, const gpu::Pipeline& pipeline,
+              VkDescriptorSet set, const gpu::Image& target);
+
     gpu::Pipeline shrink_, slices_, smooth_;
     gpu::Sampler nearest_;
 };

@@ -55,20 +55,6 @@ VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
     return info;
 }
 
-void fill(PassContext& context, const gpu::Pipeline& pipeline, VkDescriptorSet set,
-          const gpu::Image& target) {
-    const VkCommandBuffer commands = context.frame.commands();
-    gpu::image_barrier_discarding(commands, target.get(), gpu::Use::sampled, gpu::Use::color_target);
-    const VkRenderingAttachmentInfo color =
-        attachment(target.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                   VK_ATTACHMENT_STORE_OP_STORE);
-    const VkRenderingInfo rendering = rendering_info(target.info().extent, context.views, {&color, 1});
-    vkCmdBeginRendering(commands, &rendering);
-    set_area(commands, target.info().extent);
-    bind(commands, pipeline, set);
-    vkCmdDraw(commands, 3, 1, 0, 0);
-    vkCmdEndRendering(commands);
-    gpu::image_barrier(commands, target.get(), gpu::Use::color_target, gpu::Use::sampled);
-}
+void draw_triangle(VkCommandBuffer commands) { vkCmdDraw(commands, 3, 1, 0, 0); }
 
 }  // namespace bolt::render

@@ -15,7 +15,6 @@ inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat surface_format = VK_FORMAT_R16G16B16A16_UNORM;
 inline constexpr VkFormat wide_color_format = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat wide_rough_format = VK_FORMAT_R8G8_UNORM;
-inline constexpr VkFormat small_depth_format = VK_FORMAT_R32_SFLOAT;
 inline constexpr VkFormat occlusion_format = VK_FORMAT_R8_UNORM;
 // light.frag counts on it.
 inline constexpr VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
@@ -91,7 +90,7 @@ VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
                                std::span<const VkRenderingAttachmentInfo> colors,
                                const VkRenderingAttachmentInfo* depth = nullptr);
 
-// A triangle over all of `target`, from nothing but what the set holds. `target` is sampled afterwards.
-void fill(PassContext& context, const gpu::Pipeline& pipeline, VkDescriptorSet set, const gpu::Image& target);
+// A triangle as far away as can be, over all of the attached images, drawn with the bound pipeline.
+void draw_triangle(VkCommandBuffer commands);
 
 }  // namespace bolt::render
