@@ -6,6 +6,7 @@
 #include "shaders/features.glsl"
 #include "shaders/lighting.glsl"
 #include "shaders/material.glsl"
+#include "shaders/cut.glsl"
 
 layout(location = 0) out vec4 color_out;
 
@@ -38,6 +39,11 @@ void main() {
     if (has(SCENE_MARKED)) {
         if (mark.y > 0.5) color = base.rgb;
         opacity *= mark.x;
+    }
+    if (has(SCENE_CUT)) {
+        const float gone = faded(at);
+        if (gone == 0.0) discard;  // there it is a surface like any other
+        opacity *= 1.0 - gone;
     }
     color_out = vec4(color, 1.0) * opacity;
 }

@@ -10,6 +10,7 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 texcoord;
 layout(location = 4) in vec4 color;
 
+invariant gl_Position;  // a ghost's depth is drawn before its colour
 layout(location = 0) out vec3 at;
 layout(location = 1) out vec3 normal_out;
 layout(location = 2) out vec4 tangent_out;

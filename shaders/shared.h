@@ -39,15 +39,21 @@ struct Frame {
     vec4 picture;           // width, height, 1/width, 1/height
     vec4 occlusion;         // x: radius of ambient occlusion, m
     vec4 background;        // rgb; w: 1 show it, 0 show the environment
+    vec4 cut;               // what is to be seen, world; w: radius kept free around it, m
+    float cut_strength;     // 0: nothing fades … 1: what hides it goes
+    float outline_px;       // width of outlines
     uint light_count;
     uint shadows;           // 1: light 0 casts a shadow
     uint view_count;
-    uint unused;
+    uint unused_a;
+    uint unused_b;
+    uint unused_c;
 };
 
 struct Instance {
     mat4 world_from_object;
     vec4 tint;      // w: 0 as it is … 1 replaced by rgb
+    vec4 outline;   // w: opacity of the line
     uint flags;     // INSTANCE_…
     float opacity;
     uint unused_a;
@@ -93,6 +99,7 @@ struct Material {
 #define SCENE_SHADOW 4096u    // light 0 casts one
 #define SCENE_OCCLUSION 8192u // ambient occlusion on the screen
 #define SCENE_WIDE 16384u     // maps or colours of its own: more than a material's numbers
+#define SCENE_CUT 32768u      // fades where it hides what is to be seen
 #define SCENE_LIGHTS_SHIFT 16u // the number of lights, four bits
 
 #ifdef __cplusplus

@@ -1,16 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_multiview : require
 // What is seen, without light: normal, material and grain; and what maps and colours say, where a part has them.
 #include "shaders/frame.glsl"
 #include "shaders/features.glsl"
 #include "shaders/material.glsl"
 #include "shaders/surface.glsl"
+#include "shaders/cut.glsl"
 
 layout(location = 0) out vec4 surface_out;     // normal, material, grain
 layout(location = 1) out vec4 wide_color_out;  // base colour, metallic
 layout(location = 2) out vec4 wide_rough_out;  // roughness, occlusion
 
 void main() {
+    if (has(SCENE_CUT) && faded(at) > 0.0) discard;  // scene.frag draws what is left of it
     const Material m = materials[material_index];
     const bool wide = has(SCENE_WIDE);
     if (wide || has(SCENE_MASK)) {

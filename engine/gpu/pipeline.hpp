@@ -43,6 +43,7 @@ struct GraphicsInfo {
     bool depth_clamp = false;
     float depth_bias = 0.0F, depth_bias_slope = 0.0F;
     bool blend = false;  // premultiplied alpha
+    bool color_write = true;
     std::uint32_t constants =
         0;  // specialization constant 0 of both shaders, when not zero: bits that the pass defines
 };

@@ -18,6 +18,7 @@ struct Item {
     std::uint32_t model = 0;  // in the order in which models appear
     std::uint32_t part = 0, level = 0;
     float distance = 0.0F;  // of blending ones, to the first eye
+    bool outlined = false;
 };
 
 // What says something else at every point than the material's numbers.
@@ -27,7 +28,8 @@ constexpr std::uint32_t own_values =
 Kind kind_of(const Object& object, const Part& part) {
     const MaterialMaps& maps = object.model->maps[part.material];
     Kind kind;
-    kind.blends = maps.blends || object.opacity < 1.0F;
+    kind.ghost = object.opacity < 1.0F;
+    kind.blends = maps.blends || kind.ghost;
     // A mirrored part shows the other winding.
     kind.double_sided = maps.double_sided || glm::determinant(glm::mat3(object.world)) < 0.0F;
     kind.features = object.model->features[part.material];
@@ -69,6 +71,21 @@ std::uint32_t level_of(const Part& part, const Box& box, float scale, std::span<
     return level;
 }
 
+// Whether a box may reach into the cone between an eye and what is to be seen; never says no of one that
+// does.
+bool hides(const Box& box, const CutAway& cut, std::span<const Eye> eyes) {
+    const glm::vec3 middle = 0.5F * (box.low + box.high);
+    const float reach = 0.5F * glm::distance(box.low, box.high);
+    return std::any_of(eyes.begin(), eyes.end(), [&](const Eye& eye) {
+        const glm::vec3 way = cut.focus - eye.position;
+        const float length = glm::length(way);
+        if (length <= 0.0F) return false;
+        const float along = glm::dot(middle - eye.position, way) / length;
+        const float off = glm::length(middle - eye.position - way * (along / length));
+        return along - reach < length && along + reach > 0.0F && off - reach < cut.radius;
+    });
+}
+
 bool seen(const Box& box, std::span<const Eye> eyes) {
     return eyes.empty() || std::any_of(eyes.begin(), eyes.end(),
                                        [&](const Eye& eye) { return in_sight(box, eye.clip_from_world); });
@@ -78,13 +95,15 @@ bool before(const Item& a, const Item& b) {
     if (a.kind.blends != b.kind.blends) return b.kind.blends;
     if (a.kind.forward != b.kind.forward) return b.kind.forward;
     if (a.kind.blends && a.distance != b.distance) return a.distance > b.distance;
-    return std::tie(a.kind, a.model, a.part, a.level) < std::tie(b.kind, b.model, b.part, b.level);
+    return std::tie(a.kind, a.model, a.part, a.level, a.outlined) <
+           std::tie(b.kind, b.model, b.part, b.level, b.outlined);
 }
 
 shared::Instance instance_of(const Object& object) {
     shared::Instance instance{};
     instance.world_from_object = object.world;
     instance.tint = object.tint;
+    instance.outline = object.outline;
     instance.flags = object.flat ? INSTANCE_FLAT : 0U;
     instance.opacity = object.opacity;
     return instance;
@@ -123,8 +142,23 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
                 eyes.empty() ? 0.0F : glm::distance(0.5F * (box.low + box.high), eyes.front().position);
             Kind kind = kind_of(object, part);
             kind.features |= scene_features;
-            items.push_back(
-                {kind, &object, known->second.first, i, level_of(part, box, scale, eyes, detail), distance});
+            Item item{kind,
+                      &object,
+                      known->second.first,
+                      i,
+                      level_of(part, box, scale, eyes, detail),
+                      distance,
+                      object.outline.w > 0.0F};
+            if (item.outlined) list.outlined.push_back(box);
+            if (object.cut && scene.cut_away.strength > 0.0F && hides(box, scene.cut_away, eyes)) {
+                // What stays of it is a surface as ever, what fades is blended.
+                item.kind.features |= SCENE_CUT;
+                if (!kind.forward) items.push_back(item);
+                item.kind.blends = item.kind.forward = true;
+                item.kind.features &= ~SCENE_WIDE;
+                item.outlined = item.outlined && kind.forward;
+            }
+            items.push_back(item);
         }
     }
     std::stable_sort(items.begin(), items.end(), before);
@@ -132,10 +166,11 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
         const Part& part = item.object->model->parts[item.part];
         const bool joins = !list.draws.empty() && list.draws.back().kind == item.kind &&
                            list.draws.back().model == item.object->model &&
-                           list.draws.back().part == item.part && list.draws.back().level == item.level;
+                           list.draws.back().part == item.part && list.draws.back().level == item.level &&
+                           list.draws.back().outlined == item.outlined;
         if (!joins)
             list.draws.push_back({item.kind, item.object->model, item.part, item.level,
-                                  models.at(item.object->model).second + part.material,
+                                  models.at(item.object->model).second + part.material, item.outlined,
                                   static_cast<std::uint32_t>(list.instances.size()), 0});
         ++list.draws.back().instances;
         if (item.kind.forward)

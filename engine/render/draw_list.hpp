@@ -12,6 +12,7 @@ namespace bolt::render {
 struct Kind {
     bool blends = false;
     bool forward = false;  // lit as it is drawn: blends, or has more than the geometry buffer keeps
+    bool ghost = false;    // blends, and hides what of it lies behind
     bool double_sided = false;
     std::uint32_t features = 0;  // SCENE_… bits
     friend auto operator<=>(const Kind&, const Kind&) = default;
@@ -22,6 +23,7 @@ struct Draw {
     const GpuModel* model = nullptr;
     std::uint32_t part = 0, level = 0;
     std::uint32_t material = 0;  // of the list
+    bool outlined = false;
     std::uint32_t first_instance = 0, instances = 0;
 };
 
@@ -31,6 +33,7 @@ struct DrawList {
     std::vector<Draw> draws;                  // opaque by state, then what blends, far to near
     std::uint32_t features = 0;               // SCENE_… bits that any part of the geometry buffer needs
     bool forward = false;                     // something is lit as it is drawn
+    std::vector<Box> outlined;                // world
     std::uint64_t triangles = 0;
 };
 

@@ -29,8 +29,20 @@ shared::Frame describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D
     f.picture = {width, height, 1.0F / width, 1.0F / height};
     f.occlusion.x = scene.occlusion_radius;
     f.background = scene.background;
+    f.cut = glm::vec4(scene.cut_away.focus, scene.cut_away.radius);
+    f.cut_strength = scene.cut_away.strength;
+    f.outline_px = scene.outline_px;
     f.shadows = ShadowPass::describe(scene, f) ? 1 : 0;
     return f;
+}
+
+// Passes whose pipelines are made for a number of views, when one is first drawn.
+template <class Pass>
+Result<Pass*> of_views(std::map<std::uint32_t, Pass>& passes, const PassMaker& maker, std::uint32_t views) {
+    if (const auto known = passes.find(views); known != passes.end()) return &known->second;
+    Result<Pass> made = Pass::create(maker, views);
+    if (!made) return fail(made.error());
+    return &passes.emplace(views, std::move(*made)).first->second;
 }
 
 }  // namespace
@@ -45,8 +57,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device, const Re
 
 Status Renderer::prepare() {
     if (Status s = take(cache_, gpu::PipelineCache::open(*device_, options_.pipeline_cache)); !s) return s;
-    for (const char* name : {"scene.vert", "surface.frag", "light.frag", "scene.frag", "sky.frag", "shadow.vert",
-                             "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag"}) {
+    for (const char* name :
+         {"scene.vert", "surface.frag", "light.frag", "scene.frag", "sky.frag", "mark.vert", "mark.frag",
+          "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag"}) {
         Result<gpu::Shader> shader = gpu::make_shader(name, scene_shaders(name));
         if (!shader) return fail(shader.error());
         shaders_.insert_or_assign(name, std::move(*shader));
@@ -63,16 +76,10 @@ Status Renderer::prepare() {
 Status Renderer::make_passes() {
     const PassMaker maker{*device_, cache_, shaders_};
     occlusion_.clear();
+    outline_.clear();
     if (Status s = take(shadow_, ShadowPass::create(maker, options_.shadow_size)); !s) return s;
     if (Status s = take(surfaces_, SurfacePass::create(maker)); !s) return s;
     return take(light_, LightPass::create(maker));
-}
-
-Result<OcclusionPass*> Renderer::occlusion(std::uint32_t views) {
-    if (const auto known = occlusion_.find(views); known != occlusion_.end()) return &known->second;
-    Result<OcclusionPass> made = OcclusionPass::create({*device_, cache_, shaders_}, views);
-    if (!made) return fail(made.error());
-    return &occlusion_.emplace(views, std::move(*made)).first->second;
 }
 
 bool Renderer::multiview() const {
@@ -109,6 +116,7 @@ Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const E
     const auto put_frame = [&] { return take(context.frame_block, put<shared::Frame>(frame, {&shared, 1})); };
     if (Status s = put_frame(); !s) return s;
 
+    const PassMaker maker{*device_, cache_, shaders_};
     const DrawList list =
         make_draw_list(scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F});
     if (Status s = take(context.instances, put<shared::Instance>(frame, list.instances)); !s) return s;
@@ -125,12 +133,17 @@ Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const E
         }
         if (Status s = surfaces_.draw(context, targets, list); !s) return s;
         if (scene.occlusion_radius > 0.0F) {
-            Result<OcclusionPass*> occluding = occlusion(views_a_pass_);
+            Result<OcclusionPass*> occluding = of_views(occlusion_, maker, views_a_pass_);
             if (!occluding) return fail(occluding.error());
             if (Status s = (*occluding)->draw(context, targets); !s) return s;
             inputs.occlusion = targets.occlusion.view();
         }
         if (Status s = light_.draw(context, targets, list, inputs); !s) return s;
+        if (!list.outlined.empty()) {
+            Result<OutlinePass*> outlining = of_views(outline_, maker, views_a_pass_);
+            if (!outlining) return fail(outlining.error());
+            if (Status s = (*outlining)->draw(context, targets, list); !s) return s;
+        }
         gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::Use::color_target,
                            gpu::Use::transfer_from);
     }

@@ -5,6 +5,7 @@
 //   occlusion  how much light neighbours keep away, at half the size, if the scene asks for it
 //   light      every surface lit and tone-mapped, once for all samples of a pixel that show it; then what
 //   blends
+//   outline    lines around what the scene marks
 //
 // Light comes after, and not while parts are drawn, because a part's triangles are often smaller than the
 // blocks that a rasteriser shades: on lavapipe the same picture of the reducer took three times as long.
@@ -17,6 +18,7 @@
 
 #include "engine/render/passes/light.hpp"
 #include "engine/render/passes/occlusion.hpp"
+#include "engine/render/passes/outline.hpp"
 #include "engine/render/passes/shadow.hpp"
 #include "engine/render/passes/surfaces.hpp"
 
@@ -65,7 +67,6 @@ class Renderer {
     Status make_passes();
     Status resize(gpu::Frame& frame, VkExtent2D extent, std::uint32_t views);
     [[nodiscard]] bool multiview() const;
-    Result<OcclusionPass*> occlusion(std::uint32_t views);
 
     gpu::Device* device_ = nullptr;
     RendererOptions options_;
@@ -73,6 +74,7 @@ class Renderer {
     Shaders shaders_;
     ShadowPass shadow_;
     std::map<std::uint32_t, OcclusionPass> occlusion_;  // by views
+    std::map<std::uint32_t, OutlinePass> outline_;      // by views
     SurfacePass surfaces_;
     LightPass light_;
     EnvironmentLight no_environment_;

@@ -12,10 +12,19 @@ struct Object {
     const GpuModel* model = nullptr;
     std::uint32_t mesh = 0;
     glm::mat4 world{1.0F};
-    glm::vec4 tint{0.0F};  // w: how much of the material's colour it replaces
-    float opacity = 1.0F;  // below 1: a ghost
-    bool flat = false;     // its own colour, without light
-    bool moves = false;    // drawn into the shadow map anew each frame
+    glm::vec4 tint{0.0F};     // w: how much of the material's colour it replaces
+    float opacity = 1.0F;     // below 1: a ghost, of which only what is nearest shows
+    bool flat = false;        // its own colour, without light
+    bool moves = false;       // drawn into the shadow map anew each frame
+    bool cut = false;         // fades where it hides what the scene's cut-away wants to be seen
+    glm::vec4 outline{0.0F};  // a line around it, through whatever hides it; w: its opacity
+};
+
+// What must be seen: between it and the eye, objects that allow it fade.
+struct CutAway {
+    glm::vec3 focus{0.0F};
+    float radius = 0.03F;   // m, kept free around it
+    float strength = 0.0F;  // 0: nothing fades … 1: what hides it goes
 };
 
 struct SceneLight {
@@ -32,6 +41,8 @@ struct Scene {
     float exposure = 1.0F;
     float occlusion_radius = 0.0F;  // m, how far parts keep light from each other; 0: not at all
     glm::vec4 background{0.0F};     // w: 1 shows it, 0 the environment
+    CutAway cut_away;
+    float outline_px = 3.0F;
 };
 
 // A point of view. Any projection with depth 1 near and 0 far.

@@ -46,6 +46,10 @@ Status add_wide_targets(gpu::Device& device, Targets& t) {
     return add(device, t, t.wide_roughs, wide_rough_format, drawn_and_read, samples);
 }
 
+Status add_mark_target(gpu::Device& device, Targets& t) {
+    return add(device, t, t.marks, mark_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
+}
+
 Status add_occlusion_targets(gpu::Device& device, Targets& t) {
     constexpr VkSampleCountFlagBits one = VK_SAMPLE_COUNT_1_BIT;
     if (Status s = add(device, t, t.small_depth, depth_format, depth_and_read, one, 2); !s) return s;

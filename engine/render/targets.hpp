@@ -8,10 +8,11 @@ namespace bolt::render {
 struct Targets {
     // Four samples a pixel. The wide ones are made when a scene asks for them.
     gpu::Image depth;
-    gpu::Image surfaces;                               // normal, material, grain (shaders/surface.glsl)
-    gpu::Image wide_colors, wide_roughs;               // base colour and metallic; roughness and occlusion
-    gpu::Image drawn;                                  // lit
-    gpu::Image picture;                                // one sample
+    gpu::Image surfaces;                  // normal, material, grain (shaders/surface.glsl)
+    gpu::Image wide_colors, wide_roughs;  // base colour and metallic; roughness and occlusion
+    gpu::Image drawn;                     // lit
+    gpu::Image picture;                   // one sample
+    gpu::Image marks;                     // of what has an outline; made when a scene asks for it
     gpu::Image small_depth, raw_occlusion, occlusion;  // half the size; made when a scene asks for them
     VkExtent2D extent{};
     std::uint32_t layers = 1;
@@ -19,6 +20,7 @@ struct Targets {
 
 Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers);
 Status add_wide_targets(gpu::Device& device, Targets& targets);
+Status add_mark_target(gpu::Device& device, Targets& targets);
 Status add_occlusion_targets(gpu::Device& device, Targets& targets);
 
 // Visits every image of them.
@@ -26,7 +28,7 @@ template <class Visit>
 void each_image(Targets& targets, const Visit& visit) {
     for (gpu::Image* image :
          {&targets.depth, &targets.surfaces, &targets.wide_colors, &targets.wide_roughs, &targets.drawn,
-          &targets.picture, &targets.small_depth, &targets.raw_occlusion, &targets.occlusion})
+          &targets.picture, &targets.marks, &targets.small_depth, &targets.raw_occlusion, &targets.occlusion})
         visit(*image);
 }
 

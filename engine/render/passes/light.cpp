@@ -95,6 +95,20 @@ Result<const gpu::Pipeline*> LightPass::forward_pipeline(gpu::Device& device, co
     return &forwards_.emplace(std::pair{kind, views}, std::move(*made)).first->second;
 }
 
+Result<const gpu::Pipeline*> LightPass::ghost_pipeline(gpu::Device& device, const Kind& kind,
+                                                       std::uint32_t views) {
+    Kind shape;
+    shape.double_sided = kind.double_sided;
+    const auto known = ghosts_.find({shape, views});
+    if (known != ghosts_.end()) return &known->second;
+    gpu::GraphicsInfo info = part_pipeline(*shaders_, shape, views);
+    info.colors = {color_format};
+    info.color_write = false;
+    Result<gpu::Pipeline> made = gpu::make_graphics_pipeline(device, *cache_, info);
+    if (!made) return fail(made.error());
+    return &ghosts_.emplace(std::pair{shape, views}, std::move(*made)).first->second;
+}
+
 void LightPass::bind_inputs(PassContext& context, gpu::SetWriter& writer, const LightInputs& inputs) {
     const VkSampler clamped = clamped_.get();
     writer.piece(0, context.frame_block)
@@ -150,6 +164,21 @@ Status LightPass::draw_sky(PassContext& context) {
 
 Status LightPass::draw_forward(PassContext& context, const DrawList& list, const LightInputs& inputs) {
     PartDrawing drawing;
+    drawing.frame_set = [&](const gpu::Pipeline& made) -> Result<VkDescriptorSet> {
+        Result<gpu::SetWriter> writer = gpu::SetWriter::create(context.device, context.frame, made, 0);
+        if (!writer) return fail(writer.error());
+        return writer->piece(0, context.frame_block).piece(1, context.instances).finish();
+    };
+    // Of a ghost only what is nearest shows: its depth comes first.
+    drawing.wanted = [](const Kind& kind) { return kind.ghost; };
+    drawing.pipeline = [&](const Kind& kind) { return ghost_pipeline(context.device, kind, context.views); };
+    if (Status s = draw_parts(context, list, drawing); !s) return s;
+    // What fades does so in the cone around what is to be seen; of the cone the eye sees no more than its
+    // end.
+    const CutAway& cut = context.scene.cut_away;
+    const Box around{cut.focus - cut.radius, cut.focus + cut.radius};
+    const VkRect2D all{{0, 0}, context.extent}, end = area_of(context, {&around, 1}, 1.0F);
+    drawing.area = [&](const Kind& kind) { return (kind.features & SCENE_CUT) != 0 ? end : all; };
     drawing.wanted = [](const Kind& kind) { return kind.forward; };
     drawing.pipeline = [&](const Kind& kind) {
         return forward_pipeline(context.device, kind, context.views);

@@ -26,6 +26,7 @@ class LightPass {
                                                 std::uint32_t views);
     Result<const gpu::Pipeline*> sky_pipeline(gpu::Device& device, std::uint32_t views);
     Result<const gpu::Pipeline*> forward_pipeline(gpu::Device& device, const Kind& kind, std::uint32_t views);
+    Result<const gpu::Pipeline*> ghost_pipeline(gpu::Device& device, const Kind& kind, std::uint32_t views);
     Result<VkDescriptorSet> light_set(PassContext& context, const Targets& targets,
                                       const gpu::Pipeline& pipeline, const LightInputs& inputs, bool wide);
     void bind_inputs(PassContext& context, gpu::SetWriter& writer, const LightInputs& inputs);
@@ -39,6 +40,7 @@ class LightPass {
     std::map<std::pair<std::uint32_t, std::uint32_t>, gpu::Pipeline> lights_;  // by features and views
     std::map<std::uint32_t, gpu::Pipeline> skies_;                             // by views
     std::map<std::pair<Kind, std::uint32_t>, gpu::Pipeline> forwards_;         // by kind and views
+    std::map<std::pair<Kind, std::uint32_t>, gpu::Pipeline> ghosts_;
     gpu::Image albedo_table_;
     gpu::Image nothing_;  // bound where there is no wide buffer
     gpu::Sampler clamped_, nearest_, comparing_;

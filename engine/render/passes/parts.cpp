@@ -47,21 +47,27 @@ Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing&
         Result<const gpu::Pipeline*> wanted = drawing.pipeline(d.kind);
         if (!wanted) return fail(wanted.error());
         if (std::exchange(pipeline, *wanted) != *wanted) {
+            if (drawing.area) {
+                const VkRect2D area = drawing.area(d.kind);
+                vkCmdSetScissor(commands, 0, 1, &area);
+            }
             Result<VkDescriptorSet> set = drawing.frame_set(**wanted);
             if (!set) return fail(set.error());
             bind(commands, **wanted, *set);
             maps = nullptr;
         }
         const MaterialMaps& needed = d.model->maps[d.model->parts[d.part].material];
-        if (maps == nullptr || model != d.model || maps->textures != needed.textures) {
+        const bool has_maps = pipeline->sets.size() > 1;
+        if (has_maps && (maps == nullptr || model != d.model || maps->textures != needed.textures)) {
             Result<VkDescriptorSet> set = maps_set(context, **wanted, *d.model, needed);
             if (!set) return fail(set.error());
             bind(commands, **wanted, *set, 1);
         }
         maps = &needed;
         if (std::exchange(model, d.model) != d.model) bind_geometry(commands, *d.model);
-        vkCmdPushConstants(commands, pipeline->layout.get(), pipeline->push_stages, 0, sizeof d.material,
-                           &d.material);
+        if (pipeline->push_size > 0)
+            vkCmdPushConstants(commands, pipeline->layout.get(), pipeline->push_stages, 0, sizeof d.material,
+                               &d.material);
         draw(commands, d);
     }
     return {};

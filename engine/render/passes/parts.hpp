@@ -15,6 +15,8 @@ struct PartDrawing {
     std::function<bool(const Kind&)> wanted;
     std::function<Result<const gpu::Pipeline*>(const Kind&)> pipeline;
     std::function<Result<VkDescriptorSet>(const gpu::Pipeline&)> frame_set;
+    std::function<VkRect2D(const Kind&)>
+        area;  // of the picture, outside of which nothing is drawn; none: all
 };
 
 // Records them in the list's order. Set 1: a material's maps; push constant: its index.

@@ -1,5 +1,7 @@
 #include "engine/render/passes/pass.hpp"
 
+#include <glm/common.hpp>
+
 namespace bolt::render {
 
 std::uint32_t view_mask(std::uint32_t views) { return views > 1 ? (1U << views) - 1U : 0U; }
@@ -40,6 +42,27 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkA
     info.loadOp = load;
     info.storeOp = store;
     return info;
+}
+
+VkRect2D area_of(const PassContext& context, std::span<const Box> boxes, float margin_px) {
+    const glm::vec2 size(static_cast<float>(context.extent.width), static_cast<float>(context.extent.height));
+    glm::vec2 low(1e30F), high(-1e30F);
+    for (const Box& box : boxes)
+        for (std::uint32_t view = 0; view < context.views; ++view)
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::vec4 c = context.shared.views[view].clip_from_world *
+                                    glm::vec4((corner & 1) != 0 ? box.high.x : box.low.x,
+                                              (corner & 2) != 0 ? box.high.y : box.low.y,
+                                              (corner & 4) != 0 ? box.high.z : box.low.z, 1.0F);
+                if (c.w <= 0.0F) return {{0, 0}, context.extent};  // reaches behind the eye
+                const glm::vec2 pixel = (glm::vec2(c) / c.w * 0.5F + 0.5F) * size;
+                low = glm::min(low, pixel);
+                high = glm::max(high, pixel);
+            }
+    low = glm::clamp(glm::floor(low - margin_px), glm::vec2(0.0F), size);
+    high = glm::clamp(glm::ceil(high + margin_px), low, size);
+    return {{static_cast<std::int32_t>(low.x), static_cast<std::int32_t>(low.y)},
+            {static_cast<std::uint32_t>(high.x - low.x), static_cast<std::uint32_t>(high.y - low.y)}};
 }
 
 VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,

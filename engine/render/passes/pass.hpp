@@ -16,6 +16,7 @@ inline constexpr VkFormat surface_format = VK_FORMAT_R16G16B16A16_UNORM;
 inline constexpr VkFormat wide_color_format = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat wide_rough_format = VK_FORMAT_R8G8_UNORM;
 inline constexpr VkFormat occlusion_format = VK_FORMAT_R8_UNORM;
+inline constexpr VkFormat mark_format = VK_FORMAT_R8G8B8A8_UNORM;
 // light.frag counts on it.
 inline constexpr VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
 inline constexpr gpu::ImageRange depth_range{VK_IMAGE_ASPECT_DEPTH_BIT};
@@ -84,6 +85,9 @@ void draw_all(VkCommandBuffer commands, const DrawList& list, const Wanted& want
 
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load,
                                      VkAttachmentStoreOp store);
+
+// The pixels that boxes may cover in any of the context's views, widened by a margin; at most the picture.
+VkRect2D area_of(const PassContext& context, std::span<const Box> boxes, float margin_px);
 
 // The whole of an attached image or images.
 VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
