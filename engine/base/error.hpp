@@ -21,6 +21,7 @@ struct Error {
     int line = 0;          // 1-based; 0 when unknown
     int column = 0;        // 1-based, in characters (Unicode code points); 0 when unknown
     std::string pointer;   // JSON pointer (RFC 6901) of the value, may be empty
+    bool lost = false;     // a device was there and is gone: opening it anew may help
 
     // "file:line:column: what is wrong; what was expected", leaving out what is not known.
     [[nodiscard]] std::string message() const;

@@ -8,7 +8,7 @@ namespace bolt::gpu {
 
 enum class Use : std::uint8_t {
     undefined,      // new: nobody has used it
-    acquired,       // from the swapchain, contents unknown; the semaphore waits before colour output
+    acquired,       // from the swapchain, contents unknown; the semaphore waits before copies
     color_target,   // drawn into, resolved into
     depth_target,   // tested and written
     depth_read,     // tested, and sampled at the same time

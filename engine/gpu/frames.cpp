@@ -190,7 +190,7 @@ Status Frames::submit(Frame& frame, const Signals& signals) {
     commands.commandBuffer = frame.commands_;
     VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
     wait.semaphore = signals.wait;
-    wait.stageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    wait.stageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;  // pictures are copied into the swapchain
     VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
     signal.semaphore = signals.signal;
     signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;

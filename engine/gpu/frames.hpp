@@ -73,7 +73,7 @@ class Frames {
 
     // Ends recording and hands the frame to the GPU.
     struct Signals {
-        VkSemaphore wait = VK_NULL_HANDLE;    // before colour output
+        VkSemaphore wait = VK_NULL_HANDLE;    // before anything is copied
         VkSemaphore signal = VK_NULL_HANDLE;  // when all is done
     };
     Status submit(Frame& frame, const Signals& signals);

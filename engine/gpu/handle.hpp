@@ -46,6 +46,6 @@ using DescriptorPool = Handle<VkDescriptorPool, &vkDestroyDescriptorPool>;
 using PipelineLayout = Handle<VkPipelineLayout, &vkDestroyPipelineLayout>;
 using PipelineHandle = Handle<VkPipeline, &vkDestroyPipeline>;
 using PipelineCacheHandle = Handle<VkPipelineCache, &vkDestroyPipelineCache>;
-using Swapchain = Handle<VkSwapchainKHR, &vkDestroySwapchainKHR>;
+using SwapchainHandle = Handle<VkSwapchainKHR, &vkDestroySwapchainKHR>;
 
 }  // namespace bolt::gpu

@@ -12,7 +12,7 @@ namespace bolt::gpu {
 class Retired {
   public:
     using Thing = std::variant<Buffer, Image, ImageView, Sampler, PipelineHandle, PipelineLayout,
-                               DescriptorPool, Swapchain, Semaphore>;
+                               DescriptorPool, SwapchainHandle, Semaphore>;
 
     void add(Thing thing) { things_.push_back(std::move(thing)); }
     void destroy() { things_.clear(); }

@@ -42,7 +42,11 @@ Status check(VkResult result, std::string_view what) {
     if (result >= 0) return {};
     const bool gone = result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_INITIALIZATION_FAILED ||
                       result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_SURFACE_LOST_KHR;
-    return fail(gone ? ErrorCode::no_device : ErrorCode::failed, fmt::format("{}: {}", what, name(result)));
+    Error error;
+    error.code = gone ? ErrorCode::no_device : ErrorCode::failed;
+    error.what = fmt::format("{}: {}", what, name(result));
+    error.lost = result == VK_ERROR_DEVICE_LOST;
+    return fail(std::move(error));
 }
 
 }  // namespace bolt::gpu

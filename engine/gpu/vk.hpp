@@ -14,7 +14,8 @@ namespace bolt::gpu {
 // The specification's name of a result, "VK_ERROR_DEVICE_LOST".
 std::string_view name(VkResult result);
 
-// An Error for every result that is not a success. Lost devices and missing ones are ErrorCode::no_device.
+// An Error for every result that is not a success. Lost devices and missing ones are ErrorCode::no_device; of
+// a lost device (not a lost surface, which Swapchain replaces itself) the error says so in `lost`.
 Status check(VkResult result, std::string_view what);
 
 }  // namespace bolt::gpu

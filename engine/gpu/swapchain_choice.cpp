@@ -1,0 +1,112 @@
+#include "engine/gpu/swapchain_choice.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace bolt::gpu {
+
+namespace {
+
+constexpr std::uint32_t chosen_by_us = 0xFFFFFFFF;  // as VkSurfaceCapabilitiesKHR writes it
+
+const char* name(VkPresentModeKHR mode) {
+    switch (mode) {
+        case VK_PRESENT_MODE_IMMEDIATE_KHR:
+            return "immediate";
+        case VK_PRESENT_MODE_MAILBOX_KHR:
+            return "mailbox";
+        case VK_PRESENT_MODE_FIFO_KHR:
+            return "fifo";
+        case VK_PRESENT_MODE_FIFO_RELAXED_KHR:
+            return "relaxed fifo";
+        default:
+            return "another mode";
+    }
+}
+
+// Pictures are sRGB of 8 bits; the first of these takes them as they are, the other in another order.
+struct Known {
+    VkFormat format;
+    const char* text;
+};
+constexpr Known known[] = {
+    {VK_FORMAT_R8G8B8A8_SRGB, "RGBA sRGB: as pictures are"},
+    {VK_FORMAT_B8G8R8A8_SRGB, "BGRA sRGB: pictures are converted as they are copied"},
+};
+
+Status choose_format(const SurfaceOffer& offer, SwapchainPlan& plan) {
+    for (const Known& wanted : known)
+        for (const VkSurfaceFormatKHR& format : offer.formats)
+            if (format.format == wanted.format && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
+                plan.format = format;
+                plan.reasons.push_back(fmt::format("format {}", wanted.text));
+                return {};
+            }
+    std::vector<int> offered;
+    for (const VkSurfaceFormatKHR& format : offer.formats) offered.push_back(static_cast<int>(format.format));
+    return fail(
+        ErrorCode::no_device,
+        fmt::format("the window takes no sRGB pictures of 8 bits (VkFormat: {})", fmt::join(offered, ", ")),
+        "VK_FORMAT_B8G8R8A8_SRGB or VK_FORMAT_R8G8B8A8_SRGB");
+}
+
+void choose_mode(const SurfaceOffer& offer, const SwapchainWish& wish, SwapchainPlan& plan) {
+    const auto offers = [&](VkPresentModeKHR mode) {
+        return std::find(offer.modes.begin(), offer.modes.end(), mode) != offer.modes.end();
+    };
+    const auto take = [&](VkPresentModeKHR mode, const char* why) {
+        plan.mode = mode;
+        plan.reasons.push_back(fmt::format("{}: {}", name(mode), why));
+    };
+    if (wish.may_tear && offers(VK_PRESENT_MODE_IMMEDIATE_KHR))
+        return take(VK_PRESENT_MODE_IMMEDIATE_KHR, "tearing is allowed");
+    if (offers(VK_PRESENT_MODE_MAILBOX_KHR))
+        return take(VK_PRESENT_MODE_MAILBOX_KHR, "the newest picture, whole, and never a wait in a queue");
+    take(VK_PRESENT_MODE_FIFO_KHR, "there is no mailbox, and every system has this");
+}
+
+void choose_extent(const VkSurfaceCapabilitiesKHR& can, const SwapchainWish& wish, SwapchainPlan& plan) {
+    plan.extent = can.currentExtent;
+    if (can.currentExtent.width == chosen_by_us) {
+        plan.extent = wish.window;
+        if (plan.extent.width == 0 || plan.extent.height == 0) return;
+        plan.extent = {std::clamp(wish.window.width, can.minImageExtent.width, can.maxImageExtent.width),
+                       std::clamp(wish.window.height, can.minImageExtent.height, can.maxImageExtent.height)};
+    }
+}
+
+}  // namespace
+
+Result<SwapchainPlan> plan_swapchain(const SurfaceOffer& offer, const SwapchainWish& wish) {
+    SwapchainPlan plan;
+    const VkSurfaceCapabilitiesKHR& can = offer.capabilities;
+    if ((can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0)
+        return fail(ErrorCode::no_device, "nothing can be copied to the window's images");
+    if (Status chosen = choose_format(offer, plan); !chosen) return fail(chosen.error());
+    choose_mode(offer, wish, plan);
+    choose_extent(can, wish, plan);
+
+    // One is on the screen; with a mailbox another waits there.
+    const std::uint32_t shown = plan.mode == VK_PRESENT_MODE_MAILBOX_KHR ? 2 : 1;
+    plan.images = std::max(can.minImageCount, wish.in_flight + shown - 1);
+    if (plan.mode == VK_PRESENT_MODE_MAILBOX_KHR) plan.images = std::max(plan.images, can.minImageCount + 1);
+    if (can.maxImageCount != 0) plan.images = std::min(plan.images, can.maxImageCount);
+    plan.reasons.push_back(fmt::format("{} images, of at least {}", plan.images, can.minImageCount));
+
+    plan.transform = can.currentTransform;
+    if ((can.supportedTransforms & VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR) != 0)
+        plan.transform = VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR;
+    // Windows are opaque; where that cannot be said, alpha is one anyway.
+    for (const VkCompositeAlphaFlagBitsKHR alpha :
+         {VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR, VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR,
+          VK_COMPOSITE_ALPHA_PRE_MULTIPLIED_BIT_KHR, VK_COMPOSITE_ALPHA_POST_MULTIPLIED_BIT_KHR})
+        if ((can.supportedCompositeAlpha & static_cast<VkFlags>(alpha)) != 0) {
+            plan.alpha = alpha;
+            break;
+        }
+    return plan;
+}
+
+}  // namespace bolt::gpu

@@ -1,0 +1,98 @@
+#include "engine/gpu/swapchain_choice.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace bolt;
+using namespace bolt::gpu;
+
+namespace {
+
+// A desktop as many drivers describe it.
+SurfaceOffer desktop() {
+    SurfaceOffer offer;
+    VkSurfaceCapabilitiesKHR& can = offer.capabilities;
+    can.minImageCount = 2;
+    can.currentExtent = {640, 480};
+    can.minImageExtent = {1, 1};
+    can.maxImageExtent = {4096, 4096};
+    can.supportedTransforms = can.currentTransform = VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR;
+    can.supportedCompositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR | VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    can.supportedUsageFlags = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    offer.formats = {{VK_FORMAT_B8G8R8A8_UNORM, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR},
+                     {VK_FORMAT_B8G8R8A8_SRGB, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR}};
+    offer.modes = {VK_PRESENT_MODE_FIFO_KHR, VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR};
+    return offer;
+}
+
+SwapchainPlan plan(const SurfaceOffer& offer, const SwapchainWish& wish = {}) {
+    Result<SwapchainPlan> made = plan_swapchain(offer, wish);
+    if (!made) FAIL(made.error().message());
+    return *made;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "formats: sRGB of 8 bits, in the order of pictures if that is offered, or an error that says what is") {
+    SurfaceOffer offer = desktop();
+    CHECK(plan(offer).format.format == VK_FORMAT_B8G8R8A8_SRGB);
+    offer.formats.push_back({VK_FORMAT_R8G8B8A8_SRGB, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR});
+    CHECK(plan(offer).format.format == VK_FORMAT_R8G8B8A8_SRGB);
+    CHECK(plan(offer).reasons.front() == "format RGBA sRGB: as pictures are");
+    // The right bits in another colour space are the wrong colours.
+    offer.formats = {{VK_FORMAT_R8G8B8A8_SRGB, VK_COLOR_SPACE_DISPLAY_P3_NONLINEAR_EXT},
+                     {VK_FORMAT_B8G8R8A8_UNORM, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR}};
+    const auto refused = plan_swapchain(offer, {});
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == ErrorCode::no_device);
+    CHECK(refused.error().what.find("VkFormat: 43, 44") != std::string::npos);
+    offer = desktop();
+    offer.capabilities.supportedUsageFlags = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    CHECK_FALSE(plan_swapchain(offer, {}).has_value());
+}
+
+TEST_CASE("present modes: mailbox, else fifo; immediate only for those who ask to tear") {
+    SurfaceOffer offer = desktop();
+    CHECK(plan(offer).mode == VK_PRESENT_MODE_MAILBOX_KHR);
+    CHECK(plan(offer, {{}, true, 2}).mode == VK_PRESENT_MODE_IMMEDIATE_KHR);
+    offer.modes = {VK_PRESENT_MODE_FIFO_RELAXED_KHR, VK_PRESENT_MODE_FIFO_KHR};
+    CHECK(plan(offer).mode == VK_PRESENT_MODE_FIFO_KHR);
+    CHECK(plan(offer, {{}, true, 2}).mode == VK_PRESENT_MODE_FIFO_KHR);
+    CHECK(plan(offer).reasons[1].starts_with("fifo: there is no mailbox"));
+}
+
+TEST_CASE("images: enough for what is shown, waits and is drawn, within what the surface allows") {
+    SurfaceOffer offer = desktop();
+    CHECK(plan(offer).images == 3);
+    offer.capabilities.minImageCount = 4;
+    CHECK(plan(offer).images == 5);  // a mailbox needs one more than the least, or it waits
+    offer.capabilities.maxImageCount = 4;
+    CHECK(plan(offer).images == 4);
+    offer = desktop();
+    offer.modes = {VK_PRESENT_MODE_FIFO_KHR};
+    CHECK(plan(offer).images == 2);
+}
+
+TEST_CASE("sizes: the surface's, else the window's within the limits, and nothing while it is minimised") {
+    SurfaceOffer offer = desktop();
+    const VkExtent2D window{800, 600};
+    CHECK(plan(offer, {window, false, 2}).extent.width == 640);
+    offer.capabilities.currentExtent = {0xFFFFFFFF, 0xFFFFFFFF};
+    CHECK(plan(offer, {window, false, 2}).extent.width == 800);
+    CHECK(plan(offer, {window, false, 2}).extent.height == 600);
+    CHECK(plan(offer, {{9000, 600}, false, 2}).extent.width == 4096);
+    CHECK(plan(offer, {{0, 600}, false, 2}).extent.width == 0);
+    offer.capabilities.currentExtent = {0, 0};
+    CHECK(plan(offer, {window, false, 2}).extent.height == 0);
+}
+
+TEST_CASE("transform and alpha: upright and opaque where that can be said") {
+    SurfaceOffer offer = desktop();
+    CHECK(plan(offer).alpha == VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR);
+    offer.capabilities.supportedCompositeAlpha = VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    CHECK(plan(offer).alpha == VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR);
+    offer.capabilities.currentTransform = VK_SURFACE_TRANSFORM_ROTATE_90_BIT_KHR;
+    CHECK(plan(offer).transform == VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR);
+    offer.capabilities.supportedTransforms = VK_SURFACE_TRANSFORM_ROTATE_90_BIT_KHR;
+    CHECK(plan(offer).transform == VK_SURFACE_TRANSFORM_ROTATE_90_BIT_KHR);
+}
