@@ -21,6 +21,8 @@ endif()
 find_package(doctest QUIET)
 find_package(benchmark QUIET)
 
+find_package(glfw3 REQUIRED)
+
 # The engine. volk loads Vulkan at run time; its header comes with Debian's libvulkan-volk-dev.
 find_program(GLSLANG glslangValidator REQUIRED)
 foreach(part core util glsl hlsl msl cpp reflect c)

@@ -1,0 +1,52 @@
+#include "engine/platform/file_watch.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+
+namespace bolt::platform {
+
+FileStamp stamp(const std::filesystem::path& file) {
+    // std::filesystem does not tell the inode, which alone shows that a file of the same size was renamed
+    // over.
+    struct stat about {};
+    if (::stat(file.c_str(), &about) != 0) return {};
+    return {std::int64_t{about.st_mtim.tv_sec} * 1'000'000'000 + about.st_mtim.tv_nsec,
+            static_cast<std::uint64_t>(about.st_size), about.st_ino, true};
+}
+
+void FileWatch::watch(std::vector<std::filesystem::path> files) {
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    std::vector<Watched> watched;
+    for (const std::filesystem::path& file : files) {
+        const auto known = std::find_if(files_.begin(), files_.end(),
+                                        [&](const Watched& entry) { return entry.file == file; });
+        if (known != files_.end()) {
+            watched.push_back(std::move(*known));
+        } else {
+            const FileStamp now = stamp(file);
+            watched.push_back({file, now, now, {}});
+        }
+    }
+    files_ = std::move(watched);
+}
+
+std::vector<std::filesystem::path> FileWatch::changed(double now) {
+    std::vector<std::filesystem::path> files;
+    for (Watched& entry : files_) {
+        const FileStamp stamped = stamp(entry.file);
+        if (!entry.since || stamped != entry.seen) entry.since = now;
+        entry.seen = stamped;
+        if (stamped == entry.told) {
+            entry.since.reset();
+        } else if (now - *entry.since >= quiet_) {
+            entry.told = stamped;
+            entry.since.reset();
+            files.push_back(entry.file);
+        }
+    }
+    return files;
+}
+
+}  // namespace bolt::platform

@@ -1,0 +1,63 @@
+// What people do to a window, as plain values in the order in which it happened.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace bolt::platform {
+
+// Letters are those that the keyboard's layout prints on the key; all others are named by their place, so
+// that digits are digits on keyboards that print them with shift only.
+enum class Key : std::uint8_t {
+    // clang-format off
+    unknown,
+    a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
+    digit_0, digit_1, digit_2, digit_3, digit_4, digit_5, digit_6, digit_7, digit_8, digit_9,
+    f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12,
+    escape, enter, tab, backspace, space, insert, del, home, end, page_up, page_down, left, right, up, down,
+    plus, minus, shift, control, alt, super,
+    // clang-format on
+};
+
+// "F11", "Escape", "R": for messages and help.
+std::string_view name(Key key);
+
+struct Modifiers {
+    bool shift = false, control = false, alt = false, super = false;
+};
+
+enum class Button : std::uint8_t { left, middle, right, other };
+
+struct KeyEvent {
+    Key key = Key::unknown;
+    bool down = false, repeated = false;
+    Modifiers modifiers;
+};
+struct ButtonEvent {
+    Button button = Button::other;
+    bool down = false;
+    glm::dvec2 at{0.0};  // pixels from the upper left
+};
+struct CursorEvent {
+    glm::dvec2 at{0.0};
+};
+struct WheelEvent {
+    glm::dvec2 by{0.0};  // notches; y: away from the hand
+    glm::dvec2 at{0.0};
+};
+struct ResizeEvent {
+    std::uint32_t width = 0, height = 0;  // pixels
+};
+struct FocusEvent {
+    bool here = false;
+};
+struct RefreshEvent {};  // the system has lost what was shown
+struct CloseEvent {};    // somebody wants the window closed
+
+using Event = std::variant<KeyEvent, ButtonEvent, CursorEvent, WheelEvent, ResizeEvent, FocusEvent,
+                           RefreshEvent, CloseEvent>;
+
+}  // namespace bolt::platform

@@ -1,0 +1,236 @@
+#include "engine/platform/window.hpp"
+
+#include <fmt/format.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+
+#include "engine/platform/keys.hpp"
+
+namespace bolt::platform {
+
+namespace {
+
+tl::unexpected<Error> desktop_error(const char* what, const char* expected) {
+    const char* why = nullptr;
+    glfwGetError(&why);
+    return fail(ErrorCode::no_device, why != nullptr ? fmt::format("{}: {}", what, why) : std::string(what),
+                expected);
+}
+
+Button button_of(int glfw_button) {
+    switch (glfw_button) {
+        case GLFW_MOUSE_BUTTON_LEFT:
+            return Button::left;
+        case GLFW_MOUSE_BUTTON_MIDDLE:
+            return Button::middle;
+        case GLFW_MOUSE_BUTTON_RIGHT:
+            return Button::right;
+        default:
+            return Button::other;
+    }
+}
+
+struct Rect {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+Rect area(GLFWwindow* window) {
+    Rect r;
+    glfwGetWindowPos(window, &r.x, &r.y);
+    glfwGetWindowSize(window, &r.width, &r.height);
+    return r;
+}
+
+// The display that shows most of the window.
+GLFWmonitor* monitor_of(GLFWwindow* window) {
+    if (GLFWmonitor* whole = glfwGetWindowMonitor(window)) return whole;
+    const Rect w = area(window);
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    GLFWmonitor* best = glfwGetPrimaryMonitor();
+    int most = 0;
+    for (int i = 0; i < count; ++i) {
+        int x = 0, y = 0;
+        glfwGetMonitorPos(monitors[i], &x, &y);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        if (mode == nullptr) continue;
+        const int across = std::min(w.x + w.width, x + mode->width) - std::max(w.x, x);
+        const int down = std::min(w.y + w.height, y + mode->height) - std::max(w.y, y);
+        const int shared = std::max(across, 0) * std::max(down, 0);
+        if (shared > most) {
+            most = shared;
+            best = monitors[i];
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+struct Window::State {
+    GLFWwindow* window = nullptr;
+    std::vector<Event> events;
+    Rect before_full_screen;
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        if (window != nullptr) glfwDestroyWindow(window);
+    }
+
+    void listen();
+    // GLFW counts in the desktop's units, which are several pixels on some displays.
+    [[nodiscard]] glm::dvec2 pixel(double x, double y) const {
+        int width = 0, height = 0, across = 0, down = 0;
+        glfwGetWindowSize(window, &width, &height);
+        glfwGetFramebufferSize(window, &across, &down);
+        return {width > 0 ? x * across / width : x, height > 0 ? y * down / height : y};
+    }
+    [[nodiscard]] glm::dvec2 cursor() const {
+        double x = 0.0, y = 0.0;
+        glfwGetCursorPos(window, &x, &y);
+        return pixel(x, y);
+    }
+};
+
+namespace {
+
+Modifiers modifiers_of(int mods) {
+    return {(mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_ALT) != 0,
+            (mods & GLFW_MOD_SUPER) != 0};
+}
+
+}  // namespace
+
+void Window::State::listen() {
+    // Plain functions for GLFW: what they close over is the window's user pointer.
+    static constexpr auto of = [](GLFWwindow* w) -> State& {
+        return *static_cast<State*>(glfwGetWindowUserPointer(w));
+    };
+    glfwSetWindowUserPointer(window, this);
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+        of(w).events.emplace_back(KeyEvent{key_of(key, glfwGetKeyName(key, scancode)), action != GLFW_RELEASE,
+                                           action == GLFW_REPEAT, modifiers_of(mods)});
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+        of(w).events.emplace_back(ButtonEvent{button_of(button), action == GLFW_PRESS, of(w).cursor()});
+    });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        of(w).events.emplace_back(CursorEvent{of(w).pixel(x, y)});
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+        of(w).events.emplace_back(WheelEvent{{x, y}, of(w).cursor()});
+    });
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int width, int height) {
+        of(w).events.emplace_back(
+            ResizeEvent{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)});
+    });
+    glfwSetWindowFocusCallback(
+        window, [](GLFWwindow* w, int focused) { of(w).events.emplace_back(FocusEvent{focused != 0}); });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).events.emplace_back(RefreshEvent{}); });
+    glfwSetWindowCloseCallback(window, [](GLFWwindow* w) {
+        glfwSetWindowShouldClose(w, GLFW_FALSE);  // whoever reads the events decides
+        of(w).events.emplace_back(CloseEvent{});
+    });
+}
+
+Result<Desktop> Desktop::open() {
+    if (glfwInit() != GLFW_TRUE)
+        return desktop_error("there is no desktop to open a window on",
+                             "a display: DISPLAY names one, xvfb-run makes one that nobody sees");
+    return Desktop(true);
+}
+
+Desktop::~Desktop() {
+    if (open_) glfwTerminate();
+}
+
+Result<std::vector<const char*>> Desktop::vulkan_extensions() const {
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    if (names == nullptr)
+        return desktop_error("Vulkan cannot show anything on this desktop",
+                             "a Vulkan loader and driver (mesa-vulkan-drivers renders without a GPU)");
+    return std::vector<const char*>(names, names + count);
+}
+
+Window::Window(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Window::Window(Window&&) noexcept = default;
+Window& Window::operator=(Window&&) noexcept = default;
+Window::~Window() = default;
+
+Result<Window> Window::open(const Desktop&, const WindowOptions& options) {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    auto state = std::make_unique<State>();
+    state->window = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height),
+                                     options.title.c_str(), nullptr, nullptr);
+    if (state->window == nullptr) return desktop_error("no window could be opened", "");
+    state->listen();
+    Window window(std::move(state));
+    if (options.full_screen) window.set_full_screen(true);
+    return window;
+}
+
+Result<gpu::Surface> Window::make_surface(const gpu::Instance& instance) const {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    const VkResult made = glfwCreateWindowSurface(instance.get(), state_->window, nullptr, &surface);
+    if (Status ok = gpu::check(made, "preparing the window for Vulkan"); !ok) return fail(ok.error());
+    return gpu::Surface(instance.get(), surface);
+}
+
+std::vector<Event> Window::events() {
+    glfwPollEvents();
+    return std::exchange(state_->events, {});
+}
+
+std::vector<Event> Window::wait_for_events(double seconds) {
+    glfwWaitEventsTimeout(std::max(seconds, 1e-4));
+    return std::exchange(state_->events, {});
+}
+
+Size Window::pixels() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(state_->window, &width, &height);
+    return {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))};
+}
+
+float Window::content_scale() const {
+    float x = 1.0F, y = 1.0F;
+    glfwGetWindowContentScale(state_->window, &x, &y);
+    return std::max(x, y);
+}
+
+double Window::refresh() const {
+    GLFWmonitor* monitor = monitor_of(state_->window);
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    return mode != nullptr ? mode->refreshRate : 0.0;
+}
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
+
+void Window::resize(Size size) {
+    glfwSetWindowSize(state_->window, static_cast<int>(size.width), static_cast<int>(size.height));
+}
+
+void Window::set_full_screen(bool on) {
+    if (on == full_screen()) return;
+    if (!on) {
+        const Rect& r = state_->before_full_screen;
+        glfwSetWindowMonitor(state_->window, nullptr, r.x, r.y, r.width, r.height, GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* monitor = monitor_of(state_->window);
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) return;
+    state_->before_full_screen = area(state_->window);
+    glfwSetWindowMonitor(state_->window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+bool Window::full_screen() const { return glfwGetWindowMonitor(state_->window) != nullptr; }
+
+}  // namespace bolt::platform

@@ -1,0 +1,92 @@
+#include "engine/platform/file_watch.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/base/file.hpp"
+
+using namespace bolt;
+using namespace bolt::platform;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder of its own, gone afterwards.
+struct Folder {
+    fs::path path = fs::temp_directory_path() / "boltwright_file_watch_test";
+    Folder() {
+        fs::remove_all(path);
+        fs::create_directories(path);
+    }
+    ~Folder() { fs::remove_all(path); }
+};
+
+void write(const fs::path& file, std::string_view text) { REQUIRE(write_file(file, text).has_value()); }
+
+}  // namespace
+
+TEST_CASE("a change is told once, when the file has been left alone for a while") {
+    const Folder folder;
+    const fs::path a = folder.path / "a.json", b = folder.path / "b.glb";
+    write(a, "one");
+    write(b, "one");
+    FileWatch watch(0.2);
+    watch.watch({b, a, b});
+    CHECK(watch.changed(0.0).empty());
+    write(a, "three");
+    CHECK(watch.changed(1.0).empty());  // seen now
+    CHECK(watch.changed(1.1).empty());  // too soon
+    CHECK(watch.changed(1.25) == std::vector{a});
+    CHECK(watch.changed(1.3).empty());
+    // Somebody writes on and on.
+    for (int i = 0; i < 10; ++i) {
+        write(a, std::string(static_cast<std::size_t>(10 + i), 'x'));
+        CHECK(watch.changed(2.0 + 0.1 * i).empty());
+    }
+    CHECK(watch.changed(3.1) == std::vector{a});
+    write(a, "1");
+    write(b, "2");
+    (void)watch.changed(4.0);
+    CHECK(watch.changed(5.0) == std::vector{a, b});
+}
+
+TEST_CASE("a file that is renamed over, goes and comes is a change, even with the same size") {
+    const Folder folder;
+    const fs::path a = folder.path / "a.json", late = folder.path / "late.json";
+    write(a, "same");
+    FileWatch watch(0.0);
+    watch.watch({a, late});
+    CHECK(watch.changed(0.0).empty());
+    const auto old = fs::last_write_time(a);
+    write(folder.path / "new", "SAME");
+    fs::rename(folder.path / "new", a);
+    fs::last_write_time(a, old);  // as some tools keep it
+    CHECK(watch.changed(1.0) == std::vector{a});
+    fs::remove(a);
+    CHECK(watch.changed(2.0) == std::vector{a});
+    CHECK(watch.changed(3.0).empty());
+    write(a, "same");
+    write(late, "first");
+    CHECK(watch.changed(4.0) == std::vector{a, late});
+    // Back to what was told before it was quiet: nothing has changed.
+    FileWatch slow(1.0);
+    slow.watch({a});
+    fs::rename(a, folder.path / "aside");
+    CHECK(slow.changed(5.0).empty());
+    fs::rename(folder.path / "aside", a);
+    CHECK(slow.changed(7.0).empty());
+}
+
+TEST_CASE("another list keeps what is known of files that stay in it") {
+    const Folder folder;
+    const fs::path a = folder.path / "a", b = folder.path / "b";
+    write(a, "1");
+    FileWatch watch(0.0);
+    watch.watch({a});
+    write(a, "22");
+    write(b, "1");
+    watch.watch({a, b});
+    CHECK(watch.changed(0.0) == std::vector{a});
+    watch.watch({b});
+    write(a, "333");
+    CHECK(watch.changed(1.0).empty());
+}

@@ -1,0 +1,132 @@
+#include "tests/platform/screen.hpp"
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+// Xlib's macros are words of ours.
+#undef None
+#undef Status
+#undef Success
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace bolt::test {
+
+ScreenPicture look_at_screen() {
+    const char* file = std::getenv("BOLT_SCREEN");
+    REQUIRE_MESSAGE(file != nullptr, "these tests run under tests/with_screen.sh");
+    std::ifstream stream(file, std::ios::binary);
+    const std::string xwd((std::istreambuf_iterator<char>(stream)), {});
+    // X11/XWDFile.h: numbers of 32 bits, highest byte first; then a table of colours, then the rows.
+    const auto number = [&](std::size_t index) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value = value << 8 | static_cast<unsigned char>(xwd[4 * index + i]);
+        return std::size_t{value};
+    };
+    REQUIRE(xwd.size() > 100);
+    REQUIRE(number(11) == 32);  // bits a pixel
+    REQUIRE(number(7) == 0);    // lowest byte first
+    ScreenPicture picture{static_cast<std::uint32_t>(number(4)), static_cast<std::uint32_t>(number(5)), {}};
+    const std::size_t first = number(0) + 12 * number(19), row = number(12);
+    for (std::size_t y = 0; y < picture.height; ++y)
+        for (std::size_t x = 0; x < picture.width; ++x) {
+            const char* p = xwd.data() + first + y * row + 4 * x;
+            for (const int channel : {2, 1, 0}) picture.rgba.push_back(static_cast<std::uint8_t>(p[channel]));
+            picture.rgba.push_back(255);
+        }
+    return picture;
+}
+
+struct Hand::X {
+    Display* display = XOpenDisplay(nullptr);
+    Window window = 0;
+    Time time = 1000;
+
+    X() = default;
+    X(const X&) = delete;
+    X& operator=(const X&) = delete;
+    ~X() {
+        if (display != nullptr) XCloseDisplay(display);
+    }
+    void send(XEvent& event, long mask) {
+        event.xany.display = display;
+        event.xany.window = window;
+        XSendEvent(display, window, False, mask, &event);
+        XSync(display, False);
+    }
+    void button(int type, int x, int y, unsigned which) {
+        XEvent event{};
+        event.xbutton.type = type;
+        event.xbutton.button = which;
+        event.xbutton.x = x;
+        event.xbutton.y = y;
+        event.xbutton.time = time += 10;
+        event.xbutton.same_screen = True;
+        send(event, type == ButtonPress ? ButtonPressMask : ButtonReleaseMask);
+    }
+};
+
+Hand::Hand(const std::string& title) : x_(std::make_unique<X>()) {
+    REQUIRE(x_->display != nullptr);
+    Window root = 0, parent = 0, *children = nullptr;
+    unsigned count = 0;
+    XQueryTree(x_->display, DefaultRootWindow(x_->display), &root, &parent, &children, &count);
+    for (unsigned i = 0; i < count; ++i) {
+        char* name = nullptr;
+        if (XFetchName(x_->display, children[i], &name) == 0) continue;
+        if (std::string(name).find(title) != std::string::npos) x_->window = children[i];
+        XFree(name);
+    }
+    XFree(children);
+    REQUIRE_MESSAGE(x_->window != 0, "there is no window with this title: " << title);
+}
+
+Hand::~Hand() = default;
+
+void Hand::key(const char* keysym) {
+    for (const int type : {KeyPress, KeyRelease}) {
+        XEvent event{};
+        event.xkey.type = type;
+        event.xkey.keycode = XKeysymToKeycode(x_->display, XStringToKeysym(keysym));
+        event.xkey.time = x_->time += 10;
+        event.xkey.same_screen = True;
+        x_->send(event, type == KeyPress ? KeyPressMask : KeyReleaseMask);
+    }
+}
+
+void Hand::move(int x, int y) {
+    XEvent event{};
+    event.xmotion.type = MotionNotify;
+    event.xmotion.x = x;
+    event.xmotion.y = y;
+    event.xmotion.time = x_->time += 10;
+    event.xmotion.same_screen = True;
+    x_->send(event, PointerMotionMask);
+}
+
+void Hand::press(int x, int y, unsigned button) { x_->button(ButtonPress, x, y, button); }
+void Hand::release(int x, int y, unsigned button) { x_->button(ButtonRelease, x, y, button); }
+
+void Hand::close() {
+    XEvent event{};
+    event.xclient.type = ClientMessage;
+    event.xclient.message_type = XInternAtom(x_->display, "WM_PROTOCOLS", False);
+    event.xclient.format = 32;
+    event.xclient.data.l[0] = static_cast<long>(XInternAtom(x_->display, "WM_DELETE_WINDOW", False));
+    x_->send(event, NoEventMask);
+}
+
+Hand::Place Hand::place() const {
+    XWindowAttributes about{};
+    XGetWindowAttributes(x_->display, x_->window, &about);
+    Place place{0, 0, about.width, about.height};
+    Window child = 0;
+    XTranslateCoordinates(x_->display, x_->window, about.root, 0, 0, &place.x, &place.y, &child);
+    return place;
+}
+
+}  // namespace bolt::test

@@ -1,0 +1,54 @@
+// A window with a GPU behind it, validation on, and a plain picture to show.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <optional>
+
+#include "engine/gpu/swapchain.hpp"
+#include "engine/platform/window.hpp"
+#include "tests/platform/screen.hpp"
+
+namespace bolt::test {
+
+template <class T>
+T need(Result<T> result) {
+    if (!result) FAIL(result.error().message());
+    return std::move(*result);
+}
+inline void need(const Status& status) {
+    if (!status) FAIL(status.error().message());
+}
+
+class ShowCase {
+  public:
+    explicit ShowCase(const std::string& title);
+    ~ShowCase();
+
+    // The device and all that is made from it, for the same window: at the start, and after a loss.
+    void make_gpu();
+
+    // One frame in this colour (sRGB values). The size that was drawn comes back in `drawn`.
+    Result<bool> show(std::array<int, 3> color);
+    // Frames until one is shown.
+    void show_surely(std::array<int, 3> color);
+
+    platform::Window& window() { return *window_; }
+    gpu::Swapchain& swapchain() { return *swapchain_; }
+    [[nodiscard]] const gpu::ValidationLog& log() const { return instance_->log(); }
+    VkExtent2D drawn{};
+    std::optional<VkExtent2D> picture_size;  // other than the window's
+
+  private:
+    Status prepare_picture(VkExtent2D extent);
+
+    std::optional<platform::Desktop> desktop_;
+    std::optional<platform::Window> window_;
+    std::optional<gpu::Instance> instance_;
+    std::unique_ptr<gpu::Device> device_;
+    std::unique_ptr<gpu::Frames> frames_;
+    gpu::Image picture_;
+    std::unique_ptr<gpu::Swapchain> swapchain_;
+};
+
+}  // namespace bolt::test

@@ -1,0 +1,215 @@
+// Pictures get to the screen, and whatever windows do to a program, the next picture gets there again.
+#include "engine/gpu/swapchain.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include "tests/platform/fault.hpp"
+#include "tests/platform/show_case.hpp"
+
+using namespace bolt;
+
+namespace {
+
+using Color = std::array<int, 3>;
+constexpr Color red{200, 30, 10}, green{20, 180, 40}, blue{0, 60, 250};
+
+// The X server draws when it gets to it: what counts is that it does.
+bool comes_to_be(const Color& color, std::uint32_t x, std::uint32_t y) {
+    for (int i = 0; i < 500; ++i) {
+        if (test::look_at_screen().at(x, y) == color) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+bool fills_window(const Color& color, std::uint32_t width, std::uint32_t height) {
+    return comes_to_be(color, 0, 0) && comes_to_be(color, width - 1, height - 1);
+}
+
+}  // namespace
+
+TEST_CASE("a picture fills the window, every value as it is, and frame follows frame") {
+    test::ShowCase show("plain");
+    for (int round = 0; round < 3; ++round)
+        for (const Color& color : {red, green, blue}) {
+            show.show_surely(color);
+            CHECK(fills_window(color, 320, 240));
+        }
+    for (int i = 0; i < 40; ++i) show.show_surely({i, 6 * i, 255 - i});
+    CHECK(fills_window({39, 234, 216}, 320, 240));
+    CHECK(show.swapchain().made() == 1);
+    CHECK(show.swapchain().plan().reasons.size() == 3);
+    CHECK(comes_to_be({0, 0, 0}, 400, 300));  // beside the window there is nothing
+}
+
+TEST_CASE("pictures of another size are stretched over the window") {
+    test::ShowCase show("stretched");
+    show.picture_size = VkExtent2D{50, 70};
+    show.show_surely(green);
+    CHECK(fills_window(green, 320, 240));
+}
+
+TEST_CASE("a new size: larger, smaller and back, shown anew each time") {
+    test::ShowCase show("sizes");
+    show.show_surely(red);
+    for (const auto& [width, height] : {std::pair{500U, 400U}, {100U, 90U}, {320U, 240U}}) {
+        show.window().resize({width, height});
+        for (int i = 0; i < 500 && (show.drawn.width != width || show.drawn.height != height); ++i) {
+            (void)test::need(show.show(blue));
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        CHECK(show.drawn.width == width);
+        CHECK(show.drawn.height == height);
+        show.show_surely(green);
+        CHECK(fills_window(green, width, height));
+    }
+    CHECK(show.swapchain().made() >= 4);
+}
+
+TEST_CASE("images that are out of date drop one picture and are made anew") {
+    test::ShowCase show("out of date");
+    show.show_surely(red);
+    {
+        const test::Fault<&vkAcquireNextImageKHR> fault(VK_ERROR_OUT_OF_DATE_KHR);
+        CHECK_FALSE(test::need(show.show(green)));
+        CHECK(fault.failed() == 1);
+        CHECK(test::need(show.show(green)));
+    }
+    CHECK(show.swapchain().made() == 2);
+    CHECK(fills_window(green, 320, 240));
+    {
+        const test::Fault<&vkQueuePresentKHR> fault(VK_ERROR_OUT_OF_DATE_KHR, 1, test::Happens::afterwards);
+        CHECK_FALSE(test::need(show.show(blue)));
+        CHECK(test::need(show.show(blue)));
+    }
+    CHECK(show.swapchain().made() == 3);
+    CHECK(fills_window(blue, 320, 240));
+    // No image for a while: pictures are dropped, nothing is made anew.
+    {
+        const test::Fault<&vkAcquireNextImageKHR> fault(VK_TIMEOUT, 3);
+        for (int i = 0; i < 3; ++i) CHECK_FALSE(test::need(show.show(red)));
+        CHECK(test::need(show.show(red)));
+    }
+    CHECK(show.swapchain().made() == 3);
+}
+
+TEST_CASE("suboptimal images are shown and made anew once, but not for ever where that does not help") {
+    test::ShowCase show("suboptimal");
+    show.show_surely(red);
+    const test::Fault<&vkQueuePresentKHR> fault(VK_SUBOPTIMAL_KHR, 1000, test::Happens::afterwards);
+    for (int i = 0; i < 10; ++i) CHECK(test::need(show.show(green)));
+    CHECK(fault.failed() == 10);
+    CHECK(show.swapchain().made() == 2);
+    CHECK(fills_window(green, 320, 240));
+}
+
+TEST_CASE("a lost surface is replaced, wherever it is noticed") {
+    test::ShowCase show("lost surface");
+    show.show_surely(red);
+    {
+        const test::Fault<&vkAcquireNextImageKHR> fault(VK_ERROR_SURFACE_LOST_KHR);
+        CHECK_FALSE(test::need(show.show(green)));
+        CHECK(test::need(show.show(green)));
+    }
+    CHECK(fills_window(green, 320, 240));
+    {
+        const test::Fault<&vkQueuePresentKHR> fault(VK_ERROR_SURFACE_LOST_KHR, 1, test::Happens::afterwards);
+        CHECK_FALSE(test::need(show.show(blue)));
+        CHECK(test::need(show.show(blue)));
+    }
+    CHECK(fills_window(blue, 320, 240));
+    show.window().resize({200, 150});
+    {
+        const test::Fault<&vkGetPhysicalDeviceSurfaceCapabilitiesKHR> fault(VK_ERROR_SURFACE_LOST_KHR);
+        show.show_surely(red);
+        for (int i = 0; i < 500 && show.drawn.width != 200; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            (void)test::need(show.show(red));
+        }
+        CHECK(fault.failed() == 1);
+    }
+    show.show_surely(red);
+    CHECK(fills_window(red, 200, 150));
+    {
+        const test::Fault<&vkAcquireNextImageKHR> again(VK_ERROR_OUT_OF_DATE_KHR);
+        const test::Fault<&vkCreateSwapchainKHR> fault(VK_ERROR_SURFACE_LOST_KHR);
+        show.show_surely(green);
+        CHECK(fault.failed() == 1);
+    }
+    CHECK(fills_window(green, 200, 150));
+}
+
+TEST_CASE("a surface that is lost again and again is an error, and no lost device") {
+    test::ShowCase show("lost for good");
+    const test::Fault<&vkAcquireNextImageKHR> fault(VK_ERROR_SURFACE_LOST_KHR, 1000);
+    Result<bool> shown = true;
+    for (int i = 0; i < 10 && shown; ++i) shown = show.show(red);
+    REQUIRE_FALSE(shown.has_value());
+    CHECK(fault.failed() == 3);
+    CHECK(shown.error().code == ErrorCode::no_device);
+    CHECK_FALSE(shown.error().lost);
+    CHECK(shown.error().what.find("VK_ERROR_SURFACE_LOST_KHR") != std::string::npos);
+}
+
+namespace {
+
+PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR real_capabilities = nullptr;
+VKAPI_ATTR VkResult VKAPI_CALL minimised(VkPhysicalDevice gpu, VkSurfaceKHR surface,
+                                         VkSurfaceCapabilitiesKHR* capabilities) {
+    const VkResult result = real_capabilities(gpu, surface, capabilities);
+    capabilities->currentExtent = capabilities->minImageExtent = capabilities->maxImageExtent = {0, 0};
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("a window without an area shows nothing until it has one again") {
+    test::ShowCase show("minimised");
+    show.show_surely(red);
+    real_capabilities = std::exchange(vkGetPhysicalDeviceSurfaceCapabilitiesKHR, minimised);
+    {
+        const test::Fault<&vkAcquireNextImageKHR> fault(VK_ERROR_OUT_OF_DATE_KHR);
+        CHECK_FALSE(test::need(show.show(green)));
+    }
+    for (int i = 0; i < 5; ++i) {
+        CHECK_FALSE(test::need(show.show(green)));
+        CHECK(show.drawn.width == 0);
+    }
+    vkGetPhysicalDeviceSurfaceCapabilitiesKHR = real_capabilities;
+    CHECK(test::need(show.show(blue)));
+    CHECK(fills_window(blue, 320, 240));
+}
+
+TEST_CASE("a lost device is told as such, and all that is made anew shows again in the same window") {
+    test::ShowCase show("lost device");
+    show.show_surely(red);
+    const auto lost = [&](const Result<bool>& shown) {
+        return !shown && shown.error().lost && shown.error().code == ErrorCode::no_device;
+    };
+    {
+        const test::Fault<&vkQueueSubmit2> fault(VK_ERROR_DEVICE_LOST);
+        CHECK(lost(show.show(green)));
+        show.make_gpu();
+    }
+    show.show_surely(green);
+    CHECK(fills_window(green, 320, 240));
+    {
+        const test::Fault<&vkQueuePresentKHR> fault(VK_ERROR_DEVICE_LOST, 1, test::Happens::afterwards);
+        CHECK(lost(show.show(blue)));
+        show.make_gpu();
+    }
+    show.show_surely(blue);
+    {
+        const test::Fault<&vkAcquireNextImageKHR> fault(VK_ERROR_DEVICE_LOST);
+        CHECK(lost(show.show(red)));
+        show.make_gpu();
+    }
+    {
+        const test::Fault<&vkWaitForFences> fault(VK_ERROR_DEVICE_LOST);
+        CHECK(lost(show.show(red)));
+        show.make_gpu();
+    }
+    show.show_surely(red);
+    CHECK(fills_window(red, 320, 240));
+}

@@ -1,0 +1,169 @@
+// What people do to a window arrives as values.
+#include "engine/platform/window.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <deque>
+#include <optional>
+
+#include "engine/platform/keys.hpp"
+#include "tests/platform/screen.hpp"
+
+using namespace bolt;
+using namespace bolt::platform;
+
+namespace {
+
+struct Open {
+    std::optional<Desktop> desktop;
+    std::optional<Window> window;
+    std::deque<Event> waiting;
+
+    explicit Open(const std::string& title) {
+        Result<Desktop> there = Desktop::open();
+        if (!there) FAIL(there.error().message());
+        desktop = std::move(*there);
+        Result<Window> opened = Window::open(*desktop, {title, 300, 200});
+        if (!opened) FAIL(opened.error().message());
+        window = std::move(*opened);
+        (void)window->events();
+    }
+    // The next event of a kind.
+    template <class E>
+    E next() {
+        for (int i = 0; i < 100; ++i) {
+            for (Event& event : window->wait_for_events(0.1)) waiting.push_back(event);
+            while (!waiting.empty()) {
+                const Event event = waiting.front();
+                waiting.pop_front();
+                if (const E* wanted = std::get_if<E>(&event)) return *wanted;
+            }
+        }
+        FAIL("the event does not come");
+        return {};
+    }
+    // Events until it is so.
+    template <class Test>
+    bool until(const Test& test) {
+        for (int i = 0; i < 200 && !test(); ++i) (void)window->wait_for_events(0.05);
+        return test();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("keys, buttons, cursor, wheel and the wish to close arrive in order, with where and what") {
+    Open open("events");
+    test::Hand hand("events");
+    hand.key("r");
+    const auto down = open.next<KeyEvent>();
+    CHECK(down.key == Key::r);
+    CHECK(down.down);
+    CHECK_FALSE(down.modifiers.shift);
+    hand.key("F11");
+    hand.key("5");
+    hand.key("Escape");
+    std::vector<Key> keys;
+    while (keys.size() < 3) {
+        const auto event = open.next<KeyEvent>();
+        if (event.down) keys.push_back(event.key);
+    }
+    CHECK(keys == std::vector{Key::f11, Key::digit_5, Key::escape});
+
+    hand.move(40, 50);
+    hand.press(40, 50);
+    hand.move(60, 45);
+    hand.release(60, 45);
+    hand.press(10, 20, 3);
+    hand.press(60, 45, 4);
+    hand.press(60, 45, 5);
+    hand.close();
+    std::vector<Event> events;
+    for (int i = 0; i < 100 && (events.empty() || !std::holds_alternative<CloseEvent>(events.back())); ++i)
+        for (Event& event : open.window->wait_for_events(0.1))
+            if (!std::holds_alternative<KeyEvent>(event)) events.push_back(event);
+    REQUIRE(events.size() == 8);
+    CHECK(std::get<CursorEvent>(events[0]).at == glm::dvec2(40, 50));
+    CHECK(std::get<ButtonEvent>(events[1]).button == Button::left);
+    CHECK(std::get<ButtonEvent>(events[1]).down);
+    CHECK(std::get<CursorEvent>(events[2]).at == glm::dvec2(60, 45));
+    CHECK_FALSE(std::get<ButtonEvent>(events[3]).down);
+    CHECK(std::get<ButtonEvent>(events[4]).button == Button::right);
+    CHECK(std::get<WheelEvent>(events[5]).by.y == 1.0);
+    CHECK(std::get<WheelEvent>(events[6]).by.y == -1.0);
+}
+
+TEST_CASE("a window has the size that was asked for, tells a new one, and its scale") {
+    Open open("size");
+    CHECK(open.window->pixels().width == 300);
+    CHECK(open.window->pixels().height == 200);
+    CHECK(open.window->content_scale() == doctest::Approx(1.0));
+    open.window->resize({410, 220});
+    const auto resized = open.next<ResizeEvent>();
+    CHECK(resized.width == 410);
+    CHECK(resized.height == 220);
+    CHECK(open.window->pixels().width == 410);
+    Window moved = std::move(*open.window);  // callbacks follow
+    moved.set_title("renamed");
+    test::Hand("renamed").key("a");
+    bool heard = false;
+    for (int i = 0; i < 100 && !heard; ++i)
+        for (const Event& event : moved.wait_for_events(0.05))
+            heard |= std::holds_alternative<KeyEvent>(event);
+    CHECK(heard);
+}
+
+TEST_CASE("full screen takes the display and gives it back: the window is where it was") {
+    Open open("whole");
+    const test::Hand hand("whole");
+    const test::Hand::Place before = hand.place();
+    const test::ScreenPicture screen = test::look_at_screen();
+    for (int round = 0; round < 2; ++round) {
+        open.window->set_full_screen(true);
+        CHECK(open.window->full_screen());
+        CHECK(open.until([&] { return open.window->pixels().width == screen.width; }));
+        CHECK(open.window->pixels().height == screen.height);
+        open.window->set_full_screen(true);  // is so already
+        open.window->set_full_screen(false);
+        CHECK_FALSE(open.window->full_screen());
+        CHECK(open.until([&] { return open.window->pixels().width == 300; }));
+        const test::Hand::Place after = hand.place();
+        CHECK(after.x == before.x);
+        CHECK(after.y == before.y);
+        CHECK(after.width == 300);
+        CHECK(after.height == 200);
+    }
+}
+
+TEST_CASE("without a display the error says what is missing") {
+    const std::string display = std::getenv("DISPLAY");
+    unsetenv("DISPLAY");
+    const Result<Desktop> none = Desktop::open();
+    setenv("DISPLAY", display.c_str(), 1);
+    REQUIRE_FALSE(none.has_value());
+    CHECK(none.error().code == ErrorCode::no_device);
+    CHECK(none.error().what.find("DISPLAY") != std::string::npos);
+    CHECK(none.error().expected.find("display") != std::string::npos);
+    CHECK(Desktop::open().has_value());  // and with one it opens again
+}
+
+TEST_CASE("letters are what is printed, everything else is where it is") {
+    // GLFW's numbers: A is 65, Q is 81, 1 is 49, keypad 1 is 321, F1 is 290, Escape is 256.
+    CHECK(key_of(65, "q") == Key::q);  // a French keyboard
+    CHECK(key_of(65, "Q") == Key::q);
+    CHECK(key_of(65, nullptr) == Key::a);
+    CHECK(key_of(65, "ф") == Key::a);  // a Russian one
+    CHECK(key_of(49, "&") == Key::digit_1);
+    CHECK(key_of(321, "1") == Key::digit_1);
+    CHECK(key_of(300, nullptr) == Key::f11);
+    CHECK(key_of(256, nullptr) == Key::escape);
+    CHECK(key_of(59, "ö") == Key::unknown);
+    CHECK(key_of(59, "m") == Key::m);
+    CHECK(key_of(-1, nullptr) == Key::unknown);
+    CHECK(name(Key::f11) == "F11");
+    CHECK(name(Key::z) == "Z");
+    CHECK(name(Key::digit_9) == "9");
+    CHECK(name(Key::escape) == "Escape");
+    CHECK(name(Key::unknown) == "?");
+}

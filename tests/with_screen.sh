@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Runs a command on a screen of its own that nobody sees, and ends as it ends. $BOLT_SCREEN is the file in which
+# Xvfb keeps the pixels (an XWD picture). Xvfb itself picks a number that is free.
+set -uo pipefail
+folder=$(mktemp -d)
+mkfifo "$folder/number"
+Xvfb -displayfd 3 -screen 0 1280x800x24 -fbdir "$folder" -nolisten tcp -noreset 3<>"$folder/number" \
+    >"$folder/log" 2>&1 &
+server=$!
+trap 'kill $server 2>/dev/null; wait $server 2>/dev/null; rm -rf "$folder"' EXIT
+exec 4<>"$folder/number"
+if ! read -r -t 60 number <&4; then
+    echo "Xvfb does not start:" >&2
+    cat "$folder/log" >&2
+    exit 1
+fi
+DISPLAY=:$number WAYLAND_DISPLAY='' BOLT_SCREEN=$folder/Xvfb_screen0 "$@"
