@@ -8,16 +8,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "content/format/load.hpp"
-#include "engine/assets/gltf.hpp"
-#include "engine/assets/image.hpp"
-#include "engine/assets/radiance_file.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
-#include "engine/base/nearest.hpp"
-#include "engine/render/camera.hpp"
+#include "engine/base/math.hpp"
 #include "engine/render/picture.hpp"
 #include "game/cli/commands.hpp"
+#include "game/view/painter.hpp"
+#include "game/view/picture_file.hpp"
+#include "game/view/size.hpp"
+#include "game/view/stage.hpp"
 
 namespace bolt::cli {
 
@@ -32,12 +31,6 @@ struct RenderOptions {
     bool stereo = false, validate = false, no_key = false;
 };
 
-struct Pose {
-    std::string name;  // empty: the only one
-    glm::vec3 eye{0.0F}, target{0.0F};
-    float fov = 0.0F;
-};
-
 constexpr float eye_distance = 0.063F;  // m, the mean of adults
 
 Result<glm::vec3> parse_point(const std::string& text, const char* option) {
@@ -48,50 +41,11 @@ Result<glm::vec3> parse_point(const std::string& text, const char* option) {
     return v;
 }
 
-Result<VkExtent2D> parse_size(const std::string& text) {
-    unsigned width = 0, height = 0;
-    char rest = 0;
-    const bool read = std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) == 2;
-    if (!read || width < 1 || height < 1 || width > 8192 || height > 8192)
-        return fail(ErrorCode::usage, fmt::format("--size \"{}\" is no size", text),
-                    "WIDTHxHEIGHT, up to 8192x8192");
-    return VkExtent2D{width, height};
-}
-
-bool is_model_file(const std::string& what) {
-    const std::string extension = std::filesystem::path(what).extension().string();
-    return extension == ".glb" || extension == ".gltf";
-}
-
-// The named view of the assembly.
-Result<Pose> named_view(const content::Assembly& assembly, const std::string& name) {
-    std::vector<std::string> names;
-    for (const content::View& view : assembly.views) {
-        if (view.name == name)
-            return Pose{name, glm::vec3(view.eye), glm::vec3(view.target),
-                        static_cast<float>(view.field_of_view)};
-        names.push_back(view.name);
-    }
-    const std::string near = nearest(name, names);
-    return fail(
-        ErrorCode::usage, fmt::format("{} has no view \"{}\"", assembly.name, name),
-        near.empty() ? fmt::format("one of its {} views", names.size()) : fmt::format("\"{}\"", near));
-}
-
-// A key light over the viewer's left shoulder, as a photographer sets it.
-render::SceneLight key_light() {
-    render::SceneLight key;
-    key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
-    key.light.color = glm::vec4(1.6F, 1.55F, 1.5F, 0.0F);
-    key.casts_shadow = true;
-    return key;
-}
-
-std::string file_of(const RenderOptions& options, const Pose& pose, std::size_t poses) {
-    if (poses < 2) return options.png;
+std::string file_of(const RenderOptions& options, const view::Viewpoint& view, std::size_t views) {
+    if (views < 2) return options.png;
     const std::filesystem::path path(options.png);
     return (path.parent_path() /
-            fmt::format("{}-{}{}", path.stem().string(), pose.name, path.extension().string()))
+            fmt::format("{}-{}{}", path.stem().string(), view.name, path.extension().string()))
         .string();
 }
 
@@ -107,42 +61,6 @@ render::Picture joined(const std::vector<render::Picture>& pictures) {
                             row + static_cast<std::ptrdiff_t>(std::size_t{4} * picture.width));
         }
     return all;
-}
-
-// What is drawn, and from where.
-struct Subject {
-    assets::Model model;
-    std::vector<Pose> poses;  // empty: framed by itself
-};
-
-Result<Subject> load_subject(const RenderOptions& options) {
-    Subject subject;
-    std::string file = options.what;
-    if (!is_model_file(options.what)) {
-        const content::Loaded loaded = content::load_assembly(options.what);
-        if (!loaded.ok()) return fail(loaded.errors.front());
-        file = loaded.assembly.models.model;
-        if (file.empty())
-            return fail(ErrorCode::bad_content,
-                        fmt::format("{} names no model to draw", loaded.assembly.file),
-                        "\"model\": \"NAME.glb\"");
-        for (const std::string& name : options.views) {
-            Result<Pose> pose = named_view(loaded.assembly, name);
-            if (!pose) return fail(pose.error());
-            subject.poses.push_back(*pose);
-        }
-    } else if (!options.views.empty()) {
-        return fail(ErrorCode::usage, "a bare model has no named views", "--eye X,Y,Z --target X,Y,Z");
-    }
-    Result<assets::Model> model = assets::read_gltf(file);
-    if (!model) return fail(model.error());
-    subject.model = std::move(*model);
-    return subject;
-}
-
-Result<shading::RadianceImage> load_light(const std::string& name) {
-    if (name == "studio") return shading::studio();
-    return assets::read_hdr(name);
 }
 
 struct FrameTime {
@@ -166,98 +84,82 @@ std::string timings_json(const std::string& device, const render::Statistics& st
     return json.dump(1) + "\n";
 }
 
+// From where: the named views, or the one that the options describe.
+Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, const view::Subject& subject,
+                                                const render::Box& box, float aspect) {
+    std::vector<view::Viewpoint> views;
+    for (const std::string& name : options.views) {
+        Result<view::Viewpoint> view = view::named_view(subject, name);
+        if (!view) return fail(view.error());
+        views.push_back(*view);
+    }
+    if (!views.empty()) return views;
+    view::Viewpoint view = view::framed(box, static_cast<float>(to_radians(options.fov_deg)), aspect);
+    for (const auto& [text, point, name] :
+         {std::tuple{&options.target, &view.target, "--target"}, {&options.eye, &view.eye, "--eye"}}) {
+        if (text->empty()) continue;
+        Result<glm::vec3> given = parse_point(*text, name);
+        if (!given) return fail(given.error());
+        *point = *given;
+    }
+    return std::vector{view};
+}
+
 Status render_all(const RenderOptions& options) {
-    const Result<VkExtent2D> extent = parse_size(options.size);
+    const Result<VkExtent2D> extent = view::parse_size(options.size);
     if (!extent) return fail(extent.error());
-    Result<Subject> subject = load_subject(options);
-    if (!subject) return fail(subject.error());
-    const Result<shading::RadianceImage> radiance = load_light(options.light);
+    const view::LoadedSubject subject = view::load_subject(options.what);
+    if (!subject.ok()) return fail(subject.errors.front());
+    for (const std::string& name : options.views)
+        if (Result<view::Viewpoint> known = view::named_view(subject.subject, name); !known)
+            return fail(known.error());
+    const Result<shading::RadianceImage> radiance = view::load_light(options.light);
     if (!radiance) return fail(radiance.error());
 
     gpu::InstanceOptions instance_options;
     instance_options.validation = options.validate;
     Result<gpu::Instance> instance = gpu::Instance::create(instance_options);
     if (!instance) return fail(instance.error());
-    Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(*instance, {options.gpu});
-    if (!device) return fail(device.error());
-    Result<std::unique_ptr<gpu::Frames>> frames = gpu::Frames::create(**device);
-    if (!frames) return fail(frames.error());
     render::RendererOptions renderer_options;
     renderer_options.level_error_px = static_cast<float>(options.level_error_px);
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(**device, renderer_options);
-    if (!renderer) return fail(renderer.error());
-    Result<render::GpuModel> model =
-        render::upload_model(**device, subject->model, {options.level_error_px > 0.0});
-    if (!model) return fail(model.error());
-    Result<render::EnvironmentLight> light = render::upload_environment(**device, *radiance);
+    Result<view::Painter> painter = view::make_painter(*instance, {options.gpu}, renderer_options);
+    if (!painter) return fail(painter.error());
+    gpu::Device& device = *painter->device;
+    Result<render::EnvironmentLight> light = render::upload_environment(device, *radiance);
     if (!light) return fail(light.error());
+    const auto stage =
+        view::set_stage(device, subject.subject, *light, {!options.no_key, options.level_error_px > 0.0});
+    if (!stage) return fail(stage.error());
 
-    render::Scene scene;
-    render::place(scene, subject->model, *model);
-    if (scene.objects.empty())
-        return fail(ErrorCode::bad_content, fmt::format("{}: nothing in it can be drawn", options.what),
-                    "a mesh in the default scene");
-    render::place_lights(scene, subject->model);
-    if (scene.lights.empty() && !options.no_key) scene.lights.push_back(key_light());
-    scene.environment = &*light;
-    scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
-
-    const render::Box box = render::bounds(scene);
-    scene.occlusion_radius = 0.04F * glm::distance(box.low, box.high);
-    render::Perspective lens;
-    lens.aspect = static_cast<float>(extent->width) / static_cast<float>(extent->height);
-    lens.fov = static_cast<float>(to_radians(options.fov_deg));
-    std::vector<Pose> poses = subject->poses;
-    if (poses.empty()) {
-        Pose pose;
-        pose.target = 0.5F * (box.low + box.high);
-        pose.eye = render::framing_eye(box, {0.55F, 0.5F, 1.0F}, lens);
-        for (const auto& [text, point, name] :
-             {std::tuple{&options.target, &pose.target, "--target"}, {&options.eye, &pose.eye, "--eye"}}) {
-            if (text->empty()) continue;
-            Result<glm::vec3> given = parse_point(*text, name);
-            if (!given) return fail(given.error());
-            *point = *given;
-        }
-        poses.push_back(pose);
-    }
-    for (const Pose& pose : poses) {
-        if (pose.eye == pose.target) return fail(ErrorCode::usage, "eye and target are the same point");
-        if (pose.fov > 0.0F) lens.fov = pose.fov;
-        const float reach =
-            glm::distance(pose.eye, 0.5F * (box.low + box.high)) + 0.5F * glm::distance(box.low, box.high);
-        lens.zfar = 1.05F * reach;
-        lens.znear = 0.005F * reach;
+    const float aspect = static_cast<float>(extent->width) / static_cast<float>(extent->height);
+    const auto views = viewpoints(options, subject.subject, (*stage)->box, aspect);
+    if (!views) return fail(views.error());
+    for (const view::Viewpoint& view : *views) {
+        if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");
+        const float fov = view.fov > 0.0F ? view.fov : static_cast<float>(to_radians(options.fov_deg));
+        const render::Perspective lens = view::lens((*stage)->box, view.eye, view.target, fov, aspect);
         const glm::vec3 right =
-            glm::normalize(glm::vec3(glm::transpose(render::look_at(pose.eye, pose.target))[0]));
+            glm::normalize(glm::vec3(glm::transpose(render::look_at(view.eye, view.target))[0]));
         std::vector<render::Eye> eyes;
         for (const float side : options.stereo ? std::vector{-0.5F, 0.5F} : std::vector{0.0F})
-            eyes.push_back(render::make_eye(pose.eye + side * eye_distance * right,
-                                            pose.target + side * eye_distance * right, lens));
+            eyes.push_back(render::make_eye(view.eye + side * eye_distance * right,
+                                            view.target + side * eye_distance * right, lens));
         std::vector<render::Picture> pictures;
         std::vector<FrameTime> times;
         for (int frame = 0; frame < options.frames; ++frame) {
             const auto start = std::chrono::steady_clock::now();
-            Result<std::vector<render::Picture>> taken =
-                render::take_pictures(**device, **frames, **renderer, scene, eyes, *extent);
+            Result<std::vector<render::Picture>> taken = render::take_pictures(
+                device, *painter->frames, *painter->renderer, (*stage)->scene, eyes, *extent);
             if (!taken) return fail(taken.error());
             pictures = std::move(*taken);
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-            times.push_back({spent.count(), (*frames)->timings()});
+            times.push_back({spent.count(), painter->frames->timings()});
         }
-        const render::Picture picture = joined(pictures);
-        const Result<std::string> png = assets::encode_png(static_cast<int>(picture.width),
-                                                           static_cast<int>(picture.height), 4, picture.rgba);
-        if (!png) return fail(png.error());
-        const std::string file = file_of(options, pose, poses.size());
-        std::error_code ignored;  // write_file says why
-        if (const auto folder = std::filesystem::path(file).parent_path(); !folder.empty())
-            std::filesystem::create_directories(folder, ignored);
-        if (Status kept = write_file(file, *png); !kept) return kept;
-        if (Status said = say(file + "\n"); !said) return said;
+        if (Status kept = view::write_picture(joined(pictures), file_of(options, view, views->size())); !kept)
+            return kept;
         if (!options.timings.empty())
             if (Status kept = write_file(options.timings,
-                                         timings_json((*device)->name(), (*renderer)->statistics(), times));
+                                         timings_json(device.name(), painter->renderer->statistics(), times));
                 !kept)
                 return kept;
     }

@@ -1,18 +1,12 @@
 #include "tools/author/gltf_validator.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "content/format/load.hpp"
-
-extern char** environ;
+#include "engine/base/process.hpp"
 
 namespace bolt::author {
 
@@ -24,39 +18,6 @@ namespace {
 tl::unexpected<Error> broken(std::string what) {
     return fail(ErrorCode::failed, "the Khronos glTF validator: " + std::move(what),
                 "expected it as tools/install-node-tools.sh installs it, and node on the path");
-}
-
-// Everything a program writes to its standard output.
-Result<std::string> output_of(const std::vector<std::string>& command) {
-    std::vector<char*> arguments;
-    for (const std::string& word : command)
-        arguments.push_back(const_cast<char*>(word.c_str()));  // NOLINT: posix_spawn changes none of them
-    arguments.push_back(nullptr);
-    std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) return broken("no pipe");
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    ::posix_spawn_file_actions_addclose(&actions, ends[0]);
-    ::posix_spawn_file_actions_addclose(&actions, ends[1]);
-    pid_t child = 0;
-    const int problem = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-    ::posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    std::string text;
-    std::array<char, 4096> buffer{};
-    for (ssize_t got = 1; problem == 0 && got != 0;) {
-        got = ::read(ends[0], buffer.data(), buffer.size());
-        if (got < 0 && errno != EINTR) break;
-        if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
-    }
-    ::close(ends[0]);
-    if (problem != 0) return broken(fmt::format("{} cannot be started", command[0]));
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return broken("it failed");
-    return text;
 }
 
 }  // namespace
@@ -76,9 +37,10 @@ fs::path gltf_validator() {
 Result<std::vector<Error>> run_gltf_validator(const fs::path& script, const std::vector<std::string>& files) {
     std::vector<std::string> command{"node", script.string()};
     for (const std::string& file : files) command.push_back(fs::absolute(file).string());
-    const auto text = output_of(command);
-    if (!text) return tl::unexpected<Error>(text.error());
-    const json reports = json::parse(*text, nullptr, false);
+    const Result<Finished> run = run_program(command, Hear::output);
+    if (!run) return broken(run.error().what);
+    if (run->exit_code != 0) return broken("it failed");
+    const json reports = json::parse(run->said, nullptr, false);
     if (!reports.is_array() || reports.size() != files.size()) return broken("it said nothing that we know");
     std::vector<Error> errors;
     for (std::size_t i = 0; i < files.size(); ++i)

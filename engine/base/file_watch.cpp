@@ -1,10 +1,10 @@
-#include "engine/platform/file_watch.hpp"
+#include "engine/base/file_watch.hpp"
 
 #include <sys/stat.h>
 
 #include <algorithm>
 
-namespace bolt::platform {
+namespace bolt {
 
 FileStamp stamp(const std::filesystem::path& file) {
     // std::filesystem does not tell the inode, which alone shows that a file of the same size was renamed
@@ -49,4 +49,4 @@ std::vector<std::filesystem::path> FileWatch::changed(double now) {
     return files;
 }
 
-}  // namespace bolt::platform
+}  // namespace bolt

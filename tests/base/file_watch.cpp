@@ -1,11 +1,11 @@
-#include "engine/platform/file_watch.hpp"
+#include "engine/base/file_watch.hpp"
 
 #include <doctest/doctest.h>
 
 #include "engine/base/file.hpp"
 
 using namespace bolt;
-using namespace bolt::platform;
+using namespace bolt;
 namespace fs = std::filesystem;
 
 namespace {

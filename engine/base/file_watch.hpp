@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace bolt::platform {
+namespace bolt {
 
 // What tells two versions of a file apart without reading them. A file that is not there is a version too.
 struct FileStamp {
@@ -40,4 +40,4 @@ class FileWatch {
     std::vector<Watched> files_;
 };
 
-}  // namespace bolt::platform
+}  // namespace bolt

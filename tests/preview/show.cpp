@@ -1,0 +1,158 @@
+// The preview in a window, with somebody at it, and a GPU that goes.
+#include "tools/author/preview/show.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <thread>
+
+#include "engine/gpu/restarts.hpp"
+#include "tests/platform/hand.hpp"
+#include "tests/support/screen_picture.hpp"
+
+using namespace bolt;
+using namespace bolt::author;
+
+namespace {
+
+template <class T>
+T need(Result<T> result) {
+    if (!result) FAIL(result.error().message());
+    return std::move(*result);
+}
+
+PreviewOptions options() {
+    PreviewOptions o;
+    o.what = "cover-m8";
+    o.size = {160, 120};
+    return o;
+}
+
+struct Preview {
+    PreviewOptions given = options();
+    Sources sources{given};
+    platform::Desktop desktop = need(platform::Desktop::open());
+    platform::Window window = need(platform::Window::open(desktop, {"cover-m8", 160, 120}));
+    std::optional<gpu::Instance> instance;
+
+    Preview() {
+        view::LoadedSubject loaded = sources.read_subject(view::Level::near);
+        REQUIRE(loaded.ok());
+        sources.keep(std::move(loaded.subject), view::Level::near);
+        sources.keep(need(sources.read_light()));
+        gpu::InstanceOptions validated;
+        validated.validation = true;
+        const std::vector<const char*> extensions = need(desktop.vulkan_extensions());
+        validated.extensions = extensions;
+        instance.emplace(need(gpu::Instance::create(validated)));
+    }
+    Status show() { return show_preview(given, sources, window, *instance); }
+};
+
+// Grey in the corner, and the paint of the model a little below the middle of a window of this size.
+bool cover_is_seen(std::uint32_t width, std::uint32_t height) {
+    const auto screen = test::look_at_screen();
+    if (!screen) return false;
+    const auto corner = screen->at(width - 2, 2),
+               paint = screen->at(width / 2 - height / 24, 13 * height / 20);
+    return corner[0] > 100 && corner[0] < 200 && paint[0] < 70 && paint[2] > paint[0] + 10;
+}
+
+template <class Test>
+bool comes_true(const Test& test) {
+    for (int i = 0; i < 3000; ++i) {
+        if (test()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+// Functions are loaded anew for every device, so what fails has to come from the loader. Uploads wait for
+// nothing on the GPU, frames of a window do for its image.
+PFN_vkGetDeviceProcAddr real_loader = nullptr;
+PFN_vkQueueSubmit2 real_submit = nullptr;
+int window_frames_until_lost = 0;  // 0: none fails
+bool every_submission_fails = false;
+
+VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo2* infos,
+                                      VkFence fence) {
+    const bool of_window = count == 1 && infos[0].waitSemaphoreInfoCount > 0;
+    if (of_window && window_frames_until_lost > 0 && --window_frames_until_lost == 0)
+        return VK_ERROR_DEVICE_LOST;
+    return every_submission_fails ? VK_ERROR_DEVICE_LOST : real_submit(queue, count, infos, fence);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL loader(VkDevice device, const char* name) {
+    const PFN_vkVoidFunction real = real_loader(device, name);
+    if (std::strcmp(name, "vkQueueSubmit2") != 0) return real;
+    real_submit = reinterpret_cast<PFN_vkQueueSubmit2>(real);
+    return reinterpret_cast<PFN_vkVoidFunction>(submit);
+}
+
+// While it lives, devices are made with a queue that can fail.
+struct FailingQueue {
+    FailingQueue() { real_loader = std::exchange(vkGetDeviceProcAddr, loader); }
+    ~FailingQueue() {
+        vkGetDeviceProcAddr = real_loader;
+        every_submission_fails = false;
+        window_frames_until_lost = 0;
+    }
+    FailingQueue(const FailingQueue&) = delete;
+    FailingQueue& operator=(const FailingQueue&) = delete;
+};
+
+}  // namespace
+
+TEST_CASE("shown until somebody closes it") {
+    Preview preview;
+    bool seen = false;
+    std::thread somebody([&] {
+        seen = comes_true([] { return cover_is_seen(160, 120); });
+        test::Hand("cover-m8").close();
+    });
+    const Status shown = preview.show();
+    somebody.join();
+    CHECK(seen);
+    CHECK_MESSAGE(shown.has_value(), (shown ? "" : shown.error().message()));
+}
+
+TEST_CASE("a GPU that is lost is started again, and the picture comes back where the camera was") {
+    Preview preview;
+    const FailingQueue failing;
+    window_frames_until_lost = 2;
+    bool seen = false, seen_large = false;
+    std::thread somebody([&] {
+        seen = comes_true([] { return cover_is_seen(160, 120); });
+        test::Hand hand("cover-m8");
+        hand.key("F11");  // the second frame, which is lost
+        seen_large = comes_true([] { return cover_is_seen(1280, 800); });
+        hand.key("Escape");
+    });
+    const Status shown = preview.show();
+    somebody.join();
+    CHECK(seen);
+    CHECK(window_frames_until_lost == 0);
+    CHECK(seen_large);
+    CHECK_MESSAGE(shown.has_value(), (shown ? "" : shown.error().message()));
+}
+
+TEST_CASE("a GPU that is lost twice in short succession is given up, with the exit code of a missing one") {
+    Preview preview;
+    const FailingQueue failing;
+    every_submission_fails = true;
+    const Status shown = preview.show();
+    REQUIRE_FALSE(shown.has_value());
+    CHECK(shown.error().code == ErrorCode::no_device);
+    CHECK(shown.error().what.find("lost twice within 10 s") != std::string::npos);
+    CHECK(shown.error().what.find("VK_ERROR_DEVICE_LOST") != std::string::npos);
+}
+
+TEST_CASE("a lost GPU is worth another start only after it has worked for a while") {
+    gpu::Restarts restarts;
+    CHECK(restarts.again(100.0));
+    CHECK_FALSE(restarts.again(109.9));
+    CHECK(restarts.again(119.9));
+    CHECK_FALSE(restarts.again(120.0));
+}

@@ -1,0 +1,116 @@
+// Shaders that are changed while the program runs.
+#include "engine/render/hot_shaders.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "engine/base/file.hpp"
+#include "tests/render/support.hpp"
+
+using namespace bolt;
+using namespace bolt::render;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A copy of the shaders to play with.
+struct Copy {
+    fs::path root = fs::temp_directory_path() / "boltwright hot shaders test";  // paths have spaces
+    fs::path folder = root / "shaders";
+
+    Copy() {
+        fs::remove_all(root);
+        fs::create_directories(root);
+        fs::copy(fs::path(std::getenv("BOLTWRIGHT_CONTENT")).parent_path() / "shaders", folder);
+    }
+    ~Copy() { fs::remove_all(root); }
+
+    [[nodiscard]] std::string read(const std::string& name) const {
+        return read_file(folder / name, 1 << 20, ErrorCode::failed).value();
+    }
+    void replace(const std::string& name, const std::string& what, const std::string& with) const {
+        std::string text = read(name);
+        REQUIRE(text.find(what) != std::string::npos);
+        text.replace(text.find(what), what.size(), with);
+        REQUIRE(write_file(folder / name, text).has_value());
+    }
+};
+
+// What is known after the files have been left alone.
+std::optional<Result<ShaderCode>> later(HotShaders& hot, double& now) {
+    auto code = hot.changed(now += 1.0);
+    return code ? std::move(code) : hot.changed(now += 1.0);
+}
+
+Picture ball(const ShaderCode& code) {
+    RendererOptions options;
+    options.shaders = code;
+    test::Studio studio(options);
+    const assets::Model model = test::sphere({}, 16);
+    const GpuModel gpu_model = studio.upload(model);
+    const EnvironmentLight light = studio.light(shading::studio(64));
+    Scene scene;
+    place(scene, model, gpu_model);
+    scene.environment = &light;
+    return studio.shoot(scene, make_eye({0, 0, 5}, {0, 0, 0}, {}), {32, 32});
+}
+
+}  // namespace
+
+TEST_CASE("what the compiler makes at run time draws the same as what was built in") {
+    const Copy copy;
+    HotShaders hot = HotShaders::open(copy.folder).value();
+    double now = 0.0;
+    const auto code = hot.changed(now);
+    REQUIRE(code.has_value());
+    REQUIRE_MESSAGE(code->has_value(), code->error().what);
+    CHECK((**code).size() == 9);
+    CHECK(ball(**code).rgba == ball({}).rgba);
+    CHECK_FALSE(later(hot, now).has_value());
+}
+
+TEST_CASE("a change is compiled, in what is included too; a mistake is told and what was good stays") {
+    const Copy copy;
+    HotShaders hot = HotShaders::open(copy.folder).value();
+    double now = 0.0;
+    const ShaderCode first = hot.changed(now).value().value();
+    const std::string good = copy.read("tone.glsl");
+
+    copy.replace("sky.frag", "void main() {", "void main() { broken;");
+    const auto broken = later(hot, now);
+    REQUIRE(broken.has_value());
+    REQUIRE_FALSE(broken->has_value());
+    CHECK(broken->error().what.find("sky.frag") != std::string::npos);
+    CHECK(broken->error().what.find("'broken' : undeclared identifier") != std::string::npos);
+    CHECK_FALSE(later(hot, now).has_value());  // told once
+    copy.replace("sky.frag", "broken;", "");
+    const auto mended = later(hot, now);
+    REQUIRE(mended.has_value());
+    REQUIRE(mended->has_value());
+
+    // An included file: everything that includes it, and nothing else.
+    const std::string text =
+        good + "// the same but for this line\nvec3 unused_by_all() { return vec3(1); }\n";
+    REQUIRE(write_file(copy.folder / "tone.glsl", text).has_value());
+    const auto same = later(hot, now);
+    REQUIRE(same.has_value());
+    REQUIRE(same->has_value());
+    CHECK((**same).at("shadow.vert") == first.at("shadow.vert"));
+
+    copy.replace("scene.frag", "void main() {", "void main() { color_out = vec4(1, 0, 0, 1); return;");
+    const auto red = later(hot, now);
+    REQUIRE(red.has_value());
+    REQUIRE_MESSAGE(red->has_value(), red->error().what);
+    CHECK((**red).at("scene.frag") != first.at("scene.frag"));
+    CHECK(test::pixel(ball(**red), 16, 16) == glm::ivec4(255, 0, 0, 255));
+}
+
+TEST_CASE("folders that are none, hold nothing or have another name are refused") {
+    const Copy copy;
+    CHECK(HotShaders::open(copy.root / "nowhere").error().code == ErrorCode::usage);
+    CHECK(HotShaders::open(copy.root).error().what.find("not called") != std::string::npos);
+    fs::create_directories(copy.root / "empty" / "shaders");
+    CHECK(HotShaders::open(copy.root / "empty" / "shaders").error().what.find("none of the renderer's") !=
+          std::string::npos);
+}
