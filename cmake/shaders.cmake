@@ -1,3 +1,6 @@
+# Also for shaders that are compiled while a program runs (engine/render/hot_shaders.hpp).
+set(BOLT_GLSL_FLAGS -V --quiet --target-env vulkan1.3)
+
 # house_shaders(TARGET files.vert files.frag ...): GLSL compiled by glslang into a library whose one function gives the
 # SPIR-V by file name: std::span<const std::uint32_t> TARGET(std::string_view). Included files are dependencies.
 function(house_shaders target)
@@ -10,7 +13,7 @@ function(house_shaders target)
         set(output ${CMAKE_CURRENT_BINARY_DIR}/${target}/${file}.inc)
         add_custom_command(
             OUTPUT ${output}
-            COMMAND ${GLSLANG} -V --quiet --target-env vulkan1.3 -I${CMAKE_SOURCE_DIR} --vn ${symbol}
+            COMMAND ${GLSLANG} ${BOLT_GLSL_FLAGS} -I${CMAKE_SOURCE_DIR} --vn ${symbol}
                     --depfile ${output}.d -o ${output} ${CMAKE_CURRENT_SOURCE_DIR}/${source}
             DEPENDS ${source}
             DEPFILE ${output}.d

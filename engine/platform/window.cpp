@@ -74,6 +74,8 @@ struct Window::State {
     GLFWwindow* window = nullptr;
     std::vector<Event> events;
     Rect before_full_screen;
+    // Where it was when things happened: GLFW, asked for it, tells where it is by now.
+    glm::dvec2 cursor{0.0};
 
     State() = default;
     State(const State&) = delete;
@@ -89,11 +91,6 @@ struct Window::State {
         glfwGetWindowSize(window, &width, &height);
         glfwGetFramebufferSize(window, &across, &down);
         return {width > 0 ? x * across / width : x, height > 0 ? y * down / height : y};
-    }
-    [[nodiscard]] glm::dvec2 cursor() const {
-        double x = 0.0, y = 0.0;
-        glfwGetCursorPos(window, &x, &y);
-        return pixel(x, y);
     }
 };
 
@@ -112,18 +109,22 @@ void Window::State::listen() {
         return *static_cast<State*>(glfwGetWindowUserPointer(w));
     };
     glfwSetWindowUserPointer(window, this);
+    double at_x = 0.0, at_y = 0.0;
+    glfwGetCursorPos(window, &at_x, &at_y);
+    cursor = pixel(at_x, at_y);
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
         of(w).events.emplace_back(KeyEvent{key_of(key, glfwGetKeyName(key, scancode)), action != GLFW_RELEASE,
                                            action == GLFW_REPEAT, modifiers_of(mods)});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-        of(w).events.emplace_back(ButtonEvent{button_of(button), action == GLFW_PRESS, of(w).cursor()});
+        of(w).events.emplace_back(ButtonEvent{button_of(button), action == GLFW_PRESS, of(w).cursor});
     });
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-        of(w).events.emplace_back(CursorEvent{of(w).pixel(x, y)});
+        of(w).cursor = of(w).pixel(x, y);
+        of(w).events.emplace_back(CursorEvent{of(w).cursor});
     });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
-        of(w).events.emplace_back(WheelEvent{{x, y}, of(w).cursor()});
+        of(w).events.emplace_back(WheelEvent{{x, y}, of(w).cursor});
     });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int width, int height) {
         of(w).events.emplace_back(

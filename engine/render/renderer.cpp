@@ -4,8 +4,6 @@
 
 #include "engine/render/materials.hpp"
 
-std::span<const std::uint32_t> scene_shaders(std::string_view name);
-
 namespace bolt::render {
 
 namespace {
@@ -60,7 +58,7 @@ Status Renderer::prepare() {
     for (const char* name :
          {"scene.vert", "surface.frag", "light.frag", "scene.frag", "sky.frag", "mark.vert", "mark.frag",
           "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag"}) {
-        Result<gpu::Shader> shader = gpu::make_shader(name, scene_shaders(name));
+        Result<gpu::Shader> shader = take_shader(name, options_.shaders);
         if (!shader) return fail(shader.error());
         shaders_.insert_or_assign(name, std::move(*shader));
     }

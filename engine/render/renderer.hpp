@@ -16,6 +16,7 @@
 // not found.
 #pragma once
 
+#include "engine/render/hot_shaders.hpp"
 #include "engine/render/passes/light.hpp"
 #include "engine/render/passes/occlusion.hpp"
 #include "engine/render/passes/outline.hpp"
@@ -27,6 +28,7 @@ namespace bolt::render {
 struct RendererOptions {
     std::uint32_t shadow_size = 2048;
     std::filesystem::path pipeline_cache;  // empty: none on disk
+    ShaderCode shaders;                    // instead of those built in
     enum class Multiview : std::uint8_t {
         where_it_works,
         always,

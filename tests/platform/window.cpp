@@ -75,6 +75,7 @@ TEST_CASE("keys, buttons, cursor, wheel and the wish to close arrive in order, w
     hand.press(40, 50);
     hand.move(60, 45);
     hand.release(60, 45);
+    hand.move(10, 20);
     hand.press(10, 20, 3);
     hand.press(60, 45, 4);
     hand.press(60, 45, 5);
@@ -83,15 +84,19 @@ TEST_CASE("keys, buttons, cursor, wheel and the wish to close arrive in order, w
     for (int i = 0; i < 100 && (events.empty() || !std::holds_alternative<CloseEvent>(events.back())); ++i)
         for (Event& event : open.window->wait_for_events(0.1))
             if (!std::holds_alternative<KeyEvent>(event)) events.push_back(event);
-    REQUIRE(events.size() == 8);
+    REQUIRE(events.size() == 9);
     CHECK(std::get<CursorEvent>(events[0]).at == glm::dvec2(40, 50));
     CHECK(std::get<ButtonEvent>(events[1]).button == Button::left);
     CHECK(std::get<ButtonEvent>(events[1]).down);
+    CHECK(std::get<ButtonEvent>(events[1]).at == glm::dvec2(40, 50));  // where it was then
     CHECK(std::get<CursorEvent>(events[2]).at == glm::dvec2(60, 45));
     CHECK_FALSE(std::get<ButtonEvent>(events[3]).down);
-    CHECK(std::get<ButtonEvent>(events[4]).button == Button::right);
-    CHECK(std::get<WheelEvent>(events[5]).by.y == 1.0);
-    CHECK(std::get<WheelEvent>(events[6]).by.y == -1.0);
+    CHECK(std::get<ButtonEvent>(events[3]).at == glm::dvec2(60, 45));
+    CHECK(std::get<ButtonEvent>(events[5]).button == Button::right);
+    CHECK(std::get<ButtonEvent>(events[5]).at == glm::dvec2(10, 20));
+    CHECK(std::get<WheelEvent>(events[6]).by.y == 1.0);
+    CHECK(std::get<WheelEvent>(events[7]).by.y == -1.0);
+    CHECK(std::get<WheelEvent>(events[7]).at == glm::dvec2(10, 20));
 }
 
 TEST_CASE("a window has the size that was asked for, tells a new one, and its scale") {

@@ -10,6 +10,7 @@ namespace bolt::author {
 
 void add_new(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
+void add_preview(CLI::App& app, int& exit_code);
 void add_curve(CLI::App& app, int& exit_code);
 void add_torque(CLI::App& app, int& exit_code);
 

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     bolt::author::add_new(app, exit_code);
     bolt::author::add_validate(app, exit_code);
+    bolt::author::add_preview(app, exit_code);
     bolt::author::add_import_step(app, exit_code);
     bolt::author::add_curve(app, exit_code);
     bolt::author::add_torque(app, exit_code);

@@ -1,0 +1,164 @@
+#include "engine/render/hot_shaders.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <span>
+#include <sstream>
+
+#include "engine/base/file.hpp"
+#include "engine/base/process.hpp"
+
+std::span<const std::uint32_t> scene_shaders(std::string_view name);
+
+namespace bolt::render {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* compiler = "glslangValidator";
+constexpr std::size_t largest_file = std::size_t{64} << 20;
+
+// The names after the colon of a rule of make; a space within a name has a backslash before it.
+std::set<fs::path> files_of_rule(const std::string& rule) {
+    std::set<fs::path> files;
+    std::string name;
+    for (std::size_t i = rule.find(": ") + 1; i < rule.size(); ++i) {
+        const bool escaped = rule[i] == '\\' && i + 1 < rule.size() && rule[i + 1] == ' ';
+        if (escaped) ++i;
+        if (escaped || (rule[i] != ' ' && rule[i] != '\n')) {
+            name += rule[i];
+        } else if (!name.empty()) {
+            files.insert(std::exchange(name, {}));
+        }
+    }
+    if (!name.empty()) files.insert(name);
+    return files;
+}
+
+}  // namespace
+
+Result<gpu::Shader> take_shader(const std::string& name, const ShaderCode& instead) {
+    Result<gpu::Shader> built_in = gpu::make_shader(name, scene_shaders(name));
+    const auto given = instead.find(name);
+    if (!built_in || given == instead.end()) return built_in;
+    Result<gpu::Shader> shader = gpu::make_shader(name, given->second);
+    if (!shader) return shader;
+    std::vector<gpu::Binding>& bindings = shader->reflection.bindings;
+    for (const gpu::Binding& usual : built_in->reflection.bindings) {
+        const bool used = std::any_of(bindings.begin(), bindings.end(), [&](const gpu::Binding& binding) {
+            return binding.set == usual.set && binding.binding == usual.binding;
+        });
+        if (!used) bindings.push_back(usual);
+    }
+    return shader;
+}
+
+Result<HotShaders> HotShaders::open(const fs::path& given) {
+    std::error_code problem;
+    const fs::path folder = fs::canonical(given, problem);
+    if (problem || !fs::is_directory(folder))
+        return fail(ErrorCode::usage, fmt::format("{} is no folder with shaders", given.string()));
+    if (folder.filename() != "shaders")
+        return fail(ErrorCode::usage, fmt::format("{} is not called \"shaders\"", given.string()),
+                    "that name: by it the files include each other");
+    HotShaders hot;
+    hot.folder_ = folder;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
+        std::string name = entry.path().filename().string();
+        if (!scene_shaders(name).empty()) hot.waiting_.insert(std::move(name));
+    }
+    if (hot.waiting_.empty())
+        return fail(ErrorCode::usage, fmt::format("{} holds none of the renderer's shaders", given.string()),
+                    "scene.vert, scene.frag and the others");
+    if (const auto found = run_program({compiler, "--version"}, Hear::output_and_errors); !found)
+        return fail(ErrorCode::failed, found.error().what, "expected the package glslang-tools");
+    std::string pattern = (fs::temp_directory_path() / "boltwright-shaders-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr)
+        return fail(ErrorCode::failed, fmt::format("no folder for the compiler can be made: {}", pattern));
+    hot.work_ = pattern;
+    hot.watch();
+    return hot;
+}
+
+HotShaders& HotShaders::operator=(HotShaders&& other) noexcept {
+    std::swap(folder_, other.folder_);
+    std::swap(work_, other.work_);
+    std::swap(code_, other.code_);
+    std::swap(read_, other.read_);
+    std::swap(waiting_, other.waiting_);
+    std::swap(watch_, other.watch_);
+    return *this;
+}
+
+HotShaders::~HotShaders() {
+    std::error_code ignored;
+    if (!work_.empty()) fs::remove_all(work_, ignored);
+}
+
+// The folder, and what the shaders include from elsewhere.
+void HotShaders::watch() {
+    std::vector<fs::path> files;
+    std::error_code problem;
+    for (auto entry = fs::directory_iterator(folder_, problem); !problem && entry != fs::directory_iterator();
+         entry.increment(problem))
+        files.push_back(entry->path());
+    for (const auto& [name, read] : read_) files.insert(files.end(), read.begin(), read.end());
+    watch_.watch(std::move(files));
+}
+
+Status HotShaders::compile(const std::string& name) {
+    const fs::path spirv = work_ / (name + ".spv"), rule = work_ / (name + ".d");
+    std::vector<std::string> command{compiler};
+    std::istringstream flags(BOLT_GLSL_FLAGS);  // as the build has them
+    for (std::string flag; flags >> flag;) command.push_back(flag);
+    for (const std::string& word :
+         {"-I" + folder_.parent_path().string(), std::string("--depfile"), rule.string(), std::string("-o"),
+          spirv.string(), (folder_ / name).string()})
+        command.push_back(word);
+    const Result<Finished> run = run_program(command, Hear::output_and_errors);
+    if (!run) return fail(run.error());
+    if (run->exit_code != 0) return fail(ErrorCode::bad_content, run->said);
+    const Result<std::string> bytes = read_file(spirv, largest_file, ErrorCode::failed);
+    if (!bytes) return fail(bytes.error());
+    std::vector<std::uint32_t> words(bytes->size() / sizeof(std::uint32_t));
+    std::memcpy(words.data(), bytes->data(), words.size() * sizeof(std::uint32_t));
+    code_[name] = std::move(words);
+    const Result<std::string> read = read_file(rule, largest_file, ErrorCode::failed);
+    if (!read) return fail(read.error());
+    read_[name] = files_of_rule(*read);
+    read_[name].insert(folder_ / name);
+    return {};
+}
+
+std::optional<Result<ShaderCode>> HotShaders::changed(double now) {
+    const bool first = code_.empty() && !waiting_.empty() && read_.empty();
+    const std::vector<fs::path> files = watch_.changed(now);
+    if (files.empty() && !first) return {};
+    for (const auto& [name, read] : read_)
+        if (std::any_of(files.begin(), files.end(),
+                        [&](const fs::path& file) { return read.contains(file); }))
+            waiting_.insert(name);
+    std::string said;
+    std::set<std::string> failed;
+    for (const std::string& name : waiting_) {
+        const Status compiled = compile(name);
+        if (compiled) continue;
+        failed.insert(name);
+        read_[name].insert(folder_ / name);
+        said += compiled.error().what;
+    }
+    waiting_ = std::move(failed);
+    watch();
+    if (waiting_.empty()) return Result<ShaderCode>(code_);
+    while (!said.empty() && said.back() == '\n') said.pop_back();
+    return Result<ShaderCode>(
+        fail(ErrorCode::bad_content,
+             fmt::format("{} of the shaders: {}\n{}", waiting_.size(), fmt::join(waiting_, ", "), said)));
+}
+
+}  // namespace bolt::render

@@ -1,0 +1,83 @@
+#include "tools/author/preview/hands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace bolt::author {
+
+namespace {
+
+using namespace platform;
+
+constexpr std::size_t view_keys = 9;
+
+void press(Key key, Wishes& wishes) {
+    switch (key) {
+        case Key::escape:
+            wishes.close = true;
+            break;
+        case Key::f11:
+            wishes.full_screen = true;
+            break;
+        case Key::r:
+            wishes.reload = true;
+            break;
+        case Key::f:
+            wishes.all = true;
+            break;
+        case Key::l:
+            wishes.other_level = true;
+            break;
+        default:
+            if (key >= Key::digit_1 && key <= Key::digit_9)
+                wishes.view = static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::digit_1);
+    }
+}
+
+}  // namespace
+
+Wishes Hands::apply(std::span<const Event> events, double height, double aspect, view::Orbit& camera,
+                    const render::Box& box) {
+    Wishes wishes;
+    for (const Event& event : events) {
+        if (const auto* key = std::get_if<KeyEvent>(&event)) {
+            const Modifiers& m = key->modifiers;
+            if (key->down && !key->repeated && !m.control && !m.alt && !m.super) press(key->key, wishes);
+        } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
+            cursor_ = button->at;
+            // A second button while one is held changes nothing.
+            if (button->down && drag_ == Drag::none && button->button != Button::other) {
+                drag_ = button->button == Button::left ? Drag::turn : Drag::pan;
+                held_ = button->button;
+            } else if (!button->down && button->button == held_) {
+                drag_ = Drag::none;
+                held_ = Button::other;
+            }
+        } else if (const auto* cursor = std::get_if<CursorEvent>(&event)) {
+            const glm::dvec2 way = (cursor->at - cursor_) / height;
+            cursor_ = cursor->at;
+            if (drag_ == Drag::turn) view::turn(camera, {way.x, -way.y});
+            if (drag_ == Drag::pan) view::pan(camera, {way.x, -way.y});
+        } else if (const auto* wheel = std::get_if<WheelEvent>(&event)) {
+            const glm::dvec2 at(wheel->at.x / height - 0.5 * aspect, 0.5 - wheel->at.y / height);
+            view::zoom(camera, wheel->by.y, at, box);
+        } else if (const auto* focus = std::get_if<FocusEvent>(&event)) {
+            if (!focus->here) drag_ = Drag::none;  // the button may be let go elsewhere
+        } else if (std::holds_alternative<CloseEvent>(event)) {
+            wishes.close = true;
+        } else {
+            wishes.redraw = true;  // another size, or the picture was lost
+        }
+    }
+    return wishes;
+}
+
+std::string help(const std::vector<view::Viewpoint>& views) {
+    std::string text = "Left drag: turn. Right or middle drag: move. Wheel: nearer. F: all.";
+    for (std::size_t i = 0; i < std::min(views.size(), view_keys); ++i)
+        text += fmt::format(" {}: {}.", i + 1, views[i].name);
+    return text + " L: far level. R: read again. F11: full screen. Esc: close.\n";
+}
+
+}  // namespace bolt::author
