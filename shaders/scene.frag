@@ -42,7 +42,7 @@ void main() {
     }
     if (has(SCENE_CUT)) {
         const float gone = faded(at);
-        if (gone == 0.0) discard;  // there it is a surface like any other
+        if (has(SCENE_CUT_REST) && gone == 0.0) discard;
         opacity *= 1.0 - gone;
     }
     color_out = vec4(color, 1.0) * opacity;

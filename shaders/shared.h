@@ -100,6 +100,7 @@ struct Material {
 #define SCENE_OCCLUSION 8192u // ambient occlusion on the screen
 #define SCENE_WIDE 16384u     // maps or colours of its own: more than a material's numbers
 #define SCENE_CUT 32768u      // fades where it hides what is to be seen
+#define SCENE_CUT_REST 1048576u // only what has faded in part; elsewhere it is a surface like any other
 #define SCENE_LIGHTS_SHIFT 16u // the number of lights, four bits
 
 #ifdef __cplusplus

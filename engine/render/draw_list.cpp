@@ -153,8 +153,12 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
             if (object.cut && scene.cut_away.strength > 0.0F && hides(box, scene.cut_away, eyes)) {
                 // What stays of it is a surface as ever, what fades is blended.
                 item.kind.features |= SCENE_CUT;
-                if (!kind.forward) items.push_back(item);
+                if (!kind.forward) {
+                    items.push_back(item);
+                    item.kind.features |= SCENE_CUT_REST;
+                }
                 item.kind.blends = item.kind.forward = true;
+                item.kind.ghost = false;  // what is gone hides nothing
                 item.kind.features &= ~SCENE_WIDE;
                 item.outlined = item.outlined && kind.forward;
             }

@@ -46,6 +46,7 @@ void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, 
         object.model = &gpu_model;
         object.mesh = static_cast<std::uint32_t>(model.nodes[node].mesh);
         object.world = world * transforms[node];
+        object.node = static_cast<int>(node);
         scene.objects.push_back(object);
     });
 }

@@ -18,6 +18,7 @@ struct Object {
     bool moves = false;       // drawn into the shadow map anew each frame
     bool cut = false;         // fades where it hides what the scene's cut-away wants to be seen
     glm::vec4 outline{0.0F};  // a line around it, through whatever hides it; w: its opacity
+    int node = -1;            // of the model that it came from; for those who look for it
 };
 
 // What must be seen: between it and the eye, objects that allow it fade.

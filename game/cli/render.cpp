@@ -13,6 +13,7 @@
 #include "engine/base/math.hpp"
 #include "engine/render/picture.hpp"
 #include "game/cli/commands.hpp"
+#include "game/view/marks.hpp"
 #include "game/view/painter.hpp"
 #include "game/view/picture_file.hpp"
 #include "game/view/size.hpp"
@@ -25,6 +26,7 @@ namespace {
 struct RenderOptions {
     std::string what, png = "out/render.png", timings, light = "studio", gpu;
     std::vector<std::string> views;
+    view::Marks marks;
     std::string eye, target, size = "1280x720";
     double fov_deg = 35.0, level_error_px = 0.0;
     int frames = 1;
@@ -130,6 +132,7 @@ Status render_all(const RenderOptions& options) {
     const auto stage =
         view::set_stage(device, subject.subject, *light, {!options.no_key, options.level_error_px > 0.0});
     if (!stage) return fail(stage.error());
+    if (Status marked = view::mark(**stage, subject.subject, options.marks); !marked) return marked;
 
     const float aspect = static_cast<float>(extent->width) / static_cast<float>(extent->height);
     const auto views = viewpoints(options, subject.subject, (*stage)->box, aspect);
@@ -187,6 +190,9 @@ void add_render(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0.0, 100.0));
     command->add_option("--frames", options->frames, "Draw it this often")->check(CLI::Range(1, 100000));
     command->add_option("--timings", options->timings, "Write the frames' times to this JSON file");
+    command->add_option("--outline", options->marks.outlined, "Node that gets a line around it");
+    command->add_option("--ghost", options->marks.ghosts, "Node that is drawn transparent");
+    command->add_option("--see", options->marks.seen, "Node that is seen: what hides it fades");
     command->add_option("--light", options->light, "studio, or a Radiance .hdr file");
     command->add_flag("--no-key", options->no_key, "Without the lamp that is added to a model that has none");
     command->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");

@@ -65,7 +65,7 @@ TEST_CASE("what the compiler makes at run time draws the same as what was built 
     const auto code = hot.changed(now);
     REQUIRE(code.has_value());
     REQUIRE_MESSAGE(code->has_value(), code->error().what);
-    CHECK((**code).size() == 9);
+    CHECK((**code).size() == 13);
     CHECK(ball(**code).rgba == ball({}).rgba);
     CHECK_FALSE(later(hot, now).has_value());
 }
@@ -98,11 +98,11 @@ TEST_CASE("a change is compiled, in what is included too; a mistake is told and 
     REQUIRE(same->has_value());
     CHECK((**same).at("shadow.vert") == first.at("shadow.vert"));
 
-    copy.replace("scene.frag", "void main() {", "void main() { color_out = vec4(1, 0, 0, 1); return;");
+    copy.replace("light.frag", "void main() {", "void main() { color_out = vec4(1, 0, 0, 1); return;");
     const auto red = later(hot, now);
     REQUIRE(red.has_value());
     REQUIRE_MESSAGE(red->has_value(), red->error().what);
-    CHECK((**red).at("scene.frag") != first.at("scene.frag"));
+    CHECK((**red).at("light.frag") != first.at("light.frag"));
     CHECK(test::pixel(ball(**red), 16, 16) == glm::ivec4(255, 0, 0, 255));
 }
 

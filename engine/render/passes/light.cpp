@@ -178,7 +178,7 @@ Status LightPass::draw_forward(PassContext& context, const DrawList& list, const
     const CutAway& cut = context.scene.cut_away;
     const Box around{cut.focus - cut.radius, cut.focus + cut.radius};
     const VkRect2D all{{0, 0}, context.extent}, end = area_of(context, {&around, 1}, 1.0F);
-    drawing.area = [&](const Kind& kind) { return (kind.features & SCENE_CUT) != 0 ? end : all; };
+    drawing.area = [&](const Kind& kind) { return (kind.features & SCENE_CUT_REST) != 0 ? end : all; };
     drawing.wanted = [](const Kind& kind) { return kind.forward; };
     drawing.pipeline = [&](const Kind& kind) {
         return forward_pipeline(context.device, kind, context.views);

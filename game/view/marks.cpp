@@ -1,0 +1,78 @@
+#include "game/view/marks.hpp"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "engine/base/nearest.hpp"
+
+namespace bolt::view {
+
+namespace {
+
+constexpr glm::vec4 outline_color{1.0F, 0.78F, 0.1F, 1.0F};
+constexpr float ghost_opacity = 0.35F;
+constexpr float free_radius = 0.65F;  // of the seen part's diagonal
+
+// The nodes of that name and all below them.
+Result<std::set<int>> nodes_of(const assets::Model& model, const std::string& name) {
+    std::vector<int> waiting;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        if (model.nodes[i].name == name) waiting.push_back(static_cast<int>(i));
+        if (!model.nodes[i].name.empty()) names.push_back(model.nodes[i].name);
+    }
+    if (waiting.empty()) {
+        const std::string near = nearest(name, names);
+        return fail(
+            ErrorCode::usage, fmt::format("the model has no node \"{}\"", name),
+            near.empty() ? fmt::format("one of its {} nodes", names.size()) : fmt::format("\"{}\"", near));
+    }
+    std::set<int> nodes;
+    while (!waiting.empty()) {
+        const int node = waiting.back();
+        waiting.pop_back();
+        if (!nodes.insert(node).second) continue;
+        const std::vector<int>& children = model.nodes[static_cast<std::size_t>(node)].children;
+        waiting.insert(waiting.end(), children.begin(), children.end());
+    }
+    return nodes;
+}
+
+template <class Do>
+Status each(Stage& stage, const Subject& subject, const std::string& name, const Do& what) {
+    const Result<std::set<int>> nodes = nodes_of(subject.model, name);
+    if (!nodes) return fail(nodes.error());
+    for (render::Object& object : stage.scene.objects)
+        if (nodes->contains(object.node)) what(object);
+    return {};
+}
+
+}  // namespace
+
+Status mark(Stage& stage, const Subject& subject, const Marks& marks) {
+    for (const std::string& name : marks.outlined)
+        if (Status s = each(stage, subject, name, [](render::Object& o) { o.outline = outline_color; }); !s)
+            return s;
+    for (const std::string& name : marks.ghosts)
+        if (Status s = each(stage, subject, name, [](render::Object& o) { o.opacity = ghost_opacity; }); !s)
+            return s;
+    if (marks.seen.empty()) return {};
+    for (render::Object& object : stage.scene.objects) object.cut = true;
+    render::Scene seen;
+    const Status found = each(stage, subject, marks.seen, [&](render::Object& object) {
+        object.cut = false;
+        seen.objects.push_back(object);
+    });
+    if (!found) return found;
+    if (seen.objects.empty())
+        return fail(ErrorCode::usage, fmt::format("there is nothing to see at the node \"{}\"", marks.seen),
+                    "a node with a mesh");
+    const render::Box box = render::bounds(seen);
+    stage.scene.cut_away = {0.5F * (box.low + box.high), free_radius * glm::distance(box.low, box.high),
+                            1.0F};
+    return {};
+}
+
+}  // namespace bolt::view
