@@ -180,12 +180,12 @@ check "... and the old one stays" shows lit.png
 cp "$sources/content/environments/workshop.hdr" light.hdr
 says_well() { [[ $(title) == 'cover-m8 - bolt-author preview' ]]; }
 check "mended" within says_well
-sed -i 's/^void main() {/void main() { nonsense;/' shaders/scene.frag
-says_shader() { [[ $(title) == *"broken: "*scene.frag* ]]; }
+sed -i 's/^void main() {/void main() { nonsense;/' shaders/light.frag
+says_shader() { [[ $(title) == *"broken: "*light.frag* ]]; }
 check "a shader that does not compile is told" within says_shader
 check "... by the compiler's words" grep -q "'nonsense' : undeclared identifier" said
 check "... and the old one stays" shows lit.png
-sed -i 's/^void main() { nonsense;/void main() { color_out = vec4(1, 0, 0, 1); return;/' shaders/scene.frag
+sed -i 's/^void main() { nonsense;/void main() { color_out = vec4(1, 0, 0, 1); return;/' shaders/light.frag
 is_red() {
     shoot now.png && "$bin/bolt-imagediff" red.png now.png --most-flip 0.004 >/dev/null 2>&1
 }

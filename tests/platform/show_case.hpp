@@ -7,7 +7,7 @@
 
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/window.hpp"
-#include "tests/platform/screen.hpp"
+#include "tests/support/screen_picture.hpp"
 
 namespace bolt::test {
 

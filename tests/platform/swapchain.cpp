@@ -17,7 +17,7 @@ constexpr Color red{200, 30, 10}, green{20, 180, 40}, blue{0, 60, 250};
 // The X server draws when it gets to it: what counts is that it does.
 bool comes_to_be(const Color& color, std::uint32_t x, std::uint32_t y) {
     for (int i = 0; i < 500; ++i) {
-        if (test::look_at_screen().at(x, y) == color) return true;
+        if (test::need(test::look_at_screen()).at(x, y) == color) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return false;

@@ -8,7 +8,8 @@
 #include <optional>
 
 #include "engine/platform/keys.hpp"
-#include "tests/platform/screen.hpp"
+#include "tests/platform/hand.hpp"
+#include "tests/support/screen_picture.hpp"
 
 using namespace bolt;
 using namespace bolt::platform;
@@ -123,7 +124,9 @@ TEST_CASE("full screen takes the display and gives it back: the window is where 
     Open open("whole");
     const test::Hand hand("whole");
     const test::Hand::Place before = hand.place();
-    const test::ScreenPicture screen = test::look_at_screen();
+    const auto seen = test::look_at_screen();
+    REQUIRE(seen.has_value());
+    const test::ScreenPicture& screen = *seen;
     for (int round = 0; round < 2; ++round) {
         open.window->set_full_screen(true);
         CHECK(open.window->full_screen());

@@ -20,9 +20,11 @@ struct Copy {
     fs::path folder = root / "shaders";
 
     Copy() {
+        const char* content = std::getenv("BOLTWRIGHT_CONTENT");
+        REQUIRE(content != nullptr);
         fs::remove_all(root);
         fs::create_directories(root);
-        fs::copy(fs::path(std::getenv("BOLTWRIGHT_CONTENT")).parent_path() / "shaders", folder);
+        fs::copy(fs::path(content).parent_path() / "shaders", folder);
     }
     ~Copy() { fs::remove_all(root); }
 
@@ -65,7 +67,7 @@ TEST_CASE("what the compiler makes at run time draws the same as what was built 
     const auto code = hot.changed(now);
     REQUIRE(code.has_value());
     REQUIRE_MESSAGE(code->has_value(), code->error().what);
-    CHECK((**code).size() == 13);
+    CHECK((**code).contains("light.frag"));
     CHECK(ball(**code).rgba == ball({}).rgba);
     CHECK_FALSE(later(hot, now).has_value());
 }

@@ -42,8 +42,9 @@ TEST_CASE("an assembly is its model with the views of its file; the far level is
 }
 
 TEST_CASE("a bare model has no views; what is not there is an error of the content") {
-    const fs::path content = std::getenv("BOLTWRIGHT_CONTENT");
-    const LoadedSubject wrench = load_subject((content / "tools/wrench-13.glb").string());
+    const char* content = std::getenv("BOLTWRIGHT_CONTENT");
+    REQUIRE(content != nullptr);
+    const LoadedSubject wrench = load_subject((fs::path(content) / "tools/wrench-13.glb").string());
     REQUIRE(wrench.ok());
     CHECK(wrench.subject.bare);
     CHECK(wrench.subject.name == "wrench-13.glb");

@@ -1,25 +1,10 @@
-// The screen that a test runs on: what it shows, and hands that use it. Tests run under tests/with_screen.sh.
+// Hands at a window of a test's screen.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace bolt::test {
-
-// What the X server shows, read from where Xvfb keeps it.
-struct ScreenPicture {
-    std::uint32_t width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;
-
-    [[nodiscard]] std::array<int, 3> at(std::uint32_t x, std::uint32_t y) const {
-        const std::uint8_t* p = rgba.data() + 4 * (std::size_t{y} * width + x);
-        return {p[0], p[1], p[2]};
-    }
-};
-ScreenPicture look_at_screen();
 
 // Somebody who uses the window with this title: sends what the X server would.
 class Hand {

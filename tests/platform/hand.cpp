@@ -1,4 +1,4 @@
-#include "tests/platform/screen.hpp"
+#include "tests/platform/hand.hpp"
 
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
@@ -9,37 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-
 namespace bolt::test {
-
-ScreenPicture look_at_screen() {
-    const char* file = std::getenv("BOLT_SCREEN");
-    REQUIRE_MESSAGE(file != nullptr, "these tests run under tests/with_screen.sh");
-    std::ifstream stream(file, std::ios::binary);
-    const std::string xwd((std::istreambuf_iterator<char>(stream)), {});
-    // X11/XWDFile.h: numbers of 32 bits, highest byte first; then a table of colours, then the rows.
-    const auto number = [&](std::size_t index) {
-        std::uint32_t value = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            value = value << 8 | static_cast<unsigned char>(xwd[4 * index + i]);
-        return std::size_t{value};
-    };
-    REQUIRE(xwd.size() > 100);
-    REQUIRE(number(11) == 32);  // bits a pixel
-    REQUIRE(number(7) == 0);    // lowest byte first
-    ScreenPicture picture{static_cast<std::uint32_t>(number(4)), static_cast<std::uint32_t>(number(5)), {}};
-    const std::size_t first = number(0) + 12 * number(19), row = number(12);
-    for (std::size_t y = 0; y < picture.height; ++y)
-        for (std::size_t x = 0; x < picture.width; ++x) {
-            const char* p = xwd.data() + first + y * row + 4 * x;
-            for (const int channel : {2, 1, 0}) picture.rgba.push_back(static_cast<std::uint8_t>(p[channel]));
-            picture.rgba.push_back(255);
-        }
-    return picture;
-}
 
 struct Hand::X {
     Display* display = XOpenDisplay(nullptr);
