@@ -9,7 +9,9 @@ Xvfb -displayfd 3 -screen 0 1280x800x24 -fbdir "$folder" -nolisten tcp -noreset 
 server=$!
 trap 'kill $server 2>/dev/null; wait $server 2>/dev/null; rm -rf "$folder"' EXIT
 exec 4<>"$folder/number"
-if ! read -r -t 60 number <&4; then
+number=
+while [[ -z $number ]] && kill -0 $server 2>/dev/null; do read -r -t 1 number <&4; done
+if [[ -z $number ]]; then
     echo "Xvfb does not start:" >&2
     cat "$folder/log" >&2
     exit 1

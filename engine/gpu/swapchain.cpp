@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/gpu/barrier.hpp"
+#include "engine/gpu/listed.hpp"
 
 namespace bolt::gpu {
 
@@ -14,20 +15,6 @@ constexpr std::uint32_t most_losses = 3;             // in a row
 
 bool same(VkExtent2D a, VkExtent2D b) { return a.width == b.width && a.height == b.height; }
 bool empty(VkExtent2D extent) { return extent.width == 0 || extent.height == 0; }
-
-// The list that a Vulkan function gives when it is called twice.
-template <class T, class Ask>
-VkResult listed(std::vector<T>& values, const Ask& ask) {
-    VkResult result = VK_INCOMPLETE;
-    while (result == VK_INCOMPLETE) {  // it may have grown between the calls
-        std::uint32_t count = 0;
-        result = ask(&count, nullptr);
-        values.resize(count);
-        if (result == VK_SUCCESS && count > 0) result = ask(&count, values.data());
-        values.resize(count);
-    }
-    return result;
-}
 
 Result<Semaphore> make_semaphore(const Device& device) {
     const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
@@ -86,21 +73,6 @@ Result<bool> Swapchain::judge(VkResult result, std::string_view what) {
     return true;
 }
 
-VkResult Swapchain::ask(SurfaceOffer& offer) const {
-    const VkPhysicalDevice gpu = device_->physical();
-    const VkSurfaceKHR surface = surface_.get();
-    VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu, surface, &offer.capabilities);
-    if (result == VK_SUCCESS)
-        result = listed(offer.formats, [&](std::uint32_t* count, VkSurfaceFormatKHR* formats) {
-            return vkGetPhysicalDeviceSurfaceFormatsKHR(gpu, surface, count, formats);
-        });
-    if (result == VK_SUCCESS)
-        result = listed(offer.modes, [&](std::uint32_t* count, VkPresentModeKHR* modes) {
-            return vkGetPhysicalDeviceSurfacePresentModesKHR(gpu, surface, count, modes);
-        });
-    return result;
-}
-
 Status Swapchain::replace_surface() {
     if (Status idle = device_->idle(); !idle) return idle;
     images_.clear();
@@ -123,7 +95,9 @@ Status Swapchain::replace_surface() {
 // False: the surface is gone.
 Result<bool> Swapchain::remake(VkExtent2D window) {
     SurfaceOffer offer;
-    if (Result<bool> asked = judge(ask(offer), "asking what the window can show"); !asked || !*asked)
+    if (Result<bool> asked =
+            judge(ask_surface(device_->physical(), surface_.get(), offer), "asking what the window can show");
+        !asked || !*asked)
         return asked;
     Result<SwapchainPlan> plan = plan_swapchain(offer, {window, options_.may_tear, frames_in_flight});
     if (!plan) return fail(plan.error());

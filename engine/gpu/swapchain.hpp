@@ -46,7 +46,6 @@ class Swapchain {
   private:
     Swapchain() = default;
 
-    VkResult ask(SurfaceOffer& offer) const;
     Status replace_surface();
     Result<bool> remake(VkExtent2D window);
     void copy(VkCommandBuffer commands, VkImage to, const Image& picture, std::uint32_t layer) const;

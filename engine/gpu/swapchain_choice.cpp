@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "engine/gpu/listed.hpp"
+
 namespace bolt::gpu {
 
 namespace {
@@ -78,6 +80,19 @@ void choose_extent(const VkSurfaceCapabilitiesKHR& can, const SwapchainWish& wis
 }
 
 }  // namespace
+
+VkResult ask_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceOffer& offer) {
+    VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu, surface, &offer.capabilities);
+    if (result == VK_SUCCESS)
+        result = listed(offer.formats, [&](std::uint32_t* count, VkSurfaceFormatKHR* formats) {
+            return vkGetPhysicalDeviceSurfaceFormatsKHR(gpu, surface, count, formats);
+        });
+    if (result == VK_SUCCESS)
+        result = listed(offer.modes, [&](std::uint32_t* count, VkPresentModeKHR* modes) {
+            return vkGetPhysicalDeviceSurfacePresentModesKHR(gpu, surface, count, modes);
+        });
+    return result;
+}
 
 Result<SwapchainPlan> plan_swapchain(const SurfaceOffer& offer, const SwapchainWish& wish) {
     SwapchainPlan plan;

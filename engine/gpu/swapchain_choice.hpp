@@ -1,5 +1,5 @@
-// How pictures get to a surface, and why so: a pure function over what the surface can, so that it can be
-// tested without one.
+// How pictures get to a surface, and why so: what the surface can, and a pure function over that, so that it
+// can be tested without one.
 #pragma once
 
 #include <optional>
@@ -17,6 +17,9 @@ struct SurfaceOffer {
     std::vector<VkSurfaceFormatKHR> formats;
     std::vector<VkPresentModeKHR> modes;
 };
+
+// Asks for it.
+VkResult ask_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceOffer& offer);
 
 struct SwapchainWish {
     VkExtent2D window{};          // pixels; used where the surface leaves the size to us

@@ -167,6 +167,7 @@ Window::~Window() = default;
 Result<Window> Window::open(const Desktop&, const WindowOptions& options) {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
     auto state = std::make_unique<State>();
     state->window = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height),
                                      options.title.c_str(), nullptr, nullptr);

@@ -37,6 +37,7 @@ struct WindowOptions {
     std::string title = "Boltwright";
     std::uint32_t width = 1280, height = 720;  // in the units of the desktop
     bool full_screen = false;
+    bool hidden = false;  // to ask what it could show
 };
 
 struct Size {

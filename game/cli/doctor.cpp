@@ -1,15 +1,49 @@
 // boltwright doctor: what this machine has, and what of it would be used.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 
 #include "engine/base/console.hpp"
 #include "engine/gpu/device.hpp"
+#include "engine/gpu/swapchain_choice.hpp"
+#include "engine/platform/pace.hpp"
+#include "engine/platform/window.hpp"
 #include "game/cli/commands.hpp"
 
 namespace bolt::cli {
 
 namespace {
+
+// What a window would show, and on what; or why there would be none.
+Result<std::string> examine_windows() {
+    Result<platform::Desktop> desktop = platform::Desktop::open();
+    if (!desktop) return fail(desktop.error());
+    platform::WindowOptions options;
+    options.hidden = true;
+    Result<platform::Window> window = platform::Window::open(*desktop, options);
+    if (!window) return fail(window.error());
+    const auto extensions = desktop->vulkan_extensions();
+    if (!extensions) return fail(extensions.error());
+    const Result<gpu::Instance> instance = gpu::Instance::create({false, *extensions});
+    if (!instance) return fail(instance.error());
+    const Result<gpu::Surface> surface = window->make_surface(*instance);
+    if (!surface) return fail(surface.error());
+    const Result<gpu::Survey> found = gpu::survey(*instance, {"", surface->get()});
+    if (!found) return fail(found.error());
+    if (found->choice.index < 0) return fail(ErrorCode::no_device, "no GPU can show on this display");
+    const auto index = static_cast<std::size_t>(found->choice.index);
+    gpu::SurfaceOffer offer;
+    const VkResult asked = gpu::ask_surface(found->physical[index], surface->get(), offer);
+    if (Status ok = gpu::check(asked, "asking what a window can show"); !ok) return fail(ok.error());
+    const Result<gpu::SwapchainPlan> plan = gpu::plan_swapchain(offer, {{1, 1}});
+    if (!plan) return fail(plan.error());
+    return fmt::format("  drawn by {}\n  {}\n  {:.0f} pictures a second{}, scale {:.2f}\n",
+                       found->candidates[index].name, fmt::join(plan->reasons, "\n  "),
+                       1.0 / platform::period_of(window->refresh()),
+                       window->refresh() > 0.0 ? "" : " (the display does not tell)",
+                       static_cast<double>(window->content_scale()));
+}
 
 Status examine() {
     Result<gpu::Instance> instance = gpu::Instance::create({});
@@ -23,6 +57,8 @@ Status examine() {
     text +=
         fmt::format("Validation layers: {}\n",
                     gpu::Instance::create(validated) ? "installed" : "not installed (only tests need them)");
+    const Result<std::string> windows = examine_windows();
+    text += "Windows:\n" + (windows ? *windows : fmt::format("  none: {}\n", windows.error().message()));
     if (Status said = say(text); !said) return said;
     if (found->choice.index < 0)
         return fail(ErrorCode::no_device, "no Vulkan device can be used",

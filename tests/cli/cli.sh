@@ -120,6 +120,7 @@ expect 0 'score' "$bin/boltwright" train locking --headless --quiet --out locked
 # Pictures without a display, under validation: any message of the layers is an error. Drivers leak: not ours to tell.
 draw=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright")
 expect 0 ': used' "${draw[@]}" doctor
+expect 0 'none: there is no desktop.*DISPLAY' env -u DISPLAY -u WAYLAND_DISPLAY "${draw[@]}" doctor
 expect 0 'pictures/cover-front.png' "${draw[@]}" render cover-m8 --view top --view front --size 96x64 --validate \
     --png pictures/cover.png
 check "a picture for each view" test -s pictures/cover-top.png -a -s pictures/cover-front.png

@@ -64,9 +64,12 @@ settle() {
     return 1
 }
 ends_well() {
+    local i status
     xdotool key Escape
+    for ((i = 0; i < 600; i++)); do kill -0 $preview 2>/dev/null || break; sleep 0.2; done
+    kill $preview 2>/dev/null
     wait $preview
-    local status=$?
+    status=$?
     preview=
     [[ $status -eq 0 ]] || { echo "exit $status"; cat said; return 1; }
 }
@@ -87,6 +90,9 @@ expect 2 'not called "shaders"' "$bin/bolt-author" preview cover-m8 --shaders "$
 expect 3 'nowhere.glb' "$bin/bolt-author" preview nowhere.glb
 expect 4 'not the one asked for' "$bin/bolt-author" preview cover-m8 --gpu voodoo
 check "nothing was drawn where something was wrong" test ! -e never.png
+
+expect 0 'sRGB' "$bin/boltwright" doctor
+expect 0 'images, of at least' "$bin/boltwright" doctor
 
 # Look around.
 start cover-m8 --size 320x200

@@ -1,11 +1,9 @@
 // Pictures get to the screen, and whatever windows do to a program, the next picture gets there again.
 #include "engine/gpu/swapchain.hpp"
 
-#include <chrono>
-#include <thread>
-
 #include "tests/platform/fault.hpp"
 #include "tests/platform/show_case.hpp"
+#include "tests/support/eventually.hpp"
 
 using namespace bolt;
 
@@ -16,11 +14,7 @@ constexpr Color red{200, 30, 10}, green{20, 180, 40}, blue{0, 60, 250};
 
 // The X server draws when it gets to it: what counts is that it does.
 bool comes_to_be(const Color& color, std::uint32_t x, std::uint32_t y) {
-    for (int i = 0; i < 500; ++i) {
-        if (test::need(test::look_at_screen()).at(x, y) == color) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
+    return test::eventually([&] { return test::need(test::look_at_screen()).at(x, y) == color; });
 }
 
 bool fills_window(const Color& color, std::uint32_t width, std::uint32_t height) {
@@ -55,12 +49,10 @@ TEST_CASE("a new size: larger, smaller and back, shown anew each time") {
     show.show_surely(red);
     for (const auto& [width, height] : {std::pair{500U, 400U}, {100U, 90U}, {320U, 240U}}) {
         show.window().resize({width, height});
-        for (int i = 0; i < 500 && (show.drawn.width != width || show.drawn.height != height); ++i) {
+        CHECK(test::eventually([&] {
             (void)test::need(show.show(blue));
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-        CHECK(show.drawn.width == width);
-        CHECK(show.drawn.height == height);
+            return show.drawn.width == width && show.drawn.height == height;
+        }));
         show.show_surely(green);
         CHECK(fills_window(green, width, height));
     }
@@ -122,11 +114,10 @@ TEST_CASE("a lost surface is replaced, wherever it is noticed") {
     show.window().resize({200, 150});
     {
         const test::Fault<&vkGetPhysicalDeviceSurfaceCapabilitiesKHR> fault(VK_ERROR_SURFACE_LOST_KHR);
-        show.show_surely(red);
-        for (int i = 0; i < 500 && show.drawn.width != 200; ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        CHECK(test::eventually([&] {
             (void)test::need(show.show(red));
-        }
+            return show.drawn.width == 200;
+        }));
         CHECK(fault.failed() == 1);
     }
     show.show_surely(red);

@@ -3,12 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <deque>
 #include <optional>
 
 #include "engine/platform/keys.hpp"
 #include "tests/platform/hand.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/screen_picture.hpp"
 
 using namespace bolt;
@@ -33,7 +35,7 @@ struct Open {
     // The next event of a kind.
     template <class E>
     E next() {
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < 1000; ++i) {
             for (Event& event : window->wait_for_events(0.1)) waiting.push_back(event);
             while (!waiting.empty()) {
                 const Event event = waiting.front();
@@ -47,8 +49,10 @@ struct Open {
     // Events until it is so.
     template <class Test>
     bool until(const Test& test) {
-        for (int i = 0; i < 200 && !test(); ++i) (void)window->wait_for_events(0.05);
-        return test();
+        return test::eventually([&] {
+            (void)window->events();
+            return test();
+        });
     }
 };
 
@@ -82,7 +86,7 @@ TEST_CASE("keys, buttons, cursor, wheel and the wish to close arrive in order, w
     hand.press(60, 45, 5);
     hand.close();
     std::vector<Event> events;
-    for (int i = 0; i < 100 && (events.empty() || !std::holds_alternative<CloseEvent>(events.back())); ++i)
+    for (int i = 0; i < 1000 && (events.empty() || !std::holds_alternative<CloseEvent>(events.back())); ++i)
         for (Event& event : open.window->wait_for_events(0.1))
             if (!std::holds_alternative<KeyEvent>(event)) events.push_back(event);
     REQUIRE(events.size() == 9);
@@ -113,11 +117,11 @@ TEST_CASE("a window has the size that was asked for, tells a new one, and its sc
     Window moved = std::move(*open.window);  // callbacks follow
     moved.set_title("renamed");
     test::Hand("renamed").key("a");
-    bool heard = false;
-    for (int i = 0; i < 100 && !heard; ++i)
-        for (const Event& event : moved.wait_for_events(0.05))
-            heard |= std::holds_alternative<KeyEvent>(event);
-    CHECK(heard);
+    CHECK(test::eventually([&] {
+        const std::vector<Event> events = moved.events();
+        return std::any_of(events.begin(), events.end(),
+                           [](const Event& event) { return std::holds_alternative<KeyEvent>(event); });
+    }));
 }
 
 TEST_CASE("full screen takes the display and gives it back: the window is where it was") {
@@ -142,6 +146,22 @@ TEST_CASE("full screen takes the display and gives it back: the window is where 
         CHECK(after.width == 300);
         CHECK(after.height == 200);
     }
+}
+
+TEST_CASE("a window can begin with the whole display, or be there to be asked only") {
+    Open open("asks");
+    const auto screen = test::look_at_screen();
+    REQUIRE(screen.has_value());
+    WindowOptions options;
+    options.full_screen = true;
+    const Result<Window> whole = Window::open(*open.desktop, options);
+    REQUIRE(whole.has_value());
+    CHECK(whole->full_screen());
+    CHECK(open.until([&] { return whole->pixels().width == screen->width; }));
+    CHECK(whole->refresh() >= 0.0);
+    options = {};
+    options.hidden = true;
+    CHECK(Window::open(*open.desktop, options).has_value());
 }
 
 TEST_CASE("without a display the error says what is missing") {

@@ -3,13 +3,13 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
 #include <cstring>
 #include <optional>
 #include <thread>
 
 #include "engine/gpu/restarts.hpp"
 #include "tests/platform/hand.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/screen_picture.hpp"
 
 using namespace bolt;
@@ -60,15 +60,6 @@ bool cover_is_seen(std::uint32_t width, std::uint32_t height) {
     return corner[0] > 100 && corner[0] < 200 && paint[0] < 70 && paint[2] > paint[0] + 10;
 }
 
-template <class Test>
-bool comes_true(const Test& test) {
-    for (int i = 0; i < 3000; ++i) {
-        if (test()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-}
-
 // Functions are loaded anew for every device, so what fails has to come from the loader. Uploads wait for
 // nothing on the GPU, frames of a window do for its image.
 PFN_vkGetDeviceProcAddr real_loader = nullptr;
@@ -109,7 +100,7 @@ TEST_CASE("shown until somebody closes it") {
     Preview preview;
     bool seen = false;
     std::thread somebody([&] {
-        seen = comes_true([] { return cover_is_seen(160, 120); });
+        seen = test::eventually([] { return cover_is_seen(160, 120); });
         test::Hand("cover-m8").close();
     });
     const Status shown = preview.show();
@@ -124,10 +115,10 @@ TEST_CASE("a GPU that is lost is started again, and the picture comes back where
     window_frames_until_lost = 2;
     bool seen = false, seen_large = false;
     std::thread somebody([&] {
-        seen = comes_true([] { return cover_is_seen(160, 120); });
+        seen = test::eventually([] { return cover_is_seen(160, 120); });
         test::Hand hand("cover-m8");
         hand.key("F11");  // the second frame, which is lost
-        seen_large = comes_true([] { return cover_is_seen(1280, 800); });
+        seen_large = test::eventually([] { return cover_is_seen(1280, 800); });
         hand.key("Escape");
     });
     const Status shown = preview.show();

@@ -123,7 +123,7 @@ void Show::tell(Part part, std::vector<Error> errors) {
     std::string title = fmt::format("{} - bolt-author preview", name);
     for (const std::vector<Error>& wrong : wrong_)
         if (!wrong.empty()) title = fmt::format("{} - broken: {}", name, wrong.front().message());
-    window_.set_title(title);
+    window_.set_title(title.substr(0, title.find('\n')));
 }
 
 void Show::tell_messages() {
