@@ -1,6 +1,10 @@
 // Pictures get to the screen, and whatever windows do to a program, the next picture gets there again.
 #include "engine/gpu/swapchain.hpp"
 
+#include <map>
+#include <set>
+
+#include "engine/gpu/barrier.hpp"
 #include "tests/platform/fault.hpp"
 #include "tests/platform/show_case.hpp"
 #include "tests/support/eventually.hpp"
@@ -35,6 +39,72 @@ TEST_CASE("a picture fills the window, every value as it is, and frame follows f
     CHECK(show.swapchain().made() == 1);
     CHECK(show.swapchain().plan().reasons.size() == 3);
     CHECK(comes_to_be({0, 0, 0}, 400, 300));  // beside the window there is nothing
+}
+
+namespace {
+
+// What the swapchain asks Vulkan for, written down. No driver here fails when a semaphore is used too early.
+struct Record {
+    std::vector<VkSemaphore> acquired;                // in order
+    std::map<std::uint32_t, VkSemaphore> shown_with;  // by image
+    bool each_image_its_own = true, waits_where_barriers_begin = true;
+    PFN_vkAcquireNextImageKHR acquire = vkAcquireNextImageKHR;
+    PFN_vkQueueSubmit2 submit = vkQueueSubmit2;
+    PFN_vkQueuePresentKHR present = vkQueuePresentKHR;
+};
+Record* record = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL recorded_acquire(VkDevice device, VkSwapchainKHR swapchain,
+                                                std::uint64_t timeout, VkSemaphore semaphore, VkFence fence,
+                                                std::uint32_t* index) {
+    record->acquired.push_back(semaphore);
+    if (record->acquired.size() == 12) {  // one is kept from it, so that others come to be used
+        const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+        VkFence here = VK_NULL_HANDLE;
+        vkCreateFence(device, &info, nullptr, &here);
+        record->acquire(device, swapchain, timeout, VK_NULL_HANDLE, here, index);
+        vkWaitForFences(device, 1, &here, VK_TRUE, timeout);
+        vkDestroyFence(device, here, nullptr);
+    }
+    return record->acquire(device, swapchain, timeout, semaphore, fence, index);
+}
+VKAPI_ATTR VkResult VKAPI_CALL recorded_submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo2* infos,
+                                               VkFence fence) {
+    if (infos[0].waitSemaphoreInfoCount > 0)
+        record->waits_where_barriers_begin &=
+            infos[0].pWaitSemaphoreInfos[0].stageMask == gpu::means(gpu::Use::acquired).stages;
+    return record->submit(queue, count, infos, fence);
+}
+VKAPI_ATTR VkResult VKAPI_CALL recorded_present(VkQueue queue, const VkPresentInfoKHR* info) {
+    const auto known = record->shown_with.try_emplace(*info->pImageIndices, *info->pWaitSemaphores).first;
+    record->each_image_its_own &= known->second == *info->pWaitSemaphores;
+    return record->present(queue, info);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "semaphores: another for each frame in flight to wait for an image, and one for each image to be shown") {
+    test::ShowCase show("semaphores");
+    show.show_surely(red);
+    Record written;
+    record = &written;
+    vkAcquireNextImageKHR = recorded_acquire;
+    vkQueueSubmit2 = recorded_submit;
+    vkQueuePresentKHR = recorded_present;
+    for (int i = 0; i < 24; ++i) show.show_surely(i % 2 == 0 ? green : blue);
+    vkAcquireNextImageKHR = written.acquire;
+    vkQueueSubmit2 = written.submit;
+    vkQueuePresentKHR = written.present;
+    REQUIRE(written.acquired.size() >= 24);
+    for (std::size_t i = 1; i < written.acquired.size(); ++i)
+        CHECK(written.acquired[i] != written.acquired[i - 1]);
+    CHECK(written.shown_with.size() > 1);
+    CHECK(written.each_image_its_own);
+    std::set<VkSemaphore> different;
+    for (const auto& [image, semaphore] : written.shown_with) different.insert(semaphore);
+    CHECK(different.size() == written.shown_with.size());
+    CHECK(written.waits_where_barriers_begin);
 }
 
 TEST_CASE("pictures of another size are stretched over the window") {
