@@ -11,9 +11,9 @@
 // blocks that a rasteriser shades: on lavapipe the same picture of the reducer took three times as long.
 //
 // Each pass is a class in passes/ with its pipelines. Several views are drawn in one pass by multiview, a
-// layer each; on software rasterisers one after the other, each into images of its own: on lavapipe (Mesa
-// 22.3) the sky did not appear in any layer but the first, with and without multiview, for a reason that was
-// not found.
+// layer each; on software rasterisers one after the other, each into images of its own. lavapipe (Mesa 22.3)
+// draws triangles that it clips into the layer of the view before, and resolves into layer 0 whatever layer
+// the view of the image begins with.
 #pragma once
 
 #include "engine/render/hot_shaders.hpp"

@@ -25,6 +25,7 @@ class Studio {
         return std::move(shoot(scene, std::span(&eye, 1), extent).front());
     }
     render::Renderer& renderer() { return *renderer_; }
+    gpu::Device& device() { return gpu_.device(); }
 
   private:
     Gpu gpu_;

@@ -144,7 +144,7 @@ Status LightPass::draw_surfaces(PassContext& context, const Targets& targets, co
         light_set(context, targets, **pipeline, inputs, (list.features & SCENE_WIDE) != 0);
     if (!set) return fail(set.error());
     bind(context.frame.commands(), **pipeline, *set);
-    draw_triangle(context.frame.commands());
+    draw_screen(context.frame.commands());
     return {};
 }
 
@@ -158,7 +158,7 @@ Status LightPass::draw_sky(PassContext& context) {
                                             .finish();
     if (!set) return fail(set.error());
     bind(context.frame.commands(), **pipeline, *set);
-    draw_triangle(context.frame.commands());
+    draw_screen(context.frame.commands());
     return {};
 }
 

@@ -56,7 +56,7 @@ Status OcclusionPass::shrink(PassContext& context, const Targets& targets) {
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, small.info().extent);
     bind(commands, shrink_, *set);
-    draw_triangle(commands);
+    draw_screen(commands);
     vkCmdEndRendering(commands);
     gpu::image_barrier(commands, small.get(), Use::depth_target, Use::depth_read, depth_range);
     return {};
@@ -77,7 +77,7 @@ void OcclusionPass::fill(PassContext& context, const Targets& targets, const gpu
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, target.info().extent);
     bind(commands, pipeline, set);
-    draw_triangle(commands);
+    draw_screen(commands);
     vkCmdEndRendering(commands);
     gpu::image_barrier(commands, target.get(), Use::color_target, Use::sampled);
 }

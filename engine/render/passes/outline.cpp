@@ -73,7 +73,7 @@ Status OutlinePass::draw(PassContext& context, Targets& targets, const DrawList&
     set_area(commands, context.extent);
     vkCmdSetScissor(commands, 0, 1, &area);
     bind(commands, lines_, *set);
-    draw_triangle(commands);
+    draw_screen(commands);
     vkCmdEndRendering(commands);
     context.frame.end_timing();
     return {};

@@ -78,6 +78,6 @@ VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
     return info;
 }
 
-void draw_triangle(VkCommandBuffer commands) { vkCmdDraw(commands, 3, 1, 0, 0); }
+void draw_screen(VkCommandBuffer commands) { vkCmdDraw(commands, 6, 1, 0, 0); }
 
 }  // namespace bolt::render

@@ -94,7 +94,8 @@ VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
                                std::span<const VkRenderingAttachmentInfo> colors,
                                const VkRenderingAttachmentInfo* depth = nullptr);
 
-// A triangle as far away as can be, over all of the attached images, drawn with the bound pipeline.
-void draw_triangle(VkCommandBuffer commands);
+// A rectangle as far away as can be, over all of the attached images, drawn with the bound pipeline, which is
+// one of screen.vert.
+void draw_screen(VkCommandBuffer commands);
 
 }  // namespace bolt::render
