@@ -96,6 +96,8 @@ Status Renderer::resize(gpu::Frame& frame, VkExtent2D extent, std::uint32_t view
     for (std::uint32_t first = 0; first < views; first += views_a_pass_) {
         Result<Targets> targets = make_targets(*device_, extent, views_a_pass_);
         if (!targets) return fail(targets.error());
+        if (options_.keep_depth)
+            if (Status s = add_kept_depth(*device_, *targets); !s) return s;
         targets_.push_back(std::move(*targets));
     }
     extent_ = extent;

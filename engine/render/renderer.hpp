@@ -37,6 +37,7 @@ struct RendererOptions {
     // How far a coarser level of detail may be from the part, in pixels of the picture; 0: always all
     // triangles.
     float level_error_px = 0.0F;
+    bool keep_depth = false;  // so that depth() can be read back
 };
 
 // Where a view's picture is.
@@ -60,6 +61,12 @@ class Renderer {
 
     [[nodiscard]] Layer picture(std::uint32_t view) const {
         return {&targets_[view / views_a_pass_].picture, view % views_a_pass_};
+    }
+    // The depth of each pixel's first sample, in use `transfer_from`; none without
+    // RendererOptions::keep_depth. What blends is not in it.
+    [[nodiscard]] Layer depth(std::uint32_t view) const {
+        return {options_.keep_depth ? &targets_[view / views_a_pass_].kept_depth : nullptr,
+                view % views_a_pass_};
     }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     [[nodiscard]] Status save_pipelines() const { return cache_.save(); }

@@ -57,4 +57,10 @@ Status add_occlusion_targets(gpu::Device& device, Targets& t) {
     return add(device, t, t.occlusion, occlusion_format, drawn_and_read, one, 2);
 }
 
+Status add_kept_depth(gpu::Device& device, Targets& t) {
+    return add(device, t, t.kept_depth, depth_format,
+               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+               VK_SAMPLE_COUNT_1_BIT);
+}
+
 }  // namespace bolt::render

@@ -12,6 +12,7 @@ struct Targets {
     gpu::Image wide_colors, wide_roughs;  // base colour and metallic; roughness and occlusion
     gpu::Image drawn;                     // lit
     gpu::Image picture;                   // one sample
+    gpu::Image kept_depth;                // of the first sample; made when it is to be read back
     gpu::Image marks;                     // of what has an outline; made when a scene asks for it
     gpu::Image small_depth, raw_occlusion, occlusion;  // half the size; made when a scene asks for them
     VkExtent2D extent{};
@@ -22,13 +23,14 @@ Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32
 Status add_wide_targets(gpu::Device& device, Targets& targets);
 Status add_mark_target(gpu::Device& device, Targets& targets);
 Status add_occlusion_targets(gpu::Device& device, Targets& targets);
+Status add_kept_depth(gpu::Device& device, Targets& targets);
 
 // Visits every image of them.
 template <class Visit>
 void each_image(Targets& targets, const Visit& visit) {
-    for (gpu::Image* image :
-         {&targets.depth, &targets.surfaces, &targets.wide_colors, &targets.wide_roughs, &targets.drawn,
-          &targets.picture, &targets.marks, &targets.small_depth, &targets.raw_occlusion, &targets.occlusion})
+    for (gpu::Image* image : {&targets.depth, &targets.surfaces, &targets.wide_colors, &targets.wide_roughs,
+                              &targets.drawn, &targets.picture, &targets.kept_depth, &targets.marks,
+                              &targets.small_depth, &targets.raw_occlusion, &targets.occlusion})
         visit(*image);
 }
 

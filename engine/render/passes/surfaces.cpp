@@ -39,9 +39,17 @@ Status SurfacePass::draw(PassContext& context, Targets& targets, const DrawList&
     }
     gpu::image_barrier_discarding(commands, targets.depth.get(), Use::depth_read, Use::depth_target,
                                   depth_range);
-    const VkRenderingAttachmentInfo depth =
+    VkRenderingAttachmentInfo depth =
         attachment(targets.depth.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                    VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
+    const bool keeps = targets.kept_depth.get() != VK_NULL_HANDLE;
+    if (keeps) {
+        gpu::image_barrier_discarding(commands, targets.kept_depth.get(), Use::transfer_from,
+                                      Use::depth_target, depth_range);
+        depth.resolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
+        depth.resolveImageView = targets.kept_depth.view();
+        depth.resolveImageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+    }
     const VkRenderingInfo rendering = rendering_info(context.extent, context.views, colors, &depth);
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, context.extent);
@@ -61,6 +69,9 @@ Status SurfacePass::draw(PassContext& context, Targets& targets, const DrawList&
     for (const gpu::Image* image : buffers)
         gpu::image_barrier(commands, image->get(), Use::color_target, Use::sampled);
     gpu::image_barrier(commands, targets.depth.get(), Use::depth_target, Use::depth_read, depth_range);
+    if (keeps)
+        gpu::image_barrier(commands, targets.kept_depth.get(), Use::depth_target, Use::transfer_from,
+                           depth_range);
     context.frame.end_timing();
     return drawn;
 }
