@@ -23,11 +23,12 @@ void main() {
     const mat4 world_from_object = instances[gl_InstanceIndex].world_from_object;
     const vec4 world = world_from_object * vec4(position, 1.0);
     const mat3 m = mat3(world_from_object);
-    // Normals go by the cofactors: right for every scale, and for mirrored parts after the sign of the determinant.
+    // Normals go by the cofactors: right for every scale. Those of mirrored parts point inward, as gl_FrontFacing has it, for their
+    // triangles turn the other way.
     const mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     const float side = dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
     at = world.xyz;
-    normal_out = side * (cofactors * normal.xyz);
+    normal_out = cofactors * normal.xyz;
     tangent_out = has(SCENE_TANGENTS) ? vec4(m * tangent.xyz, side * tangent.w) : vec4(0.0);
     texcoord_out = has(SCENE_ANY_MAP) ? texcoord : vec2(0.0);
     color_out = has(SCENE_VERTEX_COLORS) ? color : vec4(1.0);
