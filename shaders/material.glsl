@@ -6,7 +6,7 @@ layout(set = 1, binding = 3) uniform sampler2D occlusion_map;
 layout(set = 1, binding = 4) uniform sampler2D emissive_map;
 
 layout(location = 0) in vec3 at;
-layout(location = 1) in vec3 normal_in;
+layout(location = 1) centroid in vec3 normal_in;
 layout(location = 2) in vec4 tangent_in;
 layout(location = 3) in vec2 texcoord;
 layout(location = 4) in vec4 color_in;

@@ -12,7 +12,9 @@ layout(location = 4) in vec4 color;
 
 invariant gl_Position;  // a ghost's depth is drawn before its colour
 layout(location = 0) out vec3 at;
-layout(location = 1) out vec3 normal_out;
+// By the centroid of what is covered: at the middle of a pixel that a triangle only touches, normals are drawn out beyond its
+// corners, and rounded edges sparkle.
+layout(location = 1) centroid out vec3 normal_out;
 layout(location = 2) out vec4 tangent_out;
 layout(location = 3) out vec2 texcoord_out;
 layout(location = 4) out vec4 color_out;

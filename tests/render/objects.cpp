@@ -33,11 +33,12 @@ TEST_CASE("a mirrored ball looks like the ball, from outside and, where it is cu
         place(scene, open ? bowl : ball, open ? gpu_bowl : gpu_ball);
         const Picture straight = studio.shoot(scene, eye, {96, 96});
         scene.objects[0].world[0][0] = -1.0F;
-        // Its triangles are divided along the other diagonal.
-        CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) <= 6);
+        // Its triangles are divided along the other diagonal, and where they meet a pixel takes its normal
+        // from another spot.
+        CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) <= 24);
         // The comparison can fail: turned over, the light is seen elsewhere on it.
         scene.objects[0].world[0][0] = 1.0F;
         scene.lights[0].light.direction = {0.5F, -0.6F, -0.6F, 0.0F};
-        CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) > 30);
+        CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) > 60);
     }
 }
