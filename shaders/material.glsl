@@ -15,16 +15,21 @@ layout(location = 6) flat in vec2 mark;
 
 layout(push_constant) uniform Draw { uint material_index; };
 
-vec2 uv(Material m, uint texture_index) {
-    const vec3 t = vec3(texcoord, 1.0);
+vec2 uv(Material m, uint texture_index, vec3 t) {
     return vec2(dot(m.uv[2 * texture_index].xyz, t), dot(m.uv[2 * texture_index + 1].xyz, t));
+}
+
+// The level of a map comes from how the interpolated coordinates change, not those that a material has moved: beside a
+// triangle, where neighbours are only there to tell differences, lavapipe reads no material, and edges took the coarsest level.
+vec4 look_up(sampler2D map, Material m, uint texture_index) {
+    return textureGrad(map, uv(m, texture_index, vec3(texcoord, 1.0)), uv(m, texture_index, vec3(dFdx(texcoord), 0.0)),
+                       uv(m, texture_index, vec3(dFdy(texcoord), 0.0)));
 }
 
 // The plane of a normal map where the mesh has no tangents: from how position and texture change over the picture
 // (C. Schüler, Normal Mapping Without Precomputed Tangents, ShaderX5, 2006).
-mat3 cotangent_frame(vec3 n, vec2 t) {
+mat3 cotangent_frame(vec3 n, vec2 tx, vec2 ty) {
     const vec3 px = dFdx(at), py = dFdy(at);
-    const vec2 tx = dFdx(t), ty = dFdy(t);
     const vec3 a = cross(py, n), b = cross(n, px);
     const vec3 tangent = a * tx.x + b * ty.x, bitangent = a * tx.y + b * ty.y;
     const float longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
@@ -35,7 +40,7 @@ mat3 cotangent_frame(vec3 n, vec2 t) {
 vec4 base_color(Material m) {
     vec4 base = m.base_color;
     if (has(SCENE_VERTEX_COLORS)) base *= color_in;
-    if (has(SCENE_BASE_MAP)) base *= texture(base_map, uv(m, 0u));
+    if (has(SCENE_BASE_MAP)) base *= look_up(base_map, m, 0u);
     if (has(SCENE_MARKED)) base.rgb = mix(base.rgb, tint.rgb, tint.w);
     return base;
 }
@@ -47,10 +52,9 @@ vec3 plain_normal() {
 
 vec3 mapped_normal(Material m, vec3 n) {
     if (!has(SCENE_NORMAL_MAP)) return n;
-    const vec2 t = uv(m, 2u);
-    vec3 bump = texture(normal_map, t).xyz * 2.0 - 1.0;
+    vec3 bump = look_up(normal_map, m, 2u).xyz * 2.0 - 1.0;
     bump.xy *= m.normal_scale;
-    mat3 plane = cotangent_frame(n, t);
+    mat3 plane = cotangent_frame(n, uv(m, 2u, vec3(dFdx(texcoord), 0.0)), uv(m, 2u, vec3(dFdy(texcoord), 0.0)));
     if (has(SCENE_TANGENTS)) {
         const vec3 given = normalize(tangent_in.xyz - n * dot(n, tangent_in.xyz));
         plane = mat3(given, cross(n, given) * tangent_in.w, n);
@@ -61,8 +65,8 @@ vec3 mapped_normal(Material m, vec3 n) {
 // Metallic, roughness, occlusion.
 vec3 metallic_roughness_occlusion(Material m) {
     vec3 v = vec3(m.metallic, m.roughness, 1.0);
-    if (has(SCENE_METALLIC_ROUGHNESS_MAP)) v.xy *= texture(metallic_roughness_map, uv(m, 1u)).bg;
-    if (has(SCENE_OCCLUSION_MAP)) v.z += m.occlusion_strength * (texture(occlusion_map, uv(m, 3u)).r - 1.0);
+    if (has(SCENE_METALLIC_ROUGHNESS_MAP)) v.xy *= look_up(metallic_roughness_map, m, 1u).bg;
+    if (has(SCENE_OCCLUSION_MAP)) v.z += m.occlusion_strength * (look_up(occlusion_map, m, 3u).r - 1.0);
     return v;
 }
 

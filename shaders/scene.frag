@@ -31,7 +31,7 @@ void main() {
     s.roughness = mro.y;
     s.occlusion = mro.z;
     s.emission = m.emissive.rgb;
-    if (has(SCENE_EMISSIVE_MAP)) s.emission *= texture(emissive_map, uv(m, 4u)).rgb;
+    if (has(SCENE_EMISSIVE_MAP)) s.emission *= look_up(emissive_map, m, 4u).rgb;
     finish_surface(s, m);
 
     vec3 color = shade(s, gl_FragCoord.xy * frame.picture.zw);
