@@ -1,0 +1,106 @@
+// The checker itself: that it sees what it must, says so, and passes nothing that it has not seen.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "engine/base/random.hpp"
+#include "tests/golden/stage.hpp"
+#include "tools/imagediff/compare.hpp"
+
+using namespace bolt;
+
+namespace {
+
+// A folder of its own, gone when the test is.
+struct Folder {
+    std::filesystem::path path;
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "bolt-golden-XXXXXX").string();
+        REQUIRE(mkdtemp(name.data()) != nullptr);
+        path = name;
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+};
+
+render::Picture noise() {
+    render::Picture picture{40, 30, {}};
+    Random random(7);
+    for (std::uint32_t i = 0; i < 4 * picture.width * picture.height; ++i)
+        picture.rgba.push_back(static_cast<std::uint8_t>(64 + random.bits() % 128));
+    return picture;
+}
+
+// A gallery whose one reference is that picture.
+test::Gallery with_reference(const Folder& folder, const render::Picture& picture) {
+    test::Gallery gallery{folder.path / "references", folder.path / "failures", "driver A", "driver A", true};
+    REQUIRE(test::hold(gallery, "noise", picture).passes);
+    gallery.update = false;
+    return gallery;
+}
+
+}  // namespace
+
+TEST_CASE("on the pinned driver one pixel that is one level off is found, and shown") {
+    const Folder folder;
+    render::Picture picture = noise();
+    const test::Gallery gallery = with_reference(folder, picture);
+    CHECK(test::hold(gallery, "noise", picture).passes);
+    CHECK_FALSE(std::filesystem::exists(gallery.failures));
+    picture.rgba[4 * 627 + 1] ^= 1U;
+    const test::Verdict verdict = test::hold(gallery, "noise", picture);
+    CHECK_FALSE(verdict.passes);
+    CHECK(verdict.why.find("largest difference 1 of 255") != std::string::npos);
+    const auto actual = imagediff::read_png(gallery.failures / "noise.actual.png");
+    const auto difference = imagediff::read_png(gallery.failures / "noise.difference.png");
+    REQUIRE(actual.has_value());
+    REQUIRE(difference.has_value());
+    CHECK(actual->rgb[3 * 627 + 1] == picture.rgba[4 * 627 + 1]);
+    CHECK(difference->rgb[3 * 627 + 1] == 255);  // stretched to be seen
+    CHECK(std::count(difference->rgb.begin(), difference->rgb.end(), 0) ==
+          static_cast<std::ptrdiff_t>(difference->rgb.size()) - 1);
+}
+
+TEST_CASE("on another driver a level here and there passes; a changed patch and a shifted picture do not") {
+    const Folder folder;
+    const render::Picture picture = noise();
+    test::Gallery gallery = with_reference(folder, picture);
+    gallery.driver = "driver B";
+    render::Picture rounded = picture;
+    for (std::size_t i = 0; i < rounded.rgba.size(); i += 3) rounded.rgba[i] ^= 1U;
+    CHECK(test::hold(gallery, "noise", rounded).passes);
+    render::Picture patched = picture;
+    for (std::size_t i = 4 * 400; i < 4 * 440; ++i) patched.rgba[i] = 255;
+    CHECK_FALSE(test::hold(gallery, "noise", patched).passes);
+    render::Picture shifted = picture;
+    std::rotate(shifted.rgba.begin(), shifted.rgba.begin() + 4, shifted.rgba.end());
+    CHECK_FALSE(test::hold(gallery, "noise", shifted).passes);
+}
+
+TEST_CASE("a missing reference fails and is not made; so does another size") {
+    const Folder folder;
+    const render::Picture picture = noise();
+    const test::Gallery gallery = with_reference(folder, picture);
+    const test::Verdict missing = test::hold(gallery, "unheard-of", picture);
+    CHECK_FALSE(missing.passes);
+    CHECK(missing.why.find("no reference") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(gallery.references / "unheard-of.png"));
+    CHECK(std::filesystem::exists(gallery.failures / "unheard-of.actual.png"));
+    const render::Picture taller{picture.height, picture.width, picture.rgba};
+    CHECK_FALSE(test::hold(gallery, "noise", taller).passes);
+}
+
+TEST_CASE("the references are of the pinned driver; whether this is it is known") {
+    const test::Stage stage;
+    CHECK_FALSE(stage.pictures.driver.empty());
+    CHECK(stage.pictures.pinned_driver.find("llvmpipe (LLVM 15.0.6, 256 bits)") == 0);
+    CHECK(stage.pictures.pinned_driver.find("Mesa 22.3.6") != std::string::npos);
+    if (stage.pictures.driver != stage.pictures.pinned_driver)
+        MESSAGE("pictures are held within the tolerance only: " << stage.pictures.driver << " is not "
+                                                                << stage.pictures.pinned_driver);
+}

@@ -1,0 +1,128 @@
+#include "tests/golden/golden.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "engine/assets/image.hpp"
+#include "engine/base/file.hpp"
+#include "tools/imagediff/compare.hpp"
+
+namespace bolt::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+imagediff::Picture without_alpha(const render::Picture& picture) {
+    imagediff::Picture rgb{static_cast<int>(picture.width), static_cast<int>(picture.height), {}};
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+        rgb.rgb.insert(rgb.rgb.end(), &picture.rgba[i], &picture.rgba[i] + 3);
+    return rgb;
+}
+
+Status write_png(const fs::path& path, const imagediff::Picture& picture) {
+    const Result<std::string> png = assets::encode_png(picture.width, picture.height, 3, picture.rgb);
+    if (!png) return fail(png.error());
+    std::error_code ignored;  // write_file says why
+    fs::create_directories(path.parent_path(), ignored);
+    return write_file(path, *png);
+}
+
+imagediff::Picture stretched_difference(const imagediff::Picture& a, const imagediff::Picture& b) {
+    imagediff::Picture difference{a.width, a.height, {}};
+    int largest = 1;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i)
+        largest = std::max(largest, std::abs(int{a.rgb[i]} - int{b.rgb[i]}));
+    for (std::size_t i = 0; i < a.rgb.size(); ++i)
+        difference.rgb.push_back(
+            static_cast<std::uint8_t>(std::abs(int{a.rgb[i]} - int{b.rgb[i]}) * 255 / largest));
+    return difference;
+}
+
+// The share of pixels with a channel that is more than `channel` off.
+double share_off(const imagediff::Picture& a, const imagediff::Picture& b, int channel) {
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
+        int largest = 0;
+        for (std::size_t c = i; c < i + 3; ++c)
+            largest = std::max(largest, std::abs(int{a.rgb[c]} - int{b.rgb[c]}));
+        off += largest > channel ? 1U : 0U;
+    }
+    return static_cast<double>(off) / static_cast<double>(std::max<std::size_t>(a.rgb.size() / 3, 1));
+}
+
+std::string first_line(const fs::path& path) {
+    const Result<std::string> text = read_file(path, 4096, ErrorCode::failed);
+    return text ? text->substr(0, text->find('\n')) : "";
+}
+
+Verdict renew(const Gallery& gallery, const std::string& name, const imagediff::Picture& picture) {
+    Status kept = write_png(gallery.references / (name + ".png"), picture);
+    if (kept) kept = write_file(gallery.references / "driver.txt", gallery.driver + "\n");
+    return {kept.has_value(), kept ? "" : kept.error().message()};
+}
+
+Verdict failed(const Gallery& gallery, const std::string& name, const std::string& why,
+               const imagediff::Picture& picture, const imagediff::Picture* reference) {
+    Status kept = write_png(gallery.failures / (name + ".actual.png"), picture);
+    if (kept && reference != nullptr)
+        kept = write_png(gallery.failures / (name + ".difference.png"),
+                         stretched_difference(*reference, picture));
+    return {false, fmt::format("{}: {}; {}", name, why,
+                               kept ? "see " + (gallery.failures / (name + ".*.png")).string()
+                                    : kept.error().message())};
+}
+
+}  // namespace
+
+std::string driver_of(const gpu::Device& device) { return device.name() + ", " + device.driver(); }
+
+Gallery gallery(const gpu::Device& device) {
+    Gallery here{fs::path(BOLT_GOLDEN) / "pictures", BOLT_GOLDEN_FAILURES, driver_of(device), "", false};
+    here.pinned_driver = first_line(here.references / "driver.txt");
+    if (const char* failures = std::getenv("BOLT_GOLDEN_FAILURES")) here.failures = failures;
+    here.update = std::getenv("BOLT_GOLDEN_UPDATE") != nullptr;
+    return here;
+}
+
+Verdict hold(const Gallery& gallery, const std::string& name, const render::Picture& picture,
+             const Tolerance& tolerance) {
+    const imagediff::Picture actual = without_alpha(picture);
+    if (gallery.update) return renew(gallery, name, actual);
+    const fs::path file = gallery.references / (name + ".png");
+    const Result<imagediff::Picture> reference = imagediff::read_png(file);
+    if (!reference)
+        return failed(gallery, name, "no reference: " + reference.error().message(), actual, nullptr);
+    const Result<imagediff::Difference> difference = imagediff::compare(*reference, actual);
+    if (!difference) return failed(gallery, name, difference.error().message(), actual, nullptr);
+    const double off = share_off(*reference, actual, tolerance.channel);
+    const bool exact = gallery.driver == gallery.pinned_driver;
+    const bool passes = exact ? difference->largest == 0
+                              : difference->mean_flip <= tolerance.mean_flip && off <= tolerance.share;
+    const std::string numbers = fmt::format(
+        "mean FLIP {:.4f}, largest difference {} of 255, {:.3f} % of the pixels differ, {:.3f} % by more "
+        "than {}",
+        difference->mean_flip, difference->largest, 100.0 * difference->changed, 100.0 * off,
+        tolerance.channel);
+    if (passes) return {true, numbers};
+    const std::string wanted =
+        exact ? "every pixel as it is, for " + gallery.driver + " drew it"
+              : fmt::format("mean FLIP {} and {} % at most, for {} is not {}", tolerance.mean_flip,
+                            100.0 * tolerance.share, gallery.driver, gallery.pinned_driver);
+    return failed(gallery, name, numbers + ", expected " + wanted, actual, &*reference);
+}
+
+render::Picture joined(const std::vector<render::Picture>& pictures) {
+    render::Picture all{0, pictures.front().height, {}};
+    for (const render::Picture& picture : pictures) all.width += picture.width;
+    for (std::uint32_t y = 0; y < all.height; ++y)
+        for (const render::Picture& picture : pictures) {
+            const std::uint8_t* row = picture.rgba.data() + std::size_t{4} * picture.width * y;
+            all.rgba.insert(all.rgba.end(), row, row + std::size_t{4} * picture.width);
+        }
+    return all;
+}
+
+}  // namespace bolt::test

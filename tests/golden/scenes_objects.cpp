@@ -1,0 +1,59 @@
+// Golden pictures of objects that are not as their model is: mirrored, stretched, ghosts, tinted, flat.
+#include <doctest/doctest.h>
+
+#include "tests/golden/stage.hpp"
+
+using namespace bolt;
+using namespace bolt::render;
+using namespace bolt::test;
+
+TEST_CASE("golden: mirrored and stretched, lit from one side") {
+    Stage stage;
+    assets::Model block = cube(paint(glm::vec3(1.0F)));
+    block.materials[0].base_color_texture.texture = add_texture(block, 64, [](int x, int y) {
+        // An F: shows which way round it is.
+        const bool ink = (x >= 16 && x < 26 && y >= 8 && y < 56) || (x >= 16 && x < 48 && y >= 8 && y < 18) ||
+                         (x >= 16 && x < 40 && y >= 28 && y < 37);
+        return ink ? glm::vec4(0.05F, 0.1F, 0.4F, 1.0F) : glm::vec4(0.8F, 0.75F, 0.6F, 1.0F);
+    });
+    block.materials[0].normal_texture.texture = add_texture(block, 64, [](int x, int) {
+        return glm::vec4(x % 16 < 8 ? 0.7F : 0.3F, 0.5F, 0.9F, 1.0F);  // ribs
+    });
+    assets::Model ball = globe(metal({0.56F, 0.57F, 0.58F}, 0.35F));
+    ball.materials[0].anisotropy = 0.7F;
+    const GpuModel a = stage.studio.upload(block), b = stage.studio.upload(ball);
+    Scene scene = stage.scene();
+    const glm::mat4 turned(glm::vec4(0.8F, 0, -0.6F, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0.6F, 0, 0.8F, 0),
+                           glm::vec4(0, 0, 0, 1));
+    place(scene, block, a, at({-3.2F, 1.2F, 0}) * turned);
+    place(scene, block, a, at({0, 1.2F, 0}, {-1, 1, 1}) * turned);
+    place(scene, block, a, at({3.2F, 1.2F, 0}, {1.2F, 0.5F, 1.0F}) * turned);
+    place(scene, ball, b, at({-3.2F, -1.5F, 0}));
+    place(scene, ball, b, at({0, -1.5F, 0}, {-1, 1, 1}));
+    place(scene, ball, b, at({3.2F, -1.5F, 0}, {1.4F, 0.5F, 1.0F}) * turned);
+    scene.lights.push_back(lamp({-1.0F, -0.4F, -0.6F}, 1.5F));
+    scene.lights.back().casts_shadow = false;
+    stage.shoot("mirrored", scene, eye_at({0, 0.6F, 14.5F}, {0, -0.1F, 0}, 0.56F));
+}
+
+TEST_CASE("golden: ghosts, tints and flat marks") {
+    Stage stage;
+    const assets::Model ball = globe(metal({0.9F, 0.72F, 0.45F}, 0.3F)),
+                        block = cube(paint({0.2F, 0.3F, 0.35F}));
+    const GpuModel gpu_ball = stage.studio.upload(ball), gpu_block = stage.studio.upload(block);
+    Scene scene = stage.scene();
+    for (int i = 0; i < 3; ++i)
+        place(scene, block, gpu_block, at({2.4F * static_cast<float>(i - 1), 0, -1.6F}, {0.5F, 1.3F, 0.5F}));
+    for (int i = 0; i < 6; ++i)
+        place(scene, ball, gpu_ball, at({2.4F * static_cast<float>(i % 3 - 1), i < 3 ? 1.1F : -1.1F, 0}));
+    Object* balls = &scene.objects[3];
+    balls[0].opacity = 0.3F;
+    balls[1].tint = {0.1F, 0.6F, 0.2F, 1.0F};
+    balls[2].flat = true;
+    balls[3].tint = {0.9F, 0.1F, 0.1F, 0.5F};
+    balls[3].opacity = 0.7F;
+    balls[4].tint = {0.1F, 0.4F, 0.9F, 1.0F};
+    balls[4].flat = true;
+    scene.lights.push_back(lamp({-0.4F, -0.8F, -0.6F}, 1.5F));
+    stage.shoot("ghosts", scene, eye_at({0, 0.8F, 12}, {0, 0, 0}, 0.5F));
+}
