@@ -42,11 +42,15 @@ Vertices make_vertices(const assets::Primitive& p) {
     const std::vector<std::uint32_t> triangles = assets::triangle_indices(p);
     if (!p.normals.empty()) {
         v.positions = p.positions;
+        v.attributes.reserve(p.positions.size());
         for (std::uint32_t i = 0; i < p.positions.size(); ++i)
             v.attributes.push_back(attributes_of(p, i, p.normals[i]));
         v.indices = triangles;
         return v;
     }
+    v.positions.reserve(triangles.size());
+    v.attributes.reserve(triangles.size());
+    v.indices.reserve(triangles.size());
     for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
         const glm::vec3 a = p.positions[triangles[t]], b = p.positions[triangles[t + 1]],
                         c = p.positions[triangles[t + 2]];

@@ -1,6 +1,24 @@
 // bolt-bench: what the parts cost, each beside a named baseline in the same run. Ratios carry over between
 // machines; nanoseconds do not. Nothing here is a test.
+//   bolt-bench --machine FILE.glb    writes the machine that frames are measured with, for others to draw
+//   (peer/)
 
 #include <benchmark/benchmark.h>
 
-BENCHMARK_MAIN();
+#include <string_view>
+
+#include "engine/assets/gltf.hpp"
+#include "engine/base/console.hpp"
+#include "tools/bench/machine.hpp"
+
+int main(int argc, char** argv) {
+    if (argc == 3 && std::string_view(argv[1]) == "--machine") {
+        const bolt::Status written = bolt::assets::write_glb(argv[2], bolt::bench::make_machine());
+        return written ? 0 : bolt::complain(written.error());
+    }
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+}

@@ -1,0 +1,181 @@
+// What a frame costs, pass by pass, beside the least that draws the same triangles (bare.hpp). The two take
+// turns, so that what else the machine does slows both. `x_bare` is the ratio.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <map>
+
+#include "content/format/load.hpp"
+#include "engine/assets/gltf.hpp"
+#include "engine/render/camera.hpp"
+#include "engine/render/picture.hpp"
+#include "tools/bench/bare.hpp"
+#include "tools/bench/machine.hpp"
+#include "tools/bench/need.hpp"
+
+namespace {
+
+using namespace bolt;
+using bench::Clock;
+using bench::guarded;
+using bench::milliseconds_since;
+using bench::need;
+
+constexpr VkExtent2D extent{1280, 720};
+
+// Everything between the machine and a frame. Made in this order, gone in the other.
+struct Studio {
+    gpu::Instance instance = need(gpu::Instance::create({}));
+    std::unique_ptr<gpu::Device> device = need(gpu::Device::create(instance, {}));
+    std::unique_ptr<gpu::Frames> frames = need(gpu::Frames::create(*device));
+    std::unique_ptr<render::Renderer> renderer = need(render::Renderer::create(*device, {}));
+};
+
+// As `boltwright render` sets a scene up: studio light, one lamp with a shadow, ambient occlusion.
+struct Subject {
+    render::GpuModel gpu_model;
+    render::EnvironmentLight light;
+    render::Scene scene;
+    render::Eye eye;
+
+    Subject(gpu::Device& device, const assets::Model& model, const glm::vec3& from, const glm::vec3& to)
+        : gpu_model(need(render::upload_model(device, model))),
+          light(need(render::upload_environment(device, shading::studio()))) {
+        render::place(scene, model, gpu_model);
+        render::SceneLight key;
+        key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
+        key.light.color = {1.6F, 1.55F, 1.5F, 0.0F};
+        key.casts_shadow = true;
+        scene.lights.push_back(key);
+        scene.environment = &light;
+        scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
+        const render::Box box = render::bounds(scene);
+        scene.occlusion_radius = 0.04F * glm::distance(box.low, box.high);
+        render::Perspective lens;
+        lens.fov = 0.6108652F;  // 35°
+        lens.aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+        eye = render::make_eye(from, to, lens);
+    }
+};
+
+struct Settings {
+    bool shadow_moves = false, occlusion = true;
+};
+
+void draw_frames(benchmark::State& state, const assets::Model& model, const glm::vec3& from,
+                 const glm::vec3& to, const Settings& settings) {
+    Studio studio;
+    Subject subject(*studio.device, model, from, to);
+    if (!settings.occlusion) subject.scene.occlusion_radius = 0.0F;
+    auto bare = need(bench::BareRenderer::create(*studio.device, extent));
+    std::map<std::string, double> passes;
+    const auto timed = [&](const auto& record) {
+        const Clock::time_point start = Clock::now();
+        gpu::Frame& frame = *need(studio.frames->begin());
+        need(record(frame));
+        need(studio.frames->submit(frame));
+        need(studio.frames->finish());
+        return milliseconds_since(start);
+    };
+    const auto full = [&](gpu::Frame& frame) {
+        return studio.renderer->render(frame, subject.scene, {&subject.eye, 1}, extent);
+    };
+    const auto least = [&](gpu::Frame& frame) { return bare.render(frame, subject.scene, subject.eye); };
+    timed(full);  // compiles the shaders
+    timed(least);
+    double ours = 0.0, floor = 0.0;
+    std::vector<double> all;
+    for (auto _ : state) {
+        floor += timed(least);
+        if (settings.shadow_moves) subject.scene.lights[0].light.direction.x += 1e-5F;
+        const double now = timed(full);
+        state.SetIterationTime(1e-3 * now);
+        all.push_back(now);
+        ours += now;
+        for (const gpu::Timing& pass : studio.frames->timings()) passes[pass.name] += pass.milliseconds;
+    }
+    const auto count = static_cast<double>(state.iterations());
+    std::sort(all.begin(), all.end());
+    state.counters["median_ms"] = all[all.size() / 2];
+    state.counters["best_ms"] = all.front();
+    state.counters["bare_ms"] = floor / count;
+    state.counters["x_bare"] = ours / floor;
+    for (const auto& [name, sum] : passes) state.counters["gpu_" + name + "_ms"] = sum / count;
+    const render::Statistics& statistics = studio.renderer->statistics();
+    state.counters["triangles"] = static_cast<double>(statistics.triangles);
+    state.counters["draws"] = statistics.draws;
+    state.SetLabel(studio.device->name());
+}
+
+void frame_machine(benchmark::State& state, const Settings& settings) {
+    guarded(state, [&] {
+        draw_frames(state, bench::make_machine(), bench::machine_eye, bench::machine_target, settings);
+    });
+}
+BENCHMARK_CAPTURE(frame_machine, shadow_kept, Settings{})->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame_machine, shadow_moves, Settings{true, true})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+// What three.js draws: no ambient occlusion.
+BENCHMARK_CAPTURE(frame_machine, as_peer, Settings{false, false})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame_machine, as_peer_shadow_moves, Settings{true, false})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+std::string model_of(const char* assembly) {
+    const content::Loaded loaded = content::load_assembly(assembly);
+    if (!loaded.ok()) throw std::runtime_error(loaded.errors.front().message());
+    return loaded.assembly.models.model;
+}
+
+void frame_zq350(benchmark::State& state) {
+    guarded(state, [&] {
+        const assets::Model model = need(assets::read_gltf(model_of("zq350")));
+        draw_frames(state, model, {0.175F, 0.62F, 0.9F}, {0.175F, 0.04F, 0.0F}, {});
+    });
+}
+BENCHMARK(frame_zq350)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+// From nothing to the first picture of the ZQ350, as a program that starts does it. The baseline is the same
+// picture once more.
+void first_picture(benchmark::State& state) {
+    guarded(state, [&] {
+        const std::string file = model_of("zq350");
+        std::map<std::string, double> parts;
+        double first = 0.0, second = 0.0;
+        for (auto _ : state) {
+            Clock::time_point since = Clock::now();
+            const Clock::time_point start = since;
+            const auto lap = [&](const char* name) {
+                parts[name] += milliseconds_since(since);
+                since = Clock::now();
+            };
+            const assets::Model model = need(assets::read_gltf(file));
+            lap("read_ms");
+            Studio studio;
+            lap("device_and_renderer_ms");
+            Subject subject(*studio.device, model, {0.175F, 0.62F, 0.9F}, {0.175F, 0.04F, 0.0F});
+            lap("upload_ms");
+            const auto shoot = [&] {
+                (void)need(render::take_pictures(*studio.device, *studio.frames, *studio.renderer,
+                                                 subject.scene, {&subject.eye, 1}, extent));
+            };
+            shoot();
+            lap("picture_ms");
+            const double now = milliseconds_since(start);
+            state.SetIterationTime(1e-3 * now);
+            first += now;
+            since = Clock::now();
+            shoot();
+            second += milliseconds_since(since);
+        }
+        for (const auto& [name, sum] : parts)
+            state.counters[name] = sum / static_cast<double>(state.iterations());
+        state.counters["x_second_picture"] = first / second;
+    });
+}
+BENCHMARK(first_picture)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
