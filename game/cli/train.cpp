@@ -14,6 +14,7 @@
 #include "game/play/summary.hpp"
 #include "game/play/train.hpp"
 #include "game/report/report.hpp"
+#include "game/view/result_pictures.hpp"
 
 namespace bolt::cli {
 
@@ -29,7 +30,7 @@ struct Options {
     std::string glove = "auto";
     bool hmd = false;
     bool headless = false;
-    bool quiet = false;
+    bool quiet = false, no_pictures = false;
     std::string trainee = "expert";
     std::uint64_t seed = 1;
     std::string out = "out";
@@ -160,9 +161,14 @@ int run(const Options& options) {
         return complain(kept.error());
     if (Status kept = write_report(session, out / "report.html"); !kept) return complain(kept.error());
     std::string closing = play::summary_table(assembly, *result);
-    closing += fmt::format("{}, {}, {}\n", session.string(), (out / "summary.json").string(),
+    closing += fmt::format("{}, {}, {}", session.string(), (out / "summary.json").string(),
                            (out / "report.html").string());
+    closing += "\n";
     if (Status said = say(closing); !said) return complain(said.error());
+    // What cannot be drawn takes nothing from what was recorded.
+    if (!options.no_pictures && interrupted == 0)
+        if (Status drawn = view::draw_result(assembly, *result, out, {1280, 720}); !drawn)
+            (void)complain(drawn.error());
     return interrupted != 0 || !result->finished ? static_cast<int>(ErrorCode::failed) : 0;
 }
 
@@ -212,6 +218,7 @@ void add_train(CLI::App& app, int& exit_code) {
         ->check(whole_number)
         ->capture_default_str();
     train->add_option("--out", options->out, "Folder for session, summary and report")->capture_default_str();
+    train->add_flag("--no-pictures", options->no_pictures, "Without pictures of how the lesson ended");
     train->add_flag("--quiet", options->quiet, "No progress");
     train->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -51,10 +51,13 @@ Status each(Stage& stage, const Subject& subject, const std::string& name, const
 
 }  // namespace
 
+Status outline(Stage& stage, const Subject& subject, const std::string& node, const glm::vec4& color) {
+    return each(stage, subject, node, [&](render::Object& object) { object.outline = color; });
+}
+
 Status mark(Stage& stage, const Subject& subject, const Marks& marks) {
     for (const std::string& name : marks.outlined)
-        if (Status s = each(stage, subject, name, [](render::Object& o) { o.outline = outline_color; }); !s)
-            return s;
+        if (Status s = outline(stage, subject, name, outline_color); !s) return s;
     for (const std::string& name : marks.ghosts)
         if (Status s = each(stage, subject, name, [](render::Object& o) { o.opacity = ghost_opacity; }); !s)
             return s;

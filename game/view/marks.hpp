@@ -11,6 +11,9 @@ struct Marks {
     std::string seen;  // empty: nothing is cut away
 };
 
+// A line of that colour around the node and what hangs below it.
+Status outline(Stage& stage, const Subject& subject, const std::string& node, const glm::vec4& color);
+
 // An error names the node that is nearest to one that is not there.
 Status mark(Stage& stage, const Subject& subject, const Marks& marks);
 

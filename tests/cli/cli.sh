@@ -69,16 +69,16 @@ mkdir broken && sed 's/"friction_thread": *[0-9.]*/"frction_thread": 0.12/; s/"s
     pump-cover/assembly.json > broken/assembly.json
 expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*friction_thread' "$bin/bolt-author" validate broken
 expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*M8' "$bin/bolt-author" validate broken
-expect 3 'friction_thread' "$bin/boltwright" train broken --headless --out "$work/never"
+expect 3 'friction_thread' "$bin/boltwright" train --no-pictures broken --headless --out "$work/never"
 check "bad content leaves no folder behind" test ! -e never
-expect 0 'score' "$bin/boltwright" train pump-cover --headless --quiet --out pump
+expect 0 'score' "$bin/boltwright" train --no-pictures pump-cover --headless --quiet --out pump
 
 # A lesson, its files, and what can be done with them.
-expect 0 'score [0-9.]+ of 100' "$bin/boltwright" train --headless --operator novice --seed 4 --out a
+expect 0 'score [0-9.]+ of 100' "$bin/boltwright" train --no-pictures --headless --operator novice --seed 4 --out a
 for file in session.boltwright summary.json report.html; do check "train leaves $file" test -s "a/$file"; done
 expect 0 '"operator": "novice"' cat a/summary.json
-expect 0 'simulated trainee plays' "$bin/boltwright" train cover-m8 --out window
-expect 0 'score' "$bin/boltwright" train --headless --quiet --operator novice --seed 4 --out b
+expect 0 'simulated trainee plays' "$bin/boltwright" train --no-pictures cover-m8 --out window
+expect 0 'score' "$bin/boltwright" train --no-pictures --headless --quiet --operator novice --seed 4 --out b
 check "the same seed gives the same summary" cmp a/summary.json b/summary.json
 check "the same seed gives the same session, byte by byte, as CSV" bash -c "
     '$bin/boltwright' export a/session.boltwright --csv - | sha256sum > a.sum &&
@@ -90,7 +90,7 @@ check "a row a tick, and a header" bash -c '[[ $(wc -l < ticks.csv) -gt 300000 ]
 expect 1 'full|written' bash -c "'$bin/boltwright' export a/session.boltwright --csv - > /dev/full"
 
 # Loosening, held against measured runs.
-expect 0 'score' "$bin/boltwright" train cover-m8 --headless --quiet --task loosen --out loose
+expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --task loosen --out loose
 expect 0 'Al Assadi' "$bin/boltwright" compare loose/session.boltwright "$sources/tests/data/m8_releasable.csv" --html m8.html
 expect 0 'MAPE' "$bin/boltwright" compare loose/session.boltwright "$sources/tests/data/m8_releasable.csv" --html m8.html
 check "compare names the source on the page" grep -q 'Al Assadi' m8.html
@@ -102,11 +102,11 @@ expect 3 'wrong.csv:1' "$bin/boltwright" compare a/session.boltwright wrong.csv
 expect 2 'is what is being read' "$bin/boltwright" report a/session.boltwright --html a/session.boltwright
 expect 2 'is what is being read' "$bin/boltwright" export a/session.boltwright --csv ./a/session.boltwright
 expect 0 'b/session' "$bin/boltwright" report a/session.boltwright --html b/session.html
-expect 2 'whole number' "$bin/boltwright" train --seed -1
-expect 2 'whole number' "$bin/boltwright" train --seed 18446744073709551616
+expect 2 'whole number' "$bin/boltwright" train --no-pictures --seed -1
+expect 2 'whole number' "$bin/boltwright" train --no-pictures --seed 18446744073709551616
 expect 1 'standard output' bash -c "'$bin/bolt-author' torque --size M16 --class 8.8 > /dev/full"
 expect 1 'standard output' bash -c "'$bin/bolt-author' validate zq350 > /dev/full"
-expect 1 'standard output' bash -c "'$bin/boltwright' train cover-m8 --headless --quiet --out full > /dev/full"
+expect 1 'standard output' bash -c "'$bin/boltwright' train --no-pictures cover-m8 --headless --quiet --out full > /dev/full"
 mkfifo pipe && (cat pipe > piped.html &) && expect 0 '' "$bin/boltwright" report a/session.boltwright --html pipe
 check "a pipe stays a pipe" test -p pipe
 
@@ -115,11 +115,16 @@ cp -r pump-cover plain
 sed -i '/^  "\(model\|model_far\|contact_model\)": /d; s/"node": "[^"]*", //' plain/assembly.json
 cp -r pump-cover locking
 sed -i 's/"lubrication": "oiled"/"lubrication": "oiled", "prevailing_torque_Nm": 4/' locking/assembly.json
-expect 0 'score' "$bin/boltwright" train locking --headless --quiet --out locked
+expect 0 'score' "$bin/boltwright" train --no-pictures locking --headless --quiet --out locked
 
 # Pictures without a display, under validation: any message of the layers is an error. Drivers leak: not ours to tell.
 draw=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright")
 expect 0 ': used' "${draw[@]}" doctor
+expect 0 'seen/view-top.png' "${draw[@]}" train cover-m8 --headless --quiet --out seen
+check "train draws every view" test -s seen/view-front.png
+expect 0 'score' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json \
+    "${draw[@]}" train cover-m8 --headless --quiet --out unseen
+check "without a GPU everything else is there" test -s unseen/report.html
 expect 0 'none: there is no desktop.*DISPLAY' env -u DISPLAY -u WAYLAND_DISPLAY "${draw[@]}" doctor
 expect 0 'pictures/cover-front.png' "${draw[@]}" render cover-m8 --view top --view front --size 96x64 --validate \
     --png pictures/cover.png
@@ -142,19 +147,19 @@ check "nothing was drawn where something was wrong" test ! -e never.png
 
 # What is wrong is said, with the right exit code.
 expect 2 '' "$bin/boltwright"
-expect 2 '' "$bin/boltwright" train --mode hard
-expect 2 'did you mean expert' "$bin/boltwright" train --headless --operator exprt --out never
-expect 4 'no headset' "$bin/boltwright" train --headless --hmd --out never
-expect 4 'no driver for a device' "$bin/boltwright" train --headless --device omega7 --out never
-expect 4 'no driver for a glove' "$bin/boltwright" train --headless --glove /dev/ttyS0 --out never
-expect 1 'cannot be made|Not a directory' "$bin/boltwright" train --headless --quiet --out /dev/null/out
+expect 2 '' "$bin/boltwright" train --no-pictures --mode hard
+expect 2 'did you mean expert' "$bin/boltwright" train --no-pictures --headless --operator exprt --out never
+expect 4 'no headset' "$bin/boltwright" train --no-pictures --headless --hmd --out never
+expect 4 'no driver for a device' "$bin/boltwright" train --no-pictures --headless --device omega7 --out never
+expect 4 'no driver for a glove' "$bin/boltwright" train --no-pictures --headless --glove /dev/ttyS0 --out never
+expect 1 'cannot be made|Not a directory' "$bin/boltwright" train --no-pictures --headless --quiet --out /dev/null/out
 expect 1 'session' "$bin/boltwright" report ticks.csv --html never.html
 expect 1 'nowhere' "$bin/boltwright" report nowhere --html never.html
 
 # Killed in the middle: what was recorded opens, reports, and says that it was cut short.
 for delay in 0.05 0.15 0.3; do
     rm -rf killed
-    "$bin/boltwright" train --headless --quiet --operator novice --out killed >/dev/null 2>&1 &
+    "$bin/boltwright" train --no-pictures --headless --quiet --operator novice --out killed >/dev/null 2>&1 &
     victim=$!
     sleep "$delay"
     kill -9 $victim 2>/dev/null

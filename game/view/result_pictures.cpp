@@ -1,0 +1,54 @@
+#include "game/view/result_pictures.hpp"
+
+#include "engine/render/picture.hpp"
+#include "game/view/marks.hpp"
+#include "game/view/painter.hpp"
+#include "game/view/picture_file.hpp"
+
+namespace bolt::view {
+
+glm::vec4 verdict_color(const lesson::JointResult& joint) {
+    using lesson::Verdict;
+    constexpr glm::vec4 green{0.1F, 0.8F, 0.25F, 1.0F}, amber{1.0F, 0.7F, 0.05F, 1.0F},
+        red{0.95F, 0.1F, 0.1F, 1.0F};
+    if (joint.condition != joint::Condition::sound || joint.overall == Verdict::high) return red;
+    return joint.overall == Verdict::ok ? green : joint.overall == Verdict::low ? amber : glm::vec4(0.0F);
+}
+
+Status draw_result(const content::Assembly& assembly, const lesson::LessonResult& result,
+                   const std::filesystem::path& folder, VkExtent2D size) {
+    if (assembly.models.model.empty() || assembly.views.empty()) return {};
+    LoadedSubject loaded = load_subject(assembly.file);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    const Result<shading::RadianceImage> radiance = load_light("studio");
+    if (!radiance) return fail(radiance.error());
+    Result<gpu::Instance> instance = gpu::Instance::create({});
+    if (!instance) return fail(instance.error());
+    Result<Painter> painter = make_painter(*instance, {});
+    if (!painter) return fail(painter.error());
+    Result<render::EnvironmentLight> light = render::upload_environment(*painter->device, *radiance);
+    if (!light) return fail(light.error());
+    const auto stage = set_stage(*painter->device, loaded.subject, *light);
+    if (!stage) return fail(stage.error());
+    for (std::size_t i = 0; i < assembly.joints.size() && i < result.joints.size(); ++i) {
+        if (assembly.joints[i].node.empty()) continue;
+        if (Status s =
+                outline(**stage, loaded.subject, assembly.joints[i].node, verdict_color(result.joints[i]));
+            !s)
+            return fail(s.error());
+    }
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    for (const Viewpoint& view : loaded.subject.views) {
+        const float fov = view.fov > 0.0F ? view.fov : usual_fov;
+        const render::Eye eye =
+            render::make_eye(view.eye, view.target, lens((*stage)->box, view.eye, view.target, fov, aspect));
+        const auto pictures = render::take_pictures(*painter->device, *painter->frames, *painter->renderer,
+                                                    (*stage)->scene, {&eye, 1}, size);
+        if (!pictures) return fail(pictures.error());
+        if (Status kept = write_picture(pictures->front(), folder / ("view-" + view.name + ".png")); !kept)
+            return kept;
+    }
+    return {};
+}
+
+}  // namespace bolt::view
