@@ -166,6 +166,7 @@ Status render_all(const RenderOptions& options) {
                 !kept)
                 return kept;
     }
+    (void)painter->renderer->save_pipelines();  // without them the next start is slower, no more
     if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
     return {};
 }

@@ -13,6 +13,11 @@ struct Painter {
     std::unique_ptr<render::Renderer> renderer;
 };
 
+// Where compiled pipelines are kept between starts: boltwright/pipelines in $XDG_CACHE_HOME or ~/.cache;
+// empty without either.
+std::filesystem::path pipeline_file();
+
+// With the pipelines of the last start, unless the options name another file.
 Result<Painter> make_painter(const gpu::Instance& instance, const gpu::DeviceOptions& on,
                              const render::RendererOptions& options = {});
 

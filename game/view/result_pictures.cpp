@@ -48,6 +48,7 @@ Status draw_result(const content::Assembly& assembly, const lesson::LessonResult
         if (Status kept = write_picture(pictures->front(), folder / ("view-" + view.name + ".png")); !kept)
             return kept;
     }
+    (void)painter->renderer->save_pipelines();  // without them the next start is slower, no more
     return {};
 }
 
