@@ -84,6 +84,7 @@ Result<PipelineCache> PipelineCache::open(const Device& device, std::filesystem:
                       header.vendorID == ours.vendorID && header.deviceID == ours.deviceID &&
                       std::memcmp(header.pipelineCacheUUID, ours.pipelineCacheUUID, VK_UUID_SIZE) == 0;
     VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    cache.stored_size_ = stored.size();
     info.initialDataSize = cache.restored_ ? stored.size() : 0;
     info.pInitialData = stored.data();
     VkPipelineCache made = VK_NULL_HANDLE;
@@ -104,6 +105,7 @@ Status PipelineCache::save() const {
     const VkResult got = vkGetPipelineCacheData(device_->get(), cache_.get(), &size, data.data());
     if (Status ok = check(got, "reading the pipeline cache"); !ok) return ok;
     data.resize(size);
+    if (restored_ && size == stored_size_) return {};
     std::error_code ignored;  // write_file says why if the folder is not there
     std::filesystem::create_directories(file_.parent_path(), ignored);
     return write_file(file_, data);

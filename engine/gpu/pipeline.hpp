@@ -62,7 +62,8 @@ class PipelineCache {
   public:
     static Result<PipelineCache> open(const Device& device,
                                       std::filesystem::path file);  // empty path: in memory only
-    // Writes it back; a cache that cannot be written is an error that the caller may ignore.
+    // Writes it back if anything was added; a cache that cannot be written is an error that the caller may
+    // ignore.
     Status save() const;
     [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
     [[nodiscard]] bool restored() const { return restored_; }
@@ -72,6 +73,7 @@ class PipelineCache {
     std::filesystem::path file_;
     PipelineCacheHandle cache_;
     bool restored_ = false;
+    std::size_t stored_size_ = 0;
 };
 
 Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCache& cache,

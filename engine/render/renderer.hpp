@@ -69,8 +69,8 @@ class Renderer {
                 view % views_a_pass_};
     }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
-    // Keeps compiled pipelines for the next start, if it was this one that compiled them.
-    [[nodiscard]] Status save_pipelines() const { return cache_.restored() ? Status{} : cache_.save(); }
+    // Keeps compiled pipelines for the next start.
+    [[nodiscard]] Status save_pipelines() const { return cache_.save(); }
 
   private:
     Status prepare();
