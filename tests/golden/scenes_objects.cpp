@@ -57,3 +57,21 @@ TEST_CASE("golden: ghosts, tints and flat marks") {
     scene.lights.push_back(lamp({-0.4F, -0.8F, -0.6F}, 1.5F));
     stage.shoot("ghosts", scene, eye_at({0, 0.8F, 12}, {0, 0, 0}, 0.5F));
 }
+
+TEST_CASE("golden: outlines through what hides them, and a cone cut away towards what must be seen") {
+    Stage stage;
+    const assets::Model ball = globe(metal({0.56F, 0.57F, 0.58F}, 0.3F)),
+                        block = cube(paint({0.15F, 0.35F, 0.4F}));
+    const GpuModel gpu_ball = stage.studio.upload(ball), gpu_block = stage.studio.upload(block);
+    Scene scene = stage.scene();
+    for (const float x : {-2.0F, 2.0F}) {
+        place(scene, ball, gpu_ball, at({x, 0, -1.5F}));
+        place(scene, block, gpu_block, at({x, -0.6F, 1.0F}, {1.2F, 0.9F, 0.4F}));
+    }
+    scene.objects[0].outline = {1.0F, 0.6F, 0.0F, 1.0F};
+    scene.objects[2].outline = {0.1F, 0.8F, 0.3F, 0.6F};
+    scene.objects[3].cut = true;
+    scene.cut_away = {{2.0F, -0.2F, -0.5F}, 0.45F, 1.0F};
+    scene.lights.push_back(lamp({-0.4F, -0.8F, -0.6F}, 1.5F));
+    stage.shoot("marks", scene, eye_at({0, 1.2F, 11}, {0, -0.2F, 0}, 0.5F));
+}
