@@ -97,6 +97,12 @@ TEST_CASE("multiview draws what single pictures show: every pass, two views and 
     same("a plain background");
     change([](Scene& scene) { scene.occlusion_radius = 0.8F; });
     same("ambient occlusion");
+    change([](Scene& scene) {
+        scene.objects[2].outline = {1.0F, 0.6F, 0.0F, 0.8F};
+        scene.objects[0].cut = true;
+        scene.cut_away = {{-2.2F, -0.6F, -1.0F}, 0.5F, 1.0F};
+    });
+    same("an outline and a cut-away");
     // The comparison can fail: the views are not alike, and neither is another scene.
     const std::vector<Picture> pictures = together.studio.shoot(together.scene, eyes(2), extent);
     CHECK(test::largest_difference(pictures[0], pictures[1]) > 20);
