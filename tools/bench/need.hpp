@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
+#include <ctime>
 #include <stdexcept>
 
 #include "engine/base/result.hpp"
@@ -14,6 +15,13 @@ using Clock = std::chrono::steady_clock;
 
 inline double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// What all threads of this program have computed so far: unlike time, no other program adds to it.
+inline double cpu_milliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
 // Thrown out of a benchmark, where guarded() catches it.

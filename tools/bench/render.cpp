@@ -17,6 +17,7 @@ namespace {
 
 using namespace bolt;
 using bench::Clock;
+using bench::cpu_milliseconds;
 using bench::guarded;
 using bench::milliseconds_since;
 using bench::need;
@@ -28,7 +29,13 @@ struct Studio {
     gpu::Instance instance = need(gpu::Instance::create({}));
     std::unique_ptr<gpu::Device> device = need(gpu::Device::create(instance, {}));
     std::unique_ptr<gpu::Frames> frames = need(gpu::Frames::create(*device));
-    std::unique_ptr<render::Renderer> renderer = need(render::Renderer::create(*device, {}));
+    std::unique_ptr<render::Renderer> renderer;
+
+    explicit Studio(float level_error_px = 0.0F) {
+        render::RendererOptions options;
+        options.level_error_px = level_error_px;
+        renderer = need(render::Renderer::create(*device, options));
+    }
 };
 
 // As `boltwright render` sets a scene up: studio light, one lamp with a shadow, ambient occlusion.
@@ -38,8 +45,9 @@ struct Subject {
     render::Scene scene;
     render::Eye eye;
 
-    Subject(gpu::Device& device, const assets::Model& model, const glm::vec3& from, const glm::vec3& to)
-        : gpu_model(need(render::upload_model(device, model))),
+    Subject(gpu::Device& device, const assets::Model& model, const glm::vec3& from, const glm::vec3& to,
+            bool levels = false)
+        : gpu_model(need(render::upload_model(device, model, {levels}))),
           light(need(render::upload_environment(device, shading::studio()))) {
         render::place(scene, model, gpu_model);
         render::SceneLight key;
@@ -60,22 +68,27 @@ struct Subject {
 
 struct Settings {
     bool shadow_moves = false, occlusion = true;
+    float level_error_px = 0.0F;  // 0: every triangle
 };
 
 void draw_frames(benchmark::State& state, const assets::Model& model, const glm::vec3& from,
                  const glm::vec3& to, const Settings& settings) {
-    Studio studio;
-    Subject subject(*studio.device, model, from, to);
+    Studio studio(settings.level_error_px);
+    Subject subject(*studio.device, model, from, to, settings.level_error_px > 0.0F);
     if (!settings.occlusion) subject.scene.occlusion_radius = 0.0F;
     auto bare = need(bench::BareRenderer::create(*studio.device, extent));
     std::map<std::string, double> passes;
+    struct Cost {
+        double time = 0.0, cpu = 0.0;  // ms
+    };
     const auto timed = [&](const auto& record) {
+        const double cpu = cpu_milliseconds();
         const Clock::time_point start = Clock::now();
         gpu::Frame& frame = *need(studio.frames->begin());
         need(record(frame));
         need(studio.frames->submit(frame));
         need(studio.frames->finish());
-        return milliseconds_since(start);
+        return Cost{milliseconds_since(start), cpu_milliseconds() - cpu};
     };
     const auto full = [&](gpu::Frame& frame) {
         return studio.renderer->render(frame, subject.scene, {&subject.eye, 1}, extent);
@@ -83,23 +96,29 @@ void draw_frames(benchmark::State& state, const assets::Model& model, const glm:
     const auto least = [&](gpu::Frame& frame) { return bare.render(frame, subject.scene, subject.eye); };
     timed(full);  // compiles the shaders
     timed(least);
-    double ours = 0.0, floor = 0.0;
+    Cost ours, floor;
+    const auto add = [](Cost& sum, const Cost& cost) {
+        sum.time += cost.time;
+        sum.cpu += cost.cpu;
+        return cost.time;
+    };
     std::vector<double> all;
     for (auto _ : state) {
-        floor += timed(least);
+        add(floor, timed(least));
         if (settings.shadow_moves) subject.scene.lights[0].light.direction.x += 1e-5F;
-        const double now = timed(full);
-        state.SetIterationTime(1e-3 * now);
-        all.push_back(now);
-        ours += now;
+        all.push_back(add(ours, timed(full)));
+        state.SetIterationTime(1e-3 * all.back());
         for (const gpu::Timing& pass : studio.frames->timings()) passes[pass.name] += pass.milliseconds;
     }
     const auto count = static_cast<double>(state.iterations());
     std::sort(all.begin(), all.end());
     state.counters["median_ms"] = all[all.size() / 2];
     state.counters["best_ms"] = all.front();
-    state.counters["bare_ms"] = floor / count;
-    state.counters["x_bare"] = ours / floor;
+    state.counters["cpu_ms"] = ours.cpu / count;
+    state.counters["bare_ms"] = floor.time / count;
+    state.counters["bare_cpu_ms"] = floor.cpu / count;
+    state.counters["x_bare"] = ours.time / floor.time;
+    state.counters["x_bare_cpu"] = ours.cpu / floor.cpu;
     for (const auto& [name, sum] : passes) state.counters["gpu_" + name + "_ms"] = sum / count;
     const render::Statistics& statistics = studio.renderer->statistics();
     state.counters["triangles"] = static_cast<double>(statistics.triangles);
@@ -130,13 +149,16 @@ std::string model_of(const char* assembly) {
     return loaded.assembly.models.model;
 }
 
-void frame_zq350(benchmark::State& state) {
+void frame_zq350(benchmark::State& state, const Settings& settings) {
     guarded(state, [&] {
         const assets::Model model = need(assets::read_gltf(model_of("zq350")));
-        draw_frames(state, model, {0.175F, 0.62F, 0.9F}, {0.175F, 0.04F, 0.0F}, {});
+        draw_frames(state, model, {0.175F, 0.62F, 0.9F}, {0.175F, 0.04F, 0.0F}, settings);
     });
 }
-BENCHMARK(frame_zq350)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame_zq350, every_triangle, Settings{})->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame_zq350, levels_within_a_pixel, Settings{false, true, 1.0F})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 // From nothing to the first picture of the ZQ350, as a program that starts does it. The baseline is the same
 // picture once more.

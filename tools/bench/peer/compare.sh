@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Frames of the machine beside three.js on the same rasteriser: times, and our ratio (below 1: we are faster). Writes
-# out/bench/peer.json. Needs chromium and npm (Debian packages of those names), and the npm registry the first time.
+# Frames of the machine beside three.js on the same rasteriser: times, what all threads computed for a frame (which holds on a
+# busy machine too), and our ratios: below 1 we are faster. Writes out/bench/peer.json. Needs chromium and npm (Debian packages
+# of those names), and the npm registry the first time.
 #   tools/bench/peer/compare.sh [BUILD]      BUILD: build/release by default
 set -euo pipefail
 cd "$(dirname "$0")/../../.."

@@ -55,11 +55,16 @@ async function measure() {
         return performance.now() - before;
     };
     const first = frame();
-    const series = (keep) => {
+    // What every process of the browser has computed so far, in ms.
+    const cpu = async () => Number(await (await fetch('/cpu')).text());
+    const series = async (keep) => {
         renderer.shadowMap.autoUpdate = !keep;
         frame();
-        return Array.from({ length: options.frames }, frame);
+        const before = await cpu();
+        const times = Array.from({ length: options.frames }, frame);
+        return { times, cpu: (await cpu() - before) / options.frames };
     };
+    const each = await series(false), kept = await series(true);
     const result = {
         three: THREE.REVISION,
         renderer: info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : gl.getParameter(gl.RENDERER),
@@ -67,7 +72,8 @@ async function measure() {
         size: [gl.drawingBufferWidth, gl.drawingBufferHeight],
         triangles, calls: renderer.info.render.calls,
         load_ms: loaded - start, first_frame_ms: first,
-        shadow_each_frame_ms: series(false), shadow_kept_ms: series(true),
+        shadow_each_frame_ms: each.times, shadow_kept_ms: kept.times,
+        shadow_each_frame_cpu_ms: each.cpu, shadow_kept_cpu_ms: kept.cpu,
     };
     frame();
     const png = await new Promise((done) => renderer.domElement.toBlob(done));

@@ -4,7 +4,7 @@
 // Needs `npm ci` in this folder and a Chromium with ANGLE (Debian: chromium). Prints one line of JSON.
 import { spawn } from 'node:child_process';
 import { createServer } from 'node:http';
-import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { mkdtemp, readdir, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { dirname, extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -34,6 +34,18 @@ async function body(request) {
     return Buffer.concat(parts);
 }
 
+// What the processes of the browser's group have computed since they began, in ms (proc(5): user and system time).
+async function cpu_of(group) {
+    let ticks = 0;
+    for (const id of await readdir('/proc')) {
+        if (!/^\d+$/.test(id)) continue;
+        const stat = await readFile(`/proc/${id}/stat`, 'utf8').catch(() => '');
+        const fields = stat.slice(stat.lastIndexOf(')') + 2).split(' ');
+        if (Number(fields[2]) === group) ticks += Number(fields[11]) + Number(fields[12]);
+    }
+    return 10 * ticks;
+}
+
 // Only the page, three.js and the model; only to this machine.
 function file_of(path) {
     if (path === '/model.glb') return model;
@@ -54,7 +66,8 @@ const server = createServer(async (request, response) => {
         return;
     }
     try {
-        const bytes = path === '/options.json' ? JSON.stringify(options) : await readFile(file_of(path));
+        const bytes = path === '/options.json' ? JSON.stringify(options)
+            : path === '/cpu' ? String(await cpu_of(browser.pid)) : await readFile(file_of(path));
         response.setHeader('Content-Type', types[extname(path)] ?? 'application/octet-stream');
         response.end(bytes);
     } catch {
