@@ -57,7 +57,8 @@ Status Renderer::prepare() {
     if (Status s = take(cache_, gpu::PipelineCache::open(*device_, options_.pipeline_cache)); !s) return s;
     for (const char* name :
          {"scene.vert", "surface.frag", "light.frag", "scene.frag", "sky.frag", "mark.vert", "mark.frag",
-          "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag"}) {
+          "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag",
+          "labels.vert", "labels.frag", "overlay.vert", "overlay.frag"}) {
         Result<gpu::Shader> shader = take_shader(name, options_.shaders);
         if (!shader) return fail(shader.error());
         shaders_.insert_or_assign(name, std::move(*shader));
@@ -77,7 +78,9 @@ Status Renderer::make_passes() {
     outline_.clear();
     if (Status s = take(shadow_, ShadowPass::create(maker, options_.shadow_size)); !s) return s;
     if (Status s = take(surfaces_, SurfacePass::create(maker)); !s) return s;
-    return take(light_, LightPass::create(maker));
+    if (Status s = take(light_, LightPass::create(maker)); !s) return s;
+    if (Status s = take(labels_, LabelPass::create(maker)); !s) return s;
+    return take(overlay_, OverlayPass::create(maker));
 }
 
 bool Renderer::multiview() const {
@@ -86,33 +89,37 @@ bool Renderer::multiview() const {
     return device_->properties().deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
 }
 
-Status Renderer::resize(gpu::Frame& frame, VkExtent2D extent, std::uint32_t views) {
-    if (extent_.width == extent.width && extent_.height == extent.height && views_ == views) return {};
-    for (Targets& targets : targets_)
+Status Renderer::resize(gpu::Frame& frame, ViewGroup& group, VkExtent2D extent, std::uint32_t views) const {
+    if (group.extent.width == extent.width && group.extent.height == extent.height && group.views == views)
+        return {};
+    for (Targets& targets : group.targets)
         each_image(targets, [&](gpu::Image& image) { frame.retire(std::move(image)); });
-    targets_.clear();
-    views_ = 0;  // until all is there
-    views_a_pass_ = multiview() ? views : 1;
-    for (std::uint32_t first = 0; first < views; first += views_a_pass_) {
-        Result<Targets> targets = make_targets(*device_, extent, views_a_pass_);
+    group.targets.clear();
+    group.views = 0;  // until all is there
+    group.views_a_pass = multiview() ? views : 1;
+    for (std::uint32_t first = 0; first < views; first += group.views_a_pass) {
+        Result<Targets> targets = make_targets(*device_, extent, group.views_a_pass);
         if (!targets) return fail(targets.error());
         if (options_.keep_depth)
             if (Status s = add_kept_depth(*device_, *targets); !s) return s;
-        targets_.push_back(std::move(*targets));
+        group.targets.push_back(std::move(*targets));
     }
-    extent_ = extent;
-    views_ = views;
+    group.extent = extent;
+    group.views = views;
     return {};
 }
 
-Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent) {
+Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
+                        std::uint32_t group_number) {
     if (eyes.empty() || eyes.size() > MAX_VIEWS || extent.width == 0 || extent.height == 0)
         return fail(ErrorCode::failed, "a picture needs one to four eyes and at least one pixel");
-    if (Status sized = resize(frame, extent, static_cast<std::uint32_t>(eyes.size())); !sized) return sized;
+    ViewGroup& group = groups_[group_number];
+    if (Status sized = resize(frame, group, extent, static_cast<std::uint32_t>(eyes.size())); !sized)
+        return sized;
     const EnvironmentLight& environment = scene.environment != nullptr ? *scene.environment : no_environment_;
     shared::Frame shared = describe(scene, eyes, extent, environment);
-    PassContext context{*device_,      frame,  scene, environment, shared, {},
-                        views_a_pass_, extent, {},    {},          white_, white_array_.get()};
+    PassContext context{*device_,           frame,  scene, environment, shared, {},
+                        group.views_a_pass, extent, {},    {},          white_, white_array_.get()};
     const auto put_frame = [&] { return take(context.frame_block, put<shared::Frame>(frame, {&shared, 1})); };
     if (Status s = put_frame(); !s) return s;
 
@@ -123,9 +130,10 @@ Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const E
     if (Status s = take(context.materials, put<shared::Material>(frame, list.materials)); !s) return s;
 
     if (Status s = shadow_.draw(context); !s) return s;
+    if (Status s = labels_.prepare(context, eyes); !s) return s;
     LightInputs inputs{&shadow_.map(), VK_NULL_HANDLE};
-    for (std::size_t pass = 0; pass < targets_.size(); ++pass) {
-        Targets& targets = targets_[pass];
+    for (std::size_t pass = 0; pass < group.targets.size(); ++pass) {
+        Targets& targets = group.targets[pass];
         if (pass > 0) {  // a view of its own
             shared.views[0] = {eyes[pass].clip_from_world, glm::inverse(eyes[pass].clip_from_world),
                                glm::vec4(eyes[pass].position, 1.0F)};
@@ -133,23 +141,28 @@ Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const E
         }
         if (Status s = surfaces_.draw(context, targets, list); !s) return s;
         if (scene.occlusion_radius > 0.0F) {
-            Result<OcclusionPass*> occluding = of_views(occlusion_, maker, views_a_pass_);
+            Result<OcclusionPass*> occluding = of_views(occlusion_, maker, group.views_a_pass);
             if (!occluding) return fail(occluding.error());
             if (Status s = (*occluding)->draw(context, targets); !s) return s;
             inputs.occlusion = targets.occlusion.view();
         }
         if (Status s = light_.draw(context, targets, list, inputs); !s) return s;
         if (!list.outlined.empty()) {
-            Result<OutlinePass*> outlining = of_views(outline_, maker, views_a_pass_);
+            Result<OutlinePass*> outlining = of_views(outline_, maker, group.views_a_pass);
             if (!outlining) return fail(outlining.error());
             if (Status s = (*outlining)->draw(context, targets, list); !s) return s;
         }
+        if (Status s = labels_.draw(context, targets); !s) return s;
         gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::Use::color_target,
                            gpu::Use::transfer_from);
     }
     statistics_ = {list.triangles, static_cast<std::uint32_t>(list.draws.size()),
                    static_cast<std::uint32_t>(list.instances.size()), shadow_.drawn()};
     return {};
+}
+
+Status Renderer::draw_over(gpu::Frame& frame, const Overlay& overlay, const Layer& picture) {
+    return overlay_.draw(*device_, frame, overlay, picture, white_array_.get());
 }
 
 }  // namespace bolt::render

@@ -6,6 +6,9 @@
 //   light      every surface lit and tone-mapped, once for all samples of a pixel that show it; then what
 //   blends
 //   outline    lines around what the scene marks
+//   labels     text in the scene
+//
+// draw_over puts an overlay on a finished picture: the user interface, and pictures of other views as insets.
 //
 // Light comes after, and not while parts are drawn, because a part's triangles are often smaller than the
 // blocks that a rasteriser shades: on lavapipe the same picture of the reducer took three times as long.
@@ -17,9 +20,11 @@
 #pragma once
 
 #include "engine/render/hot_shaders.hpp"
+#include "engine/render/passes/labels.hpp"
 #include "engine/render/passes/light.hpp"
 #include "engine/render/passes/occlusion.hpp"
 #include "engine/render/passes/outline.hpp"
+#include "engine/render/passes/overlay.hpp"
 #include "engine/render/passes/shadow.hpp"
 #include "engine/render/passes/surfaces.hpp"
 
@@ -40,12 +45,6 @@ struct RendererOptions {
     bool keep_depth = false;  // so that depth() can be read back
 };
 
-// Where a view's picture is.
-struct Layer {
-    const gpu::Image* image = nullptr;
-    std::uint32_t layer = 0;
-};
-
 struct Statistics {
     std::uint64_t triangles = 0;
     std::uint32_t draws = 0, instances = 0;
@@ -56,11 +55,17 @@ class Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererOptions& options);
 
-    // Records a frame. The pictures are in use `transfer_from` afterwards.
-    Status render(gpu::Frame& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent);
+    // Records a frame's views of one size. The pictures are in use `transfer_from` afterwards. Views of
+    // another size (an inset, the instructor's) are another group, by any number; their pictures are kept
+    // beside.
+    Status render(gpu::Frame& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
+                  std::uint32_t group = 0);
 
-    [[nodiscard]] Layer picture(std::uint32_t view) const {
-        return {&targets_[view / views_a_pass_].picture, view % views_a_pass_};
+    // Over a picture that has been rendered in this frame. Pictures that it shows are named by `picture`.
+    Status draw_over(gpu::Frame& frame, const Overlay& overlay, const Layer& picture);
+
+    [[nodiscard]] Layer picture(std::uint32_t view, std::uint32_t group = 0) const {
+        return groups_.at(group).picture(view);
     }
     // The depth of each pixel's first sample, in use `transfer_from`; none without
     // RendererOptions::keep_depth. What blends is not in it.
@@ -75,7 +80,7 @@ class Renderer {
   private:
     Status prepare();
     Status make_passes();
-    Status resize(gpu::Frame& frame, VkExtent2D extent, std::uint32_t views);
+    Status resize(gpu::Frame& frame, ViewGroup& group, VkExtent2D extent, std::uint32_t views) const;
     [[nodiscard]] bool multiview() const;
 
     gpu::Device* device_ = nullptr;
@@ -87,12 +92,12 @@ class Renderer {
     std::map<std::uint32_t, OutlinePass> outline_;      // by views
     SurfacePass surfaces_;
     LightPass light_;
+    LabelPass labels_;
+    OverlayPass overlay_;
     EnvironmentLight no_environment_;
     GpuTexture white_;
     gpu::ImageView white_array_;
-    std::vector<Targets> targets_;  // one a pass
-    VkExtent2D extent_{};
-    std::uint32_t views_ = 0, views_a_pass_ = 1;
+    std::map<std::uint32_t, ViewGroup> groups_;
     Statistics statistics_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "engine/render/environment_light.hpp"
 #include "engine/render/gpu_model.hpp"
+#include "engine/render/label.hpp"
 
 namespace bolt::render {
 
@@ -36,6 +37,7 @@ struct SceneLight {
 struct Scene {
     std::vector<Object> objects;
     std::vector<SceneLight> lights;
+    std::vector<Label> labels;
     const EnvironmentLight* environment = nullptr;
     float environment_intensity = 1.0F;
     float environment_turn = 0.0F;  // rad about Y

@@ -25,6 +25,23 @@ Status add_mark_target(gpu::Device& device, Targets& targets);
 Status add_occlusion_targets(gpu::Device& device, Targets& targets);
 Status add_kept_depth(gpu::Device& device, Targets& targets);
 
+// Where a view's picture is.
+struct Layer {
+    const gpu::Image* image = nullptr;
+    std::uint32_t layer = 0;
+};
+
+// What views of one size are drawn into, kept from frame to frame.
+struct ViewGroup {
+    std::vector<Targets> targets;  // one a pass
+    VkExtent2D extent{};
+    std::uint32_t views = 0, views_a_pass = 1;
+
+    [[nodiscard]] Layer picture(std::uint32_t view) const {
+        return {&targets[view / views_a_pass].picture, view % views_a_pass};
+    }
+};
+
 // Visits every image of them.
 template <class Visit>
 void each_image(Targets& targets, const Visit& visit) {

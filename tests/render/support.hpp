@@ -26,6 +26,10 @@ class Studio {
     }
     render::Renderer& renderer() { return *renderer_; }
     gpu::Device& device() { return gpu_.device(); }
+    gpu::Frames& frames() { return *frames_; }
+    Gpu& gpu() { return gpu_; }
+    // What a frame drew, after it was submitted.
+    render::Picture download(const render::Layer& picture);
 
   private:
     Gpu gpu_;

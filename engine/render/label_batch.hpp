@@ -1,0 +1,22 @@
+// Labels as the GPU draws them: a quad a glyph, the farthest label first.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "engine/render/label.hpp"
+#include "engine/text/atlas.hpp"
+#include "shaders/labels.h"
+
+namespace bolt::render {
+
+struct LabelBatch {
+    std::vector<shared::LabelFrame> labels;
+    std::vector<shared::LabelQuad> quads;
+};
+
+// Nothing if the atlas is full. What lies behind what is judged by the first eye.
+std::optional<LabelBatch> make_label_batch(std::span<const Label> labels, const glm::mat4& clip_from_world,
+                                           const text::Fonts& fonts, text::Atlas& atlas);
+
+}  // namespace bolt::render

@@ -1,0 +1,46 @@
+#include "engine/render/overlay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/packing.hpp>
+
+namespace bolt::render {
+
+namespace {
+
+void add(Overlay& overlay, const Rectangle& place, const glm::vec4& color, int texture) {
+    const auto first = static_cast<std::uint32_t>(overlay.vertices.size());
+    const std::uint32_t rgba = glm::packUnorm4x8(color);
+    for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(1, 1)})
+        overlay.vertices.push_back({place.low + corner * (place.high - place.low), corner, rgba});
+    OverlayDraw draw;
+    const glm::vec2 low = glm::max(glm::floor(place.low), 0.0F), high = glm::max(glm::ceil(place.high), low);
+    draw.scissor.offset = {static_cast<std::int32_t>(low.x), static_cast<std::int32_t>(low.y)};
+    draw.scissor.extent = {static_cast<std::uint32_t>(high.x - low.x),
+                           static_cast<std::uint32_t>(high.y - low.y)};
+    draw.texture = texture;
+    draw.first_index = static_cast<std::uint32_t>(overlay.indices.size());
+    draw.count = 6;
+    for (const std::uint32_t corner : {0U, 1U, 2U, 2U, 1U, 3U}) overlay.indices.push_back(first + corner);
+    overlay.draws.push_back(draw);
+}
+
+}  // namespace
+
+void add_rectangle(Overlay& overlay, const Rectangle& place, const glm::vec4& color) {
+    add(overlay, place, color, -1);
+}
+
+void add_picture(Overlay& overlay, const Rectangle& place, const Layer& picture) {
+    overlay.textures.push_back({picture, gpu::Use::transfer_from, false});
+    add(overlay, place, glm::vec4(1.0F), static_cast<int>(overlay.textures.size()) - 1);
+}
+
+void add_inset(Overlay& overlay, const Rectangle& place, const Layer& picture, float frame_px,
+               const glm::vec4& frame_color) {
+    add_rectangle(overlay, {place.low - frame_px, place.high + frame_px}, frame_color);
+    add_picture(overlay, place, picture);
+}
+
+}  // namespace bolt::render

@@ -1,0 +1,44 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_multiview : require
+// Text in the scene: six corners a glyph, from buffers alone.
+#include "shaders/shared.h"
+#include "shaders/labels.h"
+
+layout(set = 0, binding = 0, std140) uniform FrameBlock { Frame frame; };
+layout(set = 0, binding = 1, std430) readonly buffer Labels { LabelFrame labels[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Quads { LabelQuad quads[]; };
+
+layout(location = 0) out vec2 em;
+layout(location = 1) out vec2 uv;
+layout(location = 2) flat out vec4 color;
+layout(location = 3) flat out vec4 kind;  // grow, through, plate
+layout(location = 4) flat out vec2 middle;
+
+void main() {
+    const LabelQuad quad = quads[gl_VertexIndex / 6];
+    const LabelFrame label = labels[quad.label];
+    const int corner = int[](0, 1, 2, 2, 1, 3)[gl_VertexIndex % 6];
+    const vec2 side = vec2(corner & 1, corner >> 1);
+    em = mix(quad.rect.xy, quad.rect.zw, side);
+    uv = quad.plate != 0u ? quad.uv.xy : mix(quad.uv.xy, quad.uv.zw, side);
+    color = quad.color;
+    kind = vec4(quad.grow, label.up.w, float(quad.plate), 0.0);
+    middle = 0.5 * (quad.rect.xy + quad.rect.zw);
+
+    const View view = frame.views[gl_ViewIndex];
+    const vec2 pixel = 2.0 * frame.picture.zw;  // in clip space, before the division
+    vec2 moved = label.pixels.xy;
+    vec3 at = label.position.xyz;
+    if (label.right.w == LABEL_FIXED) {
+        at += label.position.w * (em.x * label.right.xyz + em.y * label.up.xyz);
+    } else if (label.right.w == LABEL_FACING) {
+        // Along these the picture's x and y change and nothing else does, whatever the projection.
+        const vec3 right = normalize(view.world_from_clip[0].xyz), up = -normalize(view.world_from_clip[1].xyz);
+        at += label.position.w * (em.x * right + em.y * up);
+    } else {
+        moved += label.position.w * em;
+    }
+    gl_Position = view.clip_from_world * vec4(at, 1.0);
+    gl_Position.xy += moved * vec2(pixel.x, -pixel.y) * gl_Position.w;
+}

@@ -1,0 +1,349 @@
+// Text in the scene: as a rasteriser would draw it, sharp at every distance, behind what is in front of it.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/text/layout.hpp"
+#include "engine/text/utf8.hpp"
+#include "tests/render/support.hpp"
+
+using namespace bolt;
+using namespace bolt::render;
+
+namespace {
+
+// Looks at the origin, which is the corner between the four middle pixels.
+Eye front(VkExtent2D extent, float distance = 2.0F) {
+    Perspective p;
+    p.aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+    p.zfar = 2.0F * distance;
+    return make_eye({0, 0, distance}, {0, 0, 0}, p);
+}
+
+Scene black() {
+    Scene scene;
+    scene.background = {0, 0, 0, 1};
+    return scene;
+}
+
+double linear_value(int encoded) {
+    const double x = encoded / 255.0;
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+// How much white there is in each pixel.
+std::vector<double> coverage(const Picture& picture) {
+    std::vector<double> values;
+    for (std::size_t i = 1; i < picture.rgba.size(); i += 4) values.push_back(linear_value(picture.rgba[i]));
+    return values;
+}
+
+// The text as stb_truetype rasterises it, its first baseline starting at the middle of the picture.
+std::vector<double> rasterised(const text::Fonts& fonts, const std::string& utf8, float em_px,
+                               VkExtent2D extent) {
+    std::vector<double> values(std::size_t{extent.width} * extent.height);
+    for (const text::PlacedGlyph& placed : text::lay_out(fonts, utf8).glyphs) {
+        const text::Face& face = fonts.faces[static_cast<std::size_t>(placed.id.face)];
+        const float x = placed.at.x * em_px;
+        const text::Face::Raster raster = face.raster(placed.id.glyph, em_px, x - std::floor(x));
+        for (int row = 0; row < raster.height; ++row)
+            for (int column = 0; column < raster.width; ++column) {
+                const int px = static_cast<int>(extent.width / 2) + static_cast<int>(std::floor(x)) +
+                               raster.left + column,
+                          py = static_cast<int>(extent.height / 2) - raster.top + row;
+                REQUIRE(px >= 0);
+                REQUIRE(px < static_cast<int>(extent.width));
+                double& value =
+                    values[static_cast<std::size_t>(py) * extent.width + static_cast<std::size_t>(px)];
+                value += raster.coverage[static_cast<std::size_t>(row * raster.width + column)] / 255.0;
+                value = std::min(value, 1.0);
+            }
+    }
+    return values;
+}
+
+// Of all ink of `reference`, how much lies elsewhere in `made`.
+double astray(const std::vector<double>& made, const std::vector<double>& reference) {
+    REQUIRE(made.size() == reference.size());
+    double ink = 0.0, off = 0.0;
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        ink += reference[i];
+        off += std::abs(made[i] - reference[i]);
+    }
+    REQUIRE(ink > 10.0);
+    return off / ink;
+}
+
+// A full block, U+2588: where its left and right edges are, em.
+constexpr const char* block = "\u2588";
+glm::dvec2 block_edges(const text::Fonts& fonts) {
+    glm::dvec2 edges(1.0, 0.0);
+    for (const auto& ring : fonts.faces[0].outline(fonts.faces[0].glyph(U'\u2588'), 0.001))
+        for (const glm::dvec2& point : ring) edges = {std::min(edges.x, point.x), std::max(edges.y, point.x)};
+    REQUIRE(edges.y - edges.x > 0.5);
+    return edges;
+}
+
+Label written(const text::Fonts& fonts, const std::string& utf8, float em_px) {
+    Label label;
+    label.text = utf8;
+    label.height = em_px;
+    label.anchor = {0, 0};
+    // The baseline, not the lower edge of the line, is at the label's position.
+    label.moved_px.y = -em_px * fonts.faces[0].descent();
+    return label;
+}
+
+}  // namespace
+
+TEST_CASE("a label is what a rasteriser makes of its text at that size") {
+    const Result<text::Fonts> fonts = text::load_fonts();
+    REQUIRE(fonts.has_value());
+    test::Studio studio;
+    constexpr VkExtent2D extent{512, 128};
+    struct Case {
+        std::string text;
+        float em_px;
+        double bound;
+    };
+    for (const Case& c :
+         {Case{"M8: 25 N·m ≈ Größe", 14.0F, 0.16}, Case{"M8: 25 N·m ≈ Größe", 22.5F, 0.08},
+          Case{"Qy7ß", 60.0F, 0.035}, Case{"预紧力矩", 20.0F, 0.07}, Case{"预紧力", 48.0F, 0.045}}) {
+        CAPTURE(c.text);
+        CAPTURE(c.em_px);
+        Scene scene = black();
+        scene.labels.push_back(written(*fonts, c.text, c.em_px));
+        const std::vector<double> made = coverage(studio.shoot(scene, front(extent), extent));
+        const std::vector<double> reference = rasterised(*fonts, c.text, c.em_px, extent);
+        const double off = astray(made, reference);
+        CAPTURE(off);
+        CHECK(off < c.bound);
+        // The measure can fail: three quarters of a pixel aside, or a little bolder.
+        scene.labels[0].moved_px.x = 0.75F;
+        CHECK(astray(coverage(studio.shoot(scene, front(extent), extent)), reference) > 1.5 * c.bound);
+        scene.labels[0].moved_px.x = 0.0F;
+        scene.labels[0].outline = glm::vec4(1.0F);
+        scene.labels[0].outline_width = 0.6F / c.em_px;
+        CHECK(astray(coverage(studio.shoot(scene, front(extent), extent)), reference) > 1.5 * c.bound);
+    }
+}
+
+namespace {
+
+// From black to white across an edge: 10 % to 90 %, in pixels. The edge is moved over a pixel in 32nds of
+// one, so that the profile is known far finer than the pixels are.
+double rise(test::Studio& studio, Scene scene, const Eye& eye, VkExtent2D extent, int blur) {
+    constexpr int steps = 32;
+    std::vector<double> profile(static_cast<std::size_t>(steps) * 12);
+    for (int step = 0; step < steps; ++step) {
+        scene.labels[0].moved_px.x = -static_cast<float>(step) / steps;
+        const std::vector<double> row = coverage(studio.shoot(scene, eye, extent));
+        const std::size_t middle = std::size_t{extent.height / 2} * extent.width + extent.width / 2 - 6;
+        for (std::size_t i = 0; i < 12; ++i) {
+            double sum = 0.0;
+            for (int b = -blur; b <= blur; ++b) sum += row[middle + i + static_cast<std::size_t>(b + 8) - 8];
+            profile[i * steps + static_cast<std::size_t>(step)] = sum / (2 * blur + 1);
+        }
+    }
+    const auto first_above = [&](double level) {
+        for (std::size_t i = 0; i < profile.size(); ++i)
+            if (profile[i] >= level) return static_cast<double>(i);
+        return -1.0;
+    };
+    REQUIRE(profile.front() < 0.02);
+    REQUIRE(profile.back() > 0.98);
+    return (first_above(0.9) - first_above(0.1)) / steps;
+}
+
+}  // namespace
+
+TEST_CASE("edges of letters are a pixel wide, near and far, seen from the front and aslant") {
+    const Result<text::Fonts> fonts = text::load_fonts();
+    REQUIRE(fonts.has_value());
+    test::Studio studio;
+    constexpr VkExtent2D extent{96, 64};
+    const auto turned = [](float about_y, float about_z) {
+        return glm::angleAxis(about_y, glm::vec3(0, 1, 0)) * glm::angleAxis(about_z, glm::vec3(0, 0, 1));
+    };
+    for (const float distance : {0.5F, 2.0F, 6.0F})
+        for (const glm::quat& turn : {turned(0, 0), turned(1.2F, 0), turned(0, 0.3F), turned(-1.0F, 0.4F)}) {
+            CAPTURE(distance);
+            CAPTURE(turn.y);
+            CAPTURE(turn.z);
+            Scene scene = black();
+            Label label;
+            label.text = block;
+            label.stand = LabelStand::fixed;
+            label.turn = turn;
+            label.height = 3.0F;
+            // Its left edge through the middle of the picture.
+            label.anchor = {static_cast<float>(block_edges(*fonts).x) / text::lay_out(*fonts, block).size.x,
+                            0.5F};
+            scene.labels.push_back(label);
+            const Eye eye = front(extent, distance);
+            const double made = rise(studio, scene, eye, extent, 0);
+            CAPTURE(made);
+            // A box filter gives 0.8 for an upright edge and up to a tenth more for one that is not.
+            CHECK(made > 0.5);
+            CHECK(made < 1.5);
+            CHECK(rise(studio, scene, eye, extent, 1) > 1.5);  // it would show if it were blurred
+        }
+}
+
+TEST_CASE("a label stands in the scene: in its plane, in its size, or equally high at every distance") {
+    const Result<text::Fonts> fonts = text::load_fonts();
+    REQUIRE(fonts.has_value());
+    const double width = block_edges(*fonts).y - block_edges(*fonts).x;  // em
+    test::Studio studio;
+    constexpr VkExtent2D extent{160, 120};
+    // Width and height of what is to be seen, in pixels.
+    const auto seen = [&](const Label& label, const Eye& eye) {
+        Scene scene = black();
+        scene.labels.push_back(label);
+        const std::vector<double> values = coverage(studio.shoot(scene, eye, extent));
+        glm::dvec2 sum(0.0);  // of the middle row and column
+        for (std::size_t x = 0; x < extent.width; ++x) sum.x += values[std::size_t{60} * extent.width + x];
+        for (std::size_t y = 0; y < extent.height; ++y) sum.y += values[y * extent.width + 80];
+        return sum;
+    };
+    Label label;
+    label.text = block;  // as high as a line and more
+    label.height = 0.2F;
+    const double metre = 60.0 / std::tan(0.3) / 2.0;  // px at a distance of 2
+    label.stand = LabelStand::facing;
+    const glm::dvec2 facing = seen(label, front(extent));
+    CHECK(facing.x == doctest::Approx(0.2 * width * metre).epsilon(0.02));
+    CHECK(facing.y > facing.x * 1.4);
+    const glm::dvec2 twice = seen(label, front(extent, 4.0F));
+    CHECK(twice.x == doctest::Approx(0.5 * facing.x).epsilon(0.01));
+    CHECK(twice.y == doctest::Approx(0.5 * facing.y).epsilon(0.01));
+    Perspective p;
+    p.aspect = 4.0F / 3.0F;
+    const glm::dvec2 aside = seen(label, make_eye({2.0F * std::sin(1.0F), 0, 2.0F * std::cos(1.0F)}, {}, p));
+    CHECK(aside.x == doctest::Approx(facing.x).epsilon(0.01));
+
+    label.stand = LabelStand::fixed;
+    CHECK(seen(label, front(extent)).x == doctest::Approx(facing.x).epsilon(0.01));
+    label.turn = glm::angleAxis(1.0471976F, glm::vec3(0, 1, 0));
+    CHECK(seen(label, front(extent)).x == doctest::Approx(0.5 * facing.x).epsilon(0.03));
+    label.turn = glm::angleAxis(1.5707963F, glm::vec3(0, 0, 1));
+    CHECK(seen(label, front(extent)).y == doctest::Approx(facing.x).epsilon(0.02));
+
+    label.stand = LabelStand::on_screen;
+    label.height = 40.0F;
+    for (const float distance : {0.5F, 2.0F, 9.0F})
+        CHECK(seen(label, front(extent, distance)).x == doctest::Approx(40.0 * width).epsilon(0.01));
+    label.anchor.x = 0.0F;  // all of it to the right of the middle
+    label.moved_px.x = 10.0F;
+    CHECK(seen(label, front(extent)).x == doctest::Approx(40.0 * width).epsilon(0.01));
+    CHECK(seen(label, front(extent)).y == doctest::Approx(0.0));
+    CHECK(seen(label, make_eye({0, 0, 2}, {0, 0, 4}, p)).x == 0.0);  // behind the eye
+}
+
+TEST_CASE("parts in front of a label hide it, as far as it does not show through") {
+    test::Studio studio;
+    assets::Material flat;
+    flat.base_color = {0, 0, 0, 1};
+    const assets::Model model = test::plate(flat);
+    const GpuModel gpu_model = studio.upload(model);
+    constexpr VkExtent2D extent{96, 64};
+    const Eye eye = front(extent);
+    // A black plate upright at z = 0 covers the right half of the picture; the label is before or behind it.
+    const auto whiteness = [&](float z, float through) {
+        Scene scene = black();
+        place(scene, model, gpu_model,
+              glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, -1, 0, 0),
+                        glm::vec4(1, 0, 0, 1)));
+        Label label;
+        label.text = std::string(block) + block;
+        label.position.z = z;
+        label.height = 24.0F;
+        label.through = through;
+        scene.labels.push_back(label);
+        const std::vector<double> values = coverage(studio.shoot(scene, eye, extent));
+        const std::size_t row = std::size_t{32} * extent.width;
+        return std::pair{values[row + 40], values[row + 56]};
+    };
+    CHECK(whiteness(0.1F, 0.0F) == std::pair{1.0, 1.0});
+    CHECK(whiteness(-0.1F, 0.0F).first == 1.0);
+    CHECK(whiteness(-0.1F, 0.0F).second < 0.001);
+    CHECK(whiteness(-0.1F, 0.25F).second == doctest::Approx(0.25).epsilon(0.03));
+    CHECK(whiteness(-0.1F, 1.0F).second == 1.0);
+}
+
+TEST_CASE("outline and plate lie behind the text, and the plate is as large as it should be") {
+    const Result<text::Fonts> fonts = text::load_fonts();
+    REQUIRE(fonts.has_value());
+    test::Studio studio;
+    constexpr VkExtent2D extent{160, 96};
+    Scene scene = black();
+    Label label;
+    label.text = "H";
+    label.height = 40.0F;
+    label.color = {1, 0, 0, 1};
+    label.outline = {0, 0, 1, 1};
+    label.outline_width = 0.1F;
+    label.plate = {0, 1, 0, 1};
+    scene.labels.push_back(label);
+    const Picture made = studio.shoot(scene, front(extent), extent);
+    double green = 0.0, red = 0.0, blue = 0.0;
+    for (std::size_t i = 0; i < made.rgba.size(); i += 4) {
+        red += linear_value(made.rgba[i]);
+        green += linear_value(made.rgba[i + 1]);
+        blue += linear_value(made.rgba[i + 2]);
+    }
+    // Half an em of width more, and 0.15 em above and below; corners with a radius of 0.3 em.
+    const glm::vec2 text = text::lay_out(*fonts, "H").size, plate = text + 2.0F * glm::vec2(0.35F, 0.15F);
+    const double area = 1600.0 * (static_cast<double>(plate.x * plate.y) - (4.0 - 3.14159265) * 0.09);
+    CHECK(red + green + blue == doctest::Approx(area).epsilon(0.005));
+    label.outline = label.plate = glm::vec4(0.0F);
+    scene.labels[0] = label;
+    const Picture bare = studio.shoot(scene, front(extent), extent);
+    double red_alone = 0.0;
+    for (std::size_t i = 0; i < bare.rgba.size(); i += 4) red_alone += linear_value(bare.rgba[i]);
+    CHECK(red == doctest::Approx(red_alone).epsilon(0.005));  // the outline does not cover the letter
+    CHECK(blue > 0.6 * red);
+}
+
+TEST_CASE("labels in several views are what they are in each, and a full atlas starts anew") {
+    for (const auto multiview : {RendererOptions::Multiview::never, RendererOptions::Multiview::always}) {
+        RendererOptions options;
+        options.multiview = multiview;
+        test::Studio studio(options), alone;
+        // On lavapipe (Mesa 22.3) the first triangles of the second view of a multiview pass land in the
+        // first.
+        if (multiview == RendererOptions::Multiview::always &&
+            studio.gpu().device().properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU)
+            continue;
+        Scene scene = black();
+        Label label;
+        label.text = "B7 预紧 25 N·m";
+        label.height = 12.0F;
+        label.plate = {0.1F, 0.2F, 0.3F, 0.8F};
+        scene.labels.push_back(label);
+        label.stand = LabelStand::facing;
+        label.position = {0.2F, 0.3F, 0.5F};
+        label.height = 0.15F;
+        scene.labels.push_back(label);
+        const VkExtent2D extent{128, 96};
+        const Eye eyes[] = {make_eye({-0.2F, 0, 2}, {0, 0, 0}, {}), make_eye({0.2F, 0, 2}, {0, 0, 0}, {})};
+        const std::vector<Picture> both = studio.shoot(scene, eyes, extent);
+        for (std::size_t i = 0; i < 2; ++i)
+            CHECK(test::largest_difference(both[i], alone.shoot(scene, eyes[i], extent)) <= 1);
+        CHECK(test::largest_difference(both[0], both[1]) > 50);
+
+        // Two thousand Chinese characters do not fit; they are drawn, and the first labels after them again.
+        const auto all = [](char32_t first, char32_t count) {
+            std::u32string points;
+            for (char32_t i = 0; i < count; ++i) points += first + i;
+            Scene full = black();
+            full.labels.resize(1);
+            full.labels[0].text = text::encode(points);
+            return full;
+        };
+        if (multiview == RendererOptions::Multiview::never)
+            for (const char32_t first : {0x4E00U, 0x5300U})
+                (void)studio.shoot(all(first, 800), eyes[0], extent);
+        CHECK(test::largest_difference(studio.shoot(scene, eyes[0], extent), both[0]) <= 1);
+    }
+}
