@@ -1,0 +1,58 @@
+// What the user does, as plain values: whoever has the window, the headset or the test fills it in once a
+// frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <string>
+
+namespace bolt::ui {
+
+// Keys that the interface itself asks for; what is typed comes as text.
+enum class Key : std::uint8_t {
+    tab,
+    left,
+    right,
+    up,
+    down,
+    page_up,
+    page_down,
+    home,
+    end,
+    insert,
+    erase,  // the key Delete
+    backspace,
+    space,
+    enter,
+    escape,
+    a,
+    c,
+    v,
+    x,
+    y,
+    z,
+};
+inline constexpr std::size_t key_count = 21;
+
+struct Button {
+    bool down = false;
+    bool pressed = false;  // went down since the last frame, even if it is up again
+};
+
+struct Input {
+    glm::vec2 size{0.0F};   // of the picture, pixels
+    float scale = 1.0F;     // of the display: pixels for each point of the design
+    double seconds = 0.0;   // since the last frame
+    bool pointing = false;  // the pointer is over the picture
+    glm::vec2 pointer{0.0F};
+    std::array<Button, 3> buttons{};  // left, right, middle
+    glm::vec2 wheel{0.0F};            // steps since the last frame; y: away from the user
+    std::array<bool, key_count> keys{};
+    bool ctrl = false, shift = false, alt = false;
+    std::string text;  // UTF-8, typed since the last frame
+
+    bool& key(Key k) { return keys.at(static_cast<std::size_t>(k)); }
+};
+
+}  // namespace bolt::ui

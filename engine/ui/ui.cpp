@@ -1,0 +1,203 @@
+#include "engine/ui/ui.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "engine/gpu/transfer.hpp"
+#include "engine/text/fonts.hpp"
+#include "engine/text/utf8.hpp"
+#include "engine/ui/style.hpp"
+
+namespace bolt::ui {
+
+namespace {
+
+static_assert(IM_COL32_R_SHIFT == 0 && IM_COL32_A_SHIFT == 24);
+
+// European languages, and what is written about bolts; ranges of code points, both ends included.
+constexpr std::pair<char32_t, char32_t> always[] = {{0x20, 0x7E}, {0xA0, 0x17F}, {0x391, 0x3C9}};
+constexpr std::u32string_view signs = U"–—‘’‚“”„…•′″€⁰¹²³⁴⁻₀₁₂₃₄←↑→↓∆∑−√∞∠∥≈≠≤≥✓✗�";
+
+// Textures are numbers from 1: the font, then this frame's pictures.
+ImTextureID texture_id(std::size_t number) {
+    ImTextureID id = nullptr;
+    static_assert(sizeof id == sizeof number);
+    std::memcpy(&id, &number, sizeof id);
+    return id;
+}
+std::size_t texture_number(ImTextureID id) {
+    std::size_t number = 0;
+    std::memcpy(&number, &id, sizeof number);
+    return number;
+}
+
+constexpr ImGuiKey_ keys[key_count] = {
+    ImGuiKey_Tab,    ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow,
+    ImGuiKey_PageUp, ImGuiKey_PageDown,  ImGuiKey_Home,       ImGuiKey_End,     ImGuiKey_Insert,
+    ImGuiKey_Delete, ImGuiKey_Backspace, ImGuiKey_Space,      ImGuiKey_Enter,   ImGuiKey_Escape,
+    ImGuiKey_A,      ImGuiKey_C,         ImGuiKey_V,          ImGuiKey_X,       ImGuiKey_Y,
+    ImGuiKey_Z};
+
+void feed(ImGuiIO& io, const Input& input) {
+    io.DisplaySize = {input.size.x, input.size.y};
+    io.DeltaTime = static_cast<float>(std::max(input.seconds, 1e-6));
+    // A pointer that is elsewhere is where nothing can be.
+    io.MousePos = input.pointing
+                      ? ImVec2(input.pointer.x, input.pointer.y)
+                      : ImVec2(-std::numeric_limits<float>::max(), -std::numeric_limits<float>::max());
+    for (std::size_t i = 0; i < input.buttons.size(); ++i)
+        io.MouseDown[i] = input.buttons.at(i).down || input.buttons.at(i).pressed;
+    io.MouseWheelH = input.wheel.x;
+    io.MouseWheel = input.wheel.y;
+    std::copy(input.keys.begin(), input.keys.end(), io.KeysDown);
+    io.KeyCtrl = input.ctrl;
+    io.KeyShift = input.shift;
+    io.KeyAlt = input.alt;
+    io.AddInputCharactersUTF8(input.text.c_str());
+}
+
+VkRect2D scissor_of(const ImVec4& clip) {
+    const auto left = static_cast<std::int32_t>(std::floor(std::max(clip.x, 0.0F))),
+               top = static_cast<std::int32_t>(std::floor(std::max(clip.y, 0.0F)));
+    const auto right = static_cast<std::int32_t>(std::ceil(clip.z)),
+               bottom = static_cast<std::int32_t>(std::ceil(clip.w));
+    return {{left, top},
+            {static_cast<std::uint32_t>(std::max(right - left, 0)),
+             static_cast<std::uint32_t>(std::max(bottom - top, 0))}};
+}
+
+void append(render::Overlay& overlay, const ImDrawList& list) {
+    const std::size_t vertices = overlay.vertices.size(), indices = overlay.indices.size();
+    for (const ImDrawVert& v : list.VtxBuffer)
+        overlay.vertices.push_back({{v.pos.x, v.pos.y}, {v.uv.x, v.uv.y}, v.col});
+    overlay.indices.insert(overlay.indices.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+        render::OverlayDraw draw;
+        draw.scissor = scissor_of(command.ClipRect);
+        draw.texture = static_cast<int>(texture_number(command.GetTexID())) - 1;
+        draw.first_index = static_cast<std::uint32_t>(indices) + command.IdxOffset;
+        draw.count = command.ElemCount;
+        draw.first_vertex = static_cast<std::int32_t>(vertices + command.VtxOffset);
+        overlay.draws.push_back(draw);
+    }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Ui>> Ui::create(gpu::Device& device, const UiOptions& options) {
+    std::unique_ptr<Ui> ui(new Ui);
+    ui->device_ = &device;
+    ui->options_ = options;
+    for (const text::FontFile& wanted : text::font_files()) {
+        Result<std::filesystem::path> file = text::find_font(wanted, text::font_folders());
+        if (!file) return fail(file.error());
+        Result<text::Face> face = text::Face::read(*file);
+        if (!face) return fail(face.error());
+        ui->fonts_.push_back({file->string(), face->ascent() + face->descent()});
+    }
+    for (const auto& [first, last] : always)
+        for (char32_t point = first; point <= last; ++point) ui->letters_.insert(point);
+    ui->letters_.insert(signs.begin(), signs.end());
+
+    ImGuiContext* before = ImGui::GetCurrentContext();
+    ui->context_.reset(ImGui::CreateContext());
+    ImGui::SetCurrentContext(ui->context_.get());
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;  // nothing is written beside the program
+    io.LogFilename = nullptr;
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    for (std::size_t i = 0; i < key_count; ++i) io.KeyMap[keys[i]] = static_cast<int>(i);
+    ImGui::SetCurrentContext(before);
+    return ui;
+}
+
+Ui::~Ui() = default;
+
+void Ui::need(std::string_view utf8) {
+    for (const char32_t point : text::decode(utf8))
+        if (point >= 0x20 && point <= IM_UNICODE_CODEPOINT_MAX) stale_ |= letters_.insert(point).second;
+}
+
+Status Ui::rebuild(gpu::Frame& frame) {
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
+    ImFontGlyphRangesBuilder builder;
+    for (const char32_t point : letters_) builder.AddChar(static_cast<ImWchar>(point));
+    ImVector<ImWchar> ranges;
+    builder.BuildRanges(&ranges);
+    for (const Font& font : fonts_) {
+        ImFontConfig config;
+        config.MergeMode = &font != &fonts_.front();
+        // Chinese characters are all equally wide and stand on whole pixels; others between them.
+        config.OversampleH = config.MergeMode ? 1 : 3;
+        config.PixelSnapH = config.MergeMode;
+        const float em = std::round(options_.text_size * scale_);
+        if (atlas.AddFontFromFileTTF(font.file.c_str(), em * font.line, &config, ranges.Data) == nullptr)
+            return fail(ErrorCode::failed, "the font " + font.file + " cannot be read");
+    }
+    unsigned char* texels = nullptr;
+    int width = 0, height = 0;
+    atlas.GetTexDataAsAlpha8(&texels, &width, &height);
+    if (texels == nullptr) return fail(ErrorCode::failed, "the interface's letters cannot be drawn");
+    gpu::ImageInfo info;
+    info.format = VK_FORMAT_R8_UNORM;
+    info.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.array = true;
+    Result<gpu::Image> image = gpu::Image::create(*device_, info);
+    if (!image) return fail(image.error());
+    const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (Status sent = gpu::upload_image(*device_, *image, std::as_bytes(std::span(texels, size))); !sent)
+        return sent;
+    if (font_image_.get() != VK_NULL_HANDLE) frame.retire(std::move(font_image_));
+    font_image_ = std::move(*image);
+    atlas.SetTexID(texture_id(1));
+    atlas.ClearTexData();
+    stale_ = false;
+    return {};
+}
+
+Status Ui::begin(gpu::Frame& frame, const Input& input) {
+    ImGui::SetCurrentContext(context_.get());
+    if (const float scale = std::clamp(input.scale, 0.25F, 8.0F); scale != scale_) {
+        scale_ = scale;
+        ImGui::GetStyle() = make_style(scale);
+        stale_ = true;
+    }
+    if (stale_)
+        if (Status built = rebuild(frame); !built) return built;
+    pictures_.clear();
+    feed(ImGui::GetIO(), input);
+    ImGui::NewFrame();
+    return {};
+}
+
+ImTextureID Ui::picture(const render::Layer& picture) {
+    pictures_.push_back({picture, gpu::Use::transfer_from, false});
+    return texture_id(pictures_.size() + 1);
+}
+
+render::Overlay Ui::end() {
+    ImGui::Render();
+    render::Overlay overlay;
+    overlay.textures.push_back({{&font_image_, 0}, gpu::Use::sampled, true});
+    overlay.textures.insert(overlay.textures.end(), pictures_.begin(), pictures_.end());
+    const ImDrawData& data = *ImGui::GetDrawData();
+    for (int i = 0; i < data.CmdListsCount; ++i) append(overlay, *data.CmdLists[i]);
+    return overlay;
+}
+
+bool Ui::wants_pointer() const {
+    ImGui::SetCurrentContext(context_.get());
+    return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Ui::wants_keys() const {
+    ImGui::SetCurrentContext(context_.get());
+    return ImGui::GetIO().WantCaptureKeyboard;
+}
+
+}  // namespace bolt::ui
