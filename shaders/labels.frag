@@ -9,6 +9,7 @@ layout(location = 1) in vec2 uv;
 layout(location = 2) flat in vec4 color;
 layout(location = 3) flat in vec4 kind;
 layout(location = 4) flat in vec2 middle;
+layout(location = 5) noperspective in float depth;
 
 layout(set = 0, binding = 3) uniform sampler2D atlas;
 layout(set = 0, binding = 4) uniform sampler2DMSArray depths;
@@ -40,7 +41,7 @@ void main() {
 
     float hidden = 0.0;
     for (int i = 0; i < 4; ++i)
-        hidden += texelFetch(depths, ivec3(gl_FragCoord.xy, gl_ViewIndex), i).r > gl_FragCoord.z ? 0.25 : 0.0;
+        hidden += texelFetch(depths, ivec3(gl_FragCoord.xy, gl_ViewIndex), i).r > depth ? 0.25 : 0.0;
     const float alpha = color.a * covered * mix(1.0, kind.y, hidden);
     color_out = vec4(color.rgb * alpha, alpha);
 }

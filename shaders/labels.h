@@ -11,7 +11,7 @@ struct LabelFrame {
     vec4 position;  // m; w: height of an em, m or pixels
     vec4 right;     // along a line of text, length 1; w: LABEL_…
     vec4 up;        // w: how much shows through parts in front of it
-    vec4 pixels;    // xy: moved on the screen, y up
+    vec4 pixels;    // xy: moved on the screen, y up; z: m towards the eye, when it is held against the depth of parts
 };
 
 #define LABEL_FIXED 0.0     // lies in the plane of right and up

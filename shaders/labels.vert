@@ -14,6 +14,7 @@ layout(location = 1) out vec2 uv;
 layout(location = 2) flat out vec4 color;
 layout(location = 3) flat out vec4 kind;  // grow, through, plate
 layout(location = 4) flat out vec2 middle;
+layout(location = 5) noperspective out float depth;  // that parts are held against
 
 void main() {
     const LabelQuad quad = quads[gl_VertexIndex / 6];
@@ -39,6 +40,10 @@ void main() {
     } else {
         moved += label.position.w * em;
     }
+    const vec3 to_eye = view.eye.xyz - at;
+    const float nearer = min(label.pixels.z, 0.9 * length(to_eye));
+    const vec4 before = view.clip_from_world * vec4(at + nearer * normalize(to_eye), 1.0);
+    depth = before.z / before.w;
     gl_Position = view.clip_from_world * vec4(at, 1.0);
     gl_Position.xy += moved * vec2(pixel.x, -pixel.y) * gl_Position.w;
 }

@@ -32,7 +32,10 @@ struct Label {
     glm::vec4 outline{0.0F};      // no outline without alpha
     float outline_width = 0.06F;  // em, up to 0.1
     glm::vec4 plate{0.0F};        // behind the text; none without alpha
-    float through = 0.0F;         // how much is seen of it through parts: 0 nothing, 1 it is always in front
+    // How much is seen of it where parts are in front: 0 nothing, 1 all of it. Ghosts hide it as whole parts
+    // do.
+    float through = 0.0F;
+    float before = 0.0F;  // m: parts that are no further in front than this do not hide it
 };
 
 }  // namespace bolt::render

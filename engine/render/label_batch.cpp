@@ -27,7 +27,7 @@ shared::LabelFrame frame_of(const Label& label) {
     frame.position = glm::vec4(label.position, label.height);
     frame.right = glm::vec4(label.turn * glm::vec3(1, 0, 0), stand);
     frame.up = glm::vec4(label.turn * glm::vec3(0, 1, 0), std::clamp(label.through, 0.0F, 1.0F));
-    frame.pixels = glm::vec4(label.moved_px, 0.0F, 0.0F);
+    frame.pixels = glm::vec4(label.moved_px, label.before, 0.0F);
     return frame;
 }
 

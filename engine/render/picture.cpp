@@ -7,10 +7,12 @@
 namespace bolt::render {
 
 Result<std::vector<Picture>> take_pictures(gpu::Device& device, gpu::Frames& frames, Renderer& renderer,
-                                           const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent) {
+                                           const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
+                                           std::span<const Inset> insets) {
     Result<gpu::Frame*> frame = frames.begin();
     if (!frame) return fail(frame.error());
-    if (Status drawn = renderer.render(**frame, scene, eyes, extent); !drawn) return fail(drawn.error());
+    if (Status drawn = render_with_insets(renderer, **frame, scene, eyes, extent, insets); !drawn)
+        return fail(drawn.error());
     if (Status sent = frames.submit(**frame); !sent) return fail(sent.error());
     if (Status done = frames.finish(); !done) return fail(done.error());
     std::vector<Picture> pictures;

@@ -1,7 +1,7 @@
 // A picture on the CPU: what offscreen rendering is for.
 #pragma once
 
-#include "engine/render/renderer.hpp"
+#include "engine/render/inset.hpp"
 
 namespace bolt::render {
 
@@ -12,6 +12,7 @@ struct Picture {
 
 // One picture for each eye.
 Result<std::vector<Picture>> take_pictures(gpu::Device& device, gpu::Frames& frames, Renderer& renderer,
-                                           const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent);
+                                           const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
+                                           std::span<const Inset> insets = {});
 
 }  // namespace bolt::render

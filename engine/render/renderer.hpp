@@ -69,9 +69,8 @@ class Renderer {
     }
     // The depth of each pixel's first sample, in use `transfer_from`; none without
     // RendererOptions::keep_depth. What blends is not in it.
-    [[nodiscard]] Layer depth(std::uint32_t view) const {
-        return {options_.keep_depth ? &targets_[view / views_a_pass_].kept_depth : nullptr,
-                view % views_a_pass_};
+    [[nodiscard]] Layer depth(std::uint32_t view, std::uint32_t group = 0) const {
+        return options_.keep_depth ? groups_.at(group).depth(view) : Layer{};
     }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     // Keeps compiled pipelines for the next start.

@@ -40,6 +40,9 @@ struct ViewGroup {
     [[nodiscard]] Layer picture(std::uint32_t view) const {
         return {&targets[view / views_a_pass].picture, view % views_a_pass};
     }
+    [[nodiscard]] Layer depth(std::uint32_t view) const {
+        return {&targets[view / views_a_pass].kept_depth, view % views_a_pass};
+    }
 };
 
 // Visits every image of them.

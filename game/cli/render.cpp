@@ -27,10 +27,10 @@ struct RenderOptions {
     std::string what, png = "out/render.png", timings, light = "studio", gpu;
     std::vector<std::string> views;
     view::Marks marks;
-    std::string eye, target, size = "1280x720";
+    std::string inset, eye, target, size = "1280x720";
     double fov_deg = 35.0, level_error_px = 0.0;
     int frames = 1;
-    bool stereo = false, validate = false, no_key = false;
+    bool stereo = false, validate = false, no_key = false, labels = false;
 };
 
 constexpr float eye_distance = 0.063F;  // m, the mean of adults
@@ -76,14 +76,40 @@ std::string timings_json(const std::string& device, const render::Statistics& st
         {"device", device}, {"triangles", statistics.triangles}, {"draws", statistics.draws}};
     std::vector<double> sorted;
     for (const FrameTime& time : times) {
-        nlohmann::ordered_json passes;
-        for (const gpu::Timing& pass : time.passes) passes[pass.name] = pass.milliseconds;
+        nlohmann::ordered_json passes = nlohmann::ordered_json::object();
+        for (const gpu::Timing& pass : time.passes)  // several views have a pass each
+            passes[pass.name] = passes.value(pass.name, 0.0) + pass.milliseconds;
         json["frames"].push_back({{"ms", time.milliseconds}, {"gpu_ms", passes}});
         sorted.push_back(time.milliseconds);
     }
     std::sort(sorted.begin(), sorted.end());
     json["median_ms"] = sorted[sorted.size() / 2];
     return json.dump(1) + "\n";
+}
+
+// The eye of a view, `aside` metres to the right of where it is.
+render::Eye eye_of(const RenderOptions& options, const view::Viewpoint& view, const render::Box& box,
+                   float aspect, float aside = 0.0F) {
+    const float fov = view.fov > 0.0F ? view.fov : static_cast<float>(to_radians(options.fov_deg));
+    const render::Perspective lens = view::lens(box, view.eye, view.target, fov, aspect);
+    const glm::vec3 right =
+        glm::normalize(glm::vec3(glm::transpose(render::look_at(view.eye, view.target))[0]));
+    return render::make_eye(view.eye + aside * right, view.target + aside * right, lens);
+}
+
+// The joints' names where they are, seen through parts a little.
+void name_joints(const view::Subject& subject, render::Scene& scene) {
+    for (const view::JointPlace& joint : subject.joints) {
+        render::Label label;
+        label.text = joint.id;
+        label.position = joint.at;
+        label.before = 0.05F;  // its own bolt does not hide it
+        label.moved_px = {0.0F, 26.0F};
+        label.height = 14.0F;
+        label.plate = {0.08F, 0.10F, 0.12F, 0.85F};
+        label.through = 0.35F;
+        scene.labels.push_back(label);
+    }
 }
 
 // From where: the named views, or the one that the options describe.
@@ -112,7 +138,9 @@ Status render_all(const RenderOptions& options) {
     if (!extent) return fail(extent.error());
     const view::LoadedSubject subject = view::load_subject(options.what);
     if (!subject.ok()) return fail(subject.errors.front());
-    for (const std::string& name : options.views)
+    std::vector<std::string> named = options.views;
+    if (!options.inset.empty()) named.push_back(options.inset);
+    for (const std::string& name : named)
         if (Result<view::Viewpoint> known = view::named_view(subject.subject, name); !known)
             return fail(known.error());
     const Result<shading::RadianceImage> radiance = view::load_light(options.light);
@@ -137,22 +165,25 @@ Status render_all(const RenderOptions& options) {
     const float aspect = static_cast<float>(extent->width) / static_cast<float>(extent->height);
     const auto views = viewpoints(options, subject.subject, (*stage)->box, aspect);
     if (!views) return fail(views.error());
+    if (options.labels) name_joints(subject.subject, (*stage)->scene);
+    std::vector<render::Inset> insets;
+    if (!options.inset.empty()) {
+        const Result<view::Viewpoint> view = view::named_view(subject.subject, options.inset);
+        if (!view) return fail(view.error());
+        insets.push_back(
+            {eye_of(options, *view, (*stage)->box, aspect), render::lower_right(*extent, 0.28F)});
+    }
     for (const view::Viewpoint& view : *views) {
         if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");
-        const float fov = view.fov > 0.0F ? view.fov : static_cast<float>(to_radians(options.fov_deg));
-        const render::Perspective lens = view::lens((*stage)->box, view.eye, view.target, fov, aspect);
-        const glm::vec3 right =
-            glm::normalize(glm::vec3(glm::transpose(render::look_at(view.eye, view.target))[0]));
         std::vector<render::Eye> eyes;
         for (const float side : options.stereo ? std::vector{-0.5F, 0.5F} : std::vector{0.0F})
-            eyes.push_back(render::make_eye(view.eye + side * eye_distance * right,
-                                            view.target + side * eye_distance * right, lens));
+            eyes.push_back(eye_of(options, view, (*stage)->box, aspect, side * eye_distance));
         std::vector<render::Picture> pictures;
         std::vector<FrameTime> times;
         for (int frame = 0; frame < options.frames; ++frame) {
             const auto start = std::chrono::steady_clock::now();
             Result<std::vector<render::Picture>> taken = render::take_pictures(
-                device, *painter->frames, *painter->renderer, (*stage)->scene, eyes, *extent);
+                device, *painter->frames, *painter->renderer, (*stage)->scene, eyes, *extent, insets);
             if (!taken) return fail(taken.error());
             pictures = std::move(*taken);
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
@@ -179,6 +210,9 @@ void add_render(CLI::App& app, int& exit_code) {
         app.add_subcommand("render", "Draw an assembly or a .glb into a PNG; needs no display");
     command->add_option("what", options->what, "Assembly (folder, file or name) or a .glb")->required();
     command->add_option("--view", options->views, "Named view of the assembly; several give several files");
+    command->add_option("--inset", options->inset,
+                        "Named view that is shown small in the lower right corner");
+    command->add_flag("--labels", options->labels, "Write the joints' names where they are");
     command->add_option("--eye", options->eye, "Where to look from: X,Y,Z in metres");
     command->add_option("--target", options->target, "Where to look to: X,Y,Z in metres");
     command->add_option("--fov", options->fov_deg, "Vertical field of view, degrees")

@@ -57,6 +57,8 @@ LoadedSubject load_subject(const std::string& what, Level level) {
         for (const content::View& view : a.views)
             subject.views.push_back({view.name, glm::vec3(view.eye), glm::vec3(view.target),
                                      static_cast<float>(view.field_of_view)});
+        for (const content::AssemblyJoint& joint : a.joints)
+            subject.joints.push_back({joint.design.id, glm::vec3(joint.design.seat)});
         subject.files.emplace_back(a.file);
     }
     Result<assets::Model> model = assets::read_gltf(file);

@@ -18,12 +18,18 @@ struct Viewpoint {
     float fov = 0.0F;  // rad, vertical; 0: whatever is usual
 };
 
+struct JointPlace {
+    std::string id;
+    glm::vec3 at{0.0F};  // m
+};
+
 enum class Level : std::uint8_t { near, far };
 
 struct Subject {
     std::string name;  // of the assembly, or the file's
     assets::Model model;
-    std::vector<Viewpoint> views;  // a bare model has none
+    std::vector<Viewpoint> views;    // a bare model has none
+    std::vector<JointPlace> joints;  // likewise
     bool bare = false;
     std::vector<std::filesystem::path> files;  // that it was made from
 };

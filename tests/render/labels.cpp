@@ -249,7 +249,7 @@ TEST_CASE("parts in front of a label hide it, as far as it does not show through
     constexpr VkExtent2D extent{96, 64};
     const Eye eye = front(extent);
     // A black plate upright at z = 0 covers the right half of the picture; the label is before or behind it.
-    const auto whiteness = [&](float z, float through) {
+    const auto whiteness = [&](float z, float through, float before = 0.0F) {
         Scene scene = black();
         place(scene, model, gpu_model,
               glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, -1, 0, 0),
@@ -259,6 +259,7 @@ TEST_CASE("parts in front of a label hide it, as far as it does not show through
         label.position.z = z;
         label.height = 24.0F;
         label.through = through;
+        label.before = before;
         scene.labels.push_back(label);
         const std::vector<double> values = coverage(studio.shoot(scene, eye, extent));
         const std::size_t row = std::size_t{32} * extent.width;
@@ -269,6 +270,8 @@ TEST_CASE("parts in front of a label hide it, as far as it does not show through
     CHECK(whiteness(-0.1F, 0.0F).second < 0.001);
     CHECK(whiteness(-0.1F, 0.25F).second == doctest::Approx(0.25).epsilon(0.03));
     CHECK(whiteness(-0.1F, 1.0F).second == 1.0);
+    CHECK(whiteness(-0.1F, 0.0F, 0.11F).second == 1.0);
+    CHECK(whiteness(-0.1F, 0.0F, 0.09F).second < 0.001);
 }
 
 TEST_CASE("outline and plate lie behind the text, and the plate is as large as it should be") {
@@ -332,7 +335,8 @@ TEST_CASE("labels in several views are what they are in each, and a full atlas s
             CHECK(test::largest_difference(both[i], alone.shoot(scene, eyes[i], extent)) <= 1);
         CHECK(test::largest_difference(both[0], both[1]) > 50);
 
-        // Two thousand Chinese characters do not fit; they are drawn, and the first labels after them again.
+        // Chinese characters that need a larger atlas, then others that need it anew; and the first labels
+        // again.
         const auto all = [](char32_t first, char32_t count) {
             std::u32string points;
             for (char32_t i = 0; i < count; ++i) points += first + i;
@@ -342,8 +346,8 @@ TEST_CASE("labels in several views are what they are in each, and a full atlas s
             return full;
         };
         if (multiview == RendererOptions::Multiview::never)
-            for (const char32_t first : {0x4E00U, 0x5300U})
-                (void)studio.shoot(all(first, 800), eyes[0], extent);
+            for (const auto& [first, count] : {std::pair{0x4E00U, 200U}, {0x5300U, 560U}})
+                (void)studio.shoot(all(first, count), eyes[0], extent);
         CHECK(test::largest_difference(studio.shoot(scene, eyes[0], extent), both[0]) <= 1);
     }
 }
