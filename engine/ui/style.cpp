@@ -15,7 +15,7 @@ ImGuiStyle make_style(float scale) {
     ImVec4* c = style.Colors;
     c[ImGuiCol_Text] = {0.93F, 0.94F, 0.95F, 1.0F};
     c[ImGuiCol_TextDisabled] = {0.60F, 0.63F, 0.66F, 1.0F};
-    c[ImGuiCol_WindowBg] = {0.10F, 0.12F, 0.14F, 0.94F};
+    c[ImGuiCol_WindowBg] = {0.10F, 0.12F, 0.14F, 0.975F};
     c[ImGuiCol_PopupBg] = {0.13F, 0.15F, 0.18F, 0.98F};
     c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgCollapsed] = {0.13F, 0.16F, 0.19F, 0.96F};
     c[ImGuiCol_TitleBgActive] = {0.16F, 0.22F, 0.28F, 0.98F};
