@@ -138,6 +138,8 @@ Status render_all(const RenderOptions& options) {
     if (!extent) return fail(extent.error());
     const view::LoadedSubject subject = view::load_subject(options.what);
     if (!subject.ok()) return fail(subject.errors.front());
+    if (options.labels && subject.subject.bare)
+        return fail(ErrorCode::usage, "a bare model has no joints that could be named", "an assembly");
     std::vector<std::string> named = options.views;
     if (!options.inset.empty()) named.push_back(options.inset);
     for (const std::string& name : named)

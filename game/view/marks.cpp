@@ -40,11 +40,11 @@ Result<std::set<int>> nodes_of(const assets::Model& model, const std::string& na
     return nodes;
 }
 
-template <class Do>
-Status each(Stage& stage, const Subject& subject, const std::string& name, const Do& what) {
+template <class Objects, class Do>
+Status each(Objects& objects, const Subject& subject, const std::string& name, const Do& what) {
     const Result<std::set<int>> nodes = nodes_of(subject.model, name);
     if (!nodes) return fail(nodes.error());
-    for (render::Object& object : stage.scene.objects)
+    for (auto& object : objects)
         if (nodes->contains(object.node)) what(object);
     return {};
 }
@@ -52,29 +52,34 @@ Status each(Stage& stage, const Subject& subject, const std::string& name, const
 }  // namespace
 
 Status outline(Stage& stage, const Subject& subject, const std::string& node, const glm::vec4& color) {
-    return each(stage, subject, node, [&](render::Object& object) { object.outline = color; });
+    return each(stage.scene.objects, subject, node, [&](render::Object& object) { object.outline = color; });
+}
+
+Result<render::Box> box_of(const Stage& stage, const Subject& subject, const std::string& node) {
+    render::Scene some;
+    const Status found = each(stage.scene.objects, subject, node,
+                              [&](const render::Object& object) { some.objects.push_back(object); });
+    if (!found) return fail(found.error());
+    return render::bounds(some);
 }
 
 Status mark(Stage& stage, const Subject& subject, const Marks& marks) {
+    std::vector<render::Object>& objects = stage.scene.objects;
     for (const std::string& name : marks.outlined)
         if (Status s = outline(stage, subject, name, outline_color); !s) return s;
     for (const std::string& name : marks.ghosts)
-        if (Status s = each(stage, subject, name, [](render::Object& o) { o.opacity = ghost_opacity; }); !s)
+        if (Status s = each(objects, subject, name, [](render::Object& o) { o.opacity = ghost_opacity; }); !s)
             return s;
     if (marks.seen.empty()) return {};
-    for (render::Object& object : stage.scene.objects) object.cut = true;
-    render::Scene seen;
-    const Status found = each(stage, subject, marks.seen, [&](render::Object& object) {
-        object.cut = false;
-        seen.objects.push_back(object);
-    });
-    if (!found) return found;
-    if (seen.objects.empty())
+    for (render::Object& object : objects) object.cut = true;
+    if (Status s = each(objects, subject, marks.seen, [](render::Object& o) { o.cut = false; }); !s) return s;
+    const Result<render::Box> seen = box_of(stage, subject, marks.seen);
+    if (!seen) return fail(seen.error());
+    if (seen->empty())
         return fail(ErrorCode::usage, fmt::format("there is nothing to see at the node \"{}\"", marks.seen),
                     "a node with a mesh");
-    const render::Box box = render::bounds(seen);
-    stage.scene.cut_away = {0.5F * (box.low + box.high), free_radius * glm::distance(box.low, box.high),
-                            1.0F};
+    stage.scene.cut_away = {0.5F * (seen->low + seen->high),
+                            free_radius * glm::distance(seen->low, seen->high), 1.0F};
     return {};
 }
 

@@ -5,7 +5,38 @@
 #include "game/view/painter.hpp"
 #include "game/view/picture_file.hpp"
 
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+
 namespace bolt::view {
+
+namespace {
+
+// Which joint it is and what became of it, above the joint: colour alone does not tell everybody.
+Status add_joint(Stage& stage, const Subject& subject, const std::string& node,
+                 const lesson::JointResult& joint) {
+    const glm::vec4 color = verdict_color(joint);
+    if (Status s = outline(stage, subject, node, color); !s) return s;
+    const Result<render::Box> box = box_of(stage, subject, node);
+    if (!box) return fail(box.error());
+    if (box->empty() || color.w == 0.0F) return {};
+    render::Label label;
+    label.text = fmt::format(
+        "{} {} {:.0f} N·m", joint.id,
+        joint.condition == joint::Condition::sound ? lesson::name(joint.overall) : "DAMAGED", joint.torque);
+    label.position = {0.5F * (box->low.x + box->high.x), box->high.y, 0.5F * (box->low.z + box->high.z)};
+    label.height = 15.0F;
+    label.anchor = {0.5F, 0.0F};
+    label.moved_px = {0.0F, 10.0F};
+    label.plate = {0.08F, 0.09F, 0.1F, 0.85F};
+    label.color = glm::vec4(glm::mix(glm::vec3(color), glm::vec3(1.0F), 0.35F), 1.0F);
+    label.through = 1.0F;
+    stage.scene.labels.push_back(label);
+    return {};
+}
+
+}  // namespace
 
 glm::vec4 verdict_color(const lesson::JointResult& joint) {
     using lesson::Verdict;
@@ -32,10 +63,8 @@ Status draw_result(const content::Assembly& assembly, const lesson::LessonResult
     if (!stage) return fail(stage.error());
     for (std::size_t i = 0; i < assembly.joints.size() && i < result.joints.size(); ++i) {
         if (assembly.joints[i].node.empty()) continue;
-        if (Status s =
-                outline(**stage, loaded.subject, assembly.joints[i].node, verdict_color(result.joints[i]));
-            !s)
-            return fail(s.error());
+        const std::string& node = assembly.joints[i].node;
+        if (Status s = add_joint(**stage, loaded.subject, node, result.joints[i]); !s) return s;
     }
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     for (const Viewpoint& view : loaded.subject.views) {

@@ -137,6 +137,7 @@ check "the same picture again" cmp same.png pictures/cover-top.png
 expect 0 'marked.png' "${draw[@]}" render cover-m8 --view top --inset front --labels --size 96x64 --validate --png marked.png
 check "an inset and names change the picture" bash -c '! cmp -s marked.png same.png'
 expect 2 '"front"' "${draw[@]}" render cover-m8 --view top --inset frontt --png never.png
+expect 2 'no joints' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" --labels --png never.png
 expect 1 'fonts-dejavu-core' env BOLTWRIGHT_FONTS=/nowhere "${draw[@]}" render cover-m8 --view top --labels --size 8x8 --png never.png
 expect 2 '"top"' "${draw[@]}" render cover-m8 --view topp --png never.png
 expect 2 'no size' "${draw[@]}" render cover-m8 --size 0x10 --png never.png

@@ -313,11 +313,6 @@ TEST_CASE("labels in several views are what they are in each, and a full atlas s
         RendererOptions options;
         options.multiview = multiview;
         test::Studio studio(options), alone;
-        // On lavapipe (Mesa 22.3) the first triangles of the second view of a multiview pass land in the
-        // first.
-        if (multiview == RendererOptions::Multiview::always &&
-            studio.gpu().device().properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU)
-            continue;
         Scene scene = black();
         Label label;
         label.text = "B7 预紧 25 N·m";
@@ -325,8 +320,8 @@ TEST_CASE("labels in several views are what they are in each, and a full atlas s
         label.plate = {0.1F, 0.2F, 0.3F, 0.8F};
         scene.labels.push_back(label);
         label.stand = LabelStand::facing;
-        label.position = {0.2F, 0.3F, 0.5F};
-        label.height = 0.15F;
+        label.position = {0, 0.25F, 0.5F};  // nowhere clipped: see multiview.cpp
+        label.height = 0.06F;
         scene.labels.push_back(label);
         const VkExtent2D extent{128, 96};
         const Eye eyes[] = {make_eye({-0.2F, 0, 2}, {0, 0, 0}, {}), make_eye({0.2F, 0, 2}, {0, 0, 0}, {})};

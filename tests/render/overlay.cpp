@@ -174,36 +174,42 @@ TEST_CASE("both eyes of a stereo picture have the inset, in its corner and of th
     CHECK(corner.high == glm::vec2(1262, 702));
     CHECK(lower_right({3, 3}, 0.1F).low == glm::vec2(2, 2));  // at least a pixel
 
-    test::Studio studio;
-    const assets::Model model = test::sphere({}, 24);
-    const GpuModel gpu_model = studio.upload(model);
-    const EnvironmentLight light = studio.light(shading::studio(64));
-    Scene scene;
-    place(scene, model, gpu_model);
-    scene.environment = &light;
-    Perspective lens;
-    lens.aspect = 4.0F / 3.0F;
-    const Eye eyes[] = {make_eye({-0.3F, 0, 4}, {0, 0, 0}, lens), make_eye({0.3F, 0, 4}, {0, 0, 0}, lens)};
-    Inset inset;
-    inset.eye = make_eye({3, 3, 0}, {0, 0, 0}, lens);
-    inset.place = lower_right({120, 90}, 0.3F);
-    const VkExtent2D own{36, 27};
-    const Picture single = studio.shoot(scene, inset.eye, own);
-    const std::vector<Picture> bare = studio.shoot(scene, eyes, {120, 90});
-    const std::vector<Picture> made = studio.gpu().need(take_pictures(
-        studio.gpu().device(), studio.frames(), studio.renderer(), scene, eyes, {120, 90}, {&inset, 1}));
-    REQUIRE(made.size() == 2);
-    const auto left = static_cast<std::uint32_t>(inset.place.low.x),
-               top = static_cast<std::uint32_t>(inset.place.low.y);
-    for (std::size_t view = 0; view < 2; ++view)
-        CHECK(wrong(
-                  made[view],
-                  [&](std::uint32_t x, std::uint32_t y) {
-                      const bool inside = x >= left && x < left + 36 && y >= top && y < top + 27;
-                      const bool framed = x + 2 >= left && x < left + 38 && y + 2 >= top && y < top + 29;
-                      return inside   ? test::pixel(single, x - left, y - top)
-                             : framed ? glm::ivec4(235, 240, 245, 255)
-                                      : test::pixel(bare[view], x, y);
-                  },
-                  1) == 0);
+    using Multiview = RendererOptions::Multiview;
+    for (const Multiview multiview : {Multiview::never, Multiview::always}) {
+        RendererOptions options;
+        options.multiview = multiview;
+        test::Studio studio(options);
+        const assets::Model model = test::sphere({}, 24);
+        const GpuModel gpu_model = studio.upload(model);
+        const EnvironmentLight light = studio.light(shading::studio(64));
+        Scene scene;
+        place(scene, model, gpu_model);
+        scene.environment = &light;
+        Perspective lens;
+        lens.aspect = 4.0F / 3.0F;
+        const Eye eyes[] = {make_eye({-0.3F, 0, 4}, {0, 0, 0}, lens),
+                            make_eye({0.3F, 0, 4}, {0, 0, 0}, lens)};
+        Inset inset;
+        inset.eye = make_eye({3, 3, 0}, {0, 0, 0}, lens);
+        inset.place = lower_right({120, 90}, 0.3F);
+        const VkExtent2D own{36, 27};
+        const Picture single = studio.shoot(scene, inset.eye, own);
+        const std::vector<Picture> bare = studio.shoot(scene, eyes, {120, 90});
+        const std::vector<Picture> made = studio.gpu().need(take_pictures(
+            studio.gpu().device(), studio.frames(), studio.renderer(), scene, eyes, {120, 90}, {&inset, 1}));
+        REQUIRE(made.size() == 2);
+        const auto left = static_cast<std::uint32_t>(inset.place.low.x),
+                   top = static_cast<std::uint32_t>(inset.place.low.y);
+        for (std::size_t view = 0; view < 2; ++view)
+            CHECK(wrong(
+                      made[view],
+                      [&](std::uint32_t x, std::uint32_t y) {
+                          const bool inside = x >= left && x < left + 36 && y >= top && y < top + 27;
+                          const bool framed = x + 2 >= left && x < left + 38 && y + 2 >= top && y < top + 29;
+                          return inside   ? test::pixel(single, x - left, y - top)
+                                 : framed ? glm::ivec4(235, 240, 245, 255)
+                                          : test::pixel(bare[view], x, y);
+                      },
+                      1) == 0);
+    }
 }
