@@ -10,12 +10,13 @@ layout(set = 0, binding = 5) uniform sampler2DShadow shadow_map;
 layout(set = 0, binding = 6) uniform sampler2DArray ambient_occlusion;
 
 // The shadow of light 0: four comparisons, each filtered by the sampler. Points are moved off their surface along the normal
-// by a little more than a texel, so that it does not shade itself.
+// by a little more than a texel, and by how far its level of detail may be from the map's, so that it does not shade itself.
 float lit(vec3 at, vec3 normal) {
     const vec2 texel = 1.0 / vec2(textureSize(shadow_map, 0));
     const mat4 m = frame.shadow_from_world;
     const float width = 2.0 * texel.x / length(vec3(m[0].x, m[1].x, m[2].x));
-    const vec4 place = m * vec4(at + 1.5 * width * normal, 1.0);
+    const float off = frame.occlusion.y * (frame.views[gl_ViewIndex].clip_from_world * vec4(at, 1.0)).w;
+    const vec4 place = m * vec4(at + (1.5 * width + off) * normal, 1.0);
     const vec3 p = vec3(place.xy * 0.5 + 0.5, place.z);
     const vec2 step = 0.75 * texel;
     const float sum = texture(shadow_map, vec3(p.xy + vec2(-step.x, -step.y), p.z)) +

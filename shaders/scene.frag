@@ -10,6 +10,30 @@
 
 layout(location = 0) out vec4 color_out;
 
+// What maps say of specular strength and colour, grain and coat.
+void set_mapped_layers(inout Surface s, Material m) {
+    if (has(SCENE_SPECULAR_MAPS)) {
+        const float weight = m.specular_color.w * look_up(specular_map, m, 9u).a;
+        s.f0 = min(m.f0 * m.specular_color.rgb * look_up(specular_color_map, m, 10u).rgb, vec3(1.0)) * weight;
+        s.f90 = weight;
+    }
+    if (has(SCENE_ANISOTROPY_MAP) && has(SCENE_TANGENTS)) {
+        const vec4 grain = mapped_grain(m, s.normal);
+        s.tangent = grain.xyz;
+        s.alpha.x = mix(s.alpha.y, 1.0, grain.w * grain.w);
+    }
+    if (has(SCENE_COAT_MAPS)) {
+        s.coat *= look_up(coat_map, m, 5u).r;
+        s.coat_roughness *= look_up(coat_roughness_map, m, 6u).g;
+        s.coat_alpha = max(s.coat_roughness * s.coat_roughness, 1e-3);
+    }
+    if (has(SCENE_COAT_NORMAL_MAP)) {
+        s.coat_normal = mapped_coat_normal(m, s.coat_normal);
+        const float facing = dot(s.coat_normal, s.out_dir);
+        if (facing < 0.0) s.coat_normal = normalize(s.coat_normal - facing * s.out_dir);
+    }
+}
+
 void main() {
     const Material m = materials[material_index];
     const vec4 base = base_color(m);
@@ -33,6 +57,7 @@ void main() {
     s.emission = m.emissive.rgb;
     if (has(SCENE_EMISSIVE_MAP)) s.emission *= look_up(emissive_map, m, 4u).rgb;
     finish_surface(s, m);
+    set_mapped_layers(s, m);
 
     vec3 color = shade(s, gl_FragCoord.xy * frame.picture.zw);
     float opacity = has(SCENE_BLEND) ? base.a : 1.0;

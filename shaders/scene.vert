@@ -9,6 +9,7 @@ layout(location = 1) in vec4 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 texcoord;
 layout(location = 4) in vec4 color;
+layout(location = 5) in vec2 second_texcoord;
 
 invariant gl_Position;  // a ghost's depth is drawn before its colour
 layout(location = 0) out vec3 at;
@@ -16,7 +17,7 @@ layout(location = 0) out vec3 at;
 // corners, and rounded edges sparkle.
 layout(location = 1) centroid out vec3 normal_out;
 layout(location = 2) out vec4 tangent_out;
-layout(location = 3) out vec2 texcoord_out;
+layout(location = 3) out vec4 texcoord_out;  // both sets
 layout(location = 4) out vec4 color_out;
 layout(location = 5) flat out vec4 tint;
 layout(location = 6) flat out vec2 mark;  // opacity; 1: no light
@@ -32,7 +33,7 @@ void main() {
     at = world.xyz;
     normal_out = cofactors * normal.xyz;
     tangent_out = has(SCENE_TANGENTS) ? vec4(m * tangent.xyz, side * tangent.w) : vec4(0.0);
-    texcoord_out = has(SCENE_ANY_MAP) ? texcoord : vec2(0.0);
+    texcoord_out = vec4(has(SCENE_ANY_MAP) ? texcoord : vec2(0.0), has(SCENE_SECOND_UV) ? second_texcoord : vec2(0.0));
     color_out = has(SCENE_VERTEX_COLORS) ? color : vec4(1.0);
     tint = vec4(0.0);
     mark = vec2(1.0, 0.0);

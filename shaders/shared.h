@@ -37,7 +37,7 @@ struct Frame {
     mat4 shadow_from_world; // of light 0, when it casts a shadow
     vec4 environment;       // x: intensity, y: turn about Y, rad, z: highest level of the specular chain, w: exposure
     vec4 picture;           // width, height, 1/width, 1/height
-    vec4 occlusion;         // x: radius of ambient occlusion, m
+    vec4 occlusion;         // x: radius of ambient occlusion, m; y: how far levels of detail may be off, m a metre of distance
     vec4 background;        // rgb; w: 1 show it, 0 show the environment
     vec4 cut;               // what is to be seen, world; w: radius kept free around it, m
     float cut_strength;     // 0: nothing fades … 1: what hides it goes
@@ -78,7 +78,23 @@ struct Material {
     uint unused_a;
     uint unused_b;
     uint unused_c;
-    vec4 uv[10];             // two rows a texture: base, metallic-roughness, normal, occlusion, emissive
+    // Two rows a map: base, metallic-roughness, normal, occlusion, emissive, coat, coat roughness, coat normal, anisotropy,
+    // specular, specular colour. w of the first: the set of texture coordinates.
+    vec4 uv[22];
+};
+
+// Push constants of deform.comp: a part, and where what bends it and what comes of it stand in the buffers.
+struct DeformPart {
+    uint vertices;
+    uint first_vertex;
+    uint first_influence;
+    uint skinned;       // 1: by joints
+    uint first_delta;   // float
+    uint delta_floats;  // a vertex
+    uint targets;
+    uint own_normals;   // 0: those of its triangles
+    uint positions;     // word of the result
+    uint attributes;    // word of the result
 };
 
 // Bits of the scene pipelines' specialization constant: what a pipeline is for. A software rasteriser runs both sides of every
@@ -88,7 +104,7 @@ struct Material {
 #define SCENE_NORMAL_MAP 4u
 #define SCENE_OCCLUSION_MAP 8u
 #define SCENE_EMISSIVE_MAP 16u
-#define SCENE_ANY_MAP 31u
+#define SCENE_ANY_MAP (31u | SCENE_FORWARD_MAPS)
 #define SCENE_VERTEX_COLORS 32u
 #define SCENE_TANGENTS 64u
 #define SCENE_COAT 128u
@@ -102,6 +118,13 @@ struct Material {
 #define SCENE_CUT 32768u      // fades where it hides what is to be seen
 #define SCENE_CUT_REST 1048576u // only what has faded in part; elsewhere it is a surface like any other
 #define SCENE_LIGHTS_SHIFT 16u // the number of lights, four bits
+#define SCENE_COAT_MAPS (1u << 21)        // of the coat's strength or roughness
+#define SCENE_COAT_NORMAL_MAP (1u << 22)
+#define SCENE_ANISOTROPY_MAP (1u << 23)
+#define SCENE_SPECULAR_MAPS (1u << 24)    // of the dielectric's strength or colour
+#define SCENE_SECOND_UV (1u << 25)        // a map has texture coordinates of its own
+// Of maps that the geometry buffer has no room for.
+#define SCENE_FORWARD_MAPS (SCENE_COAT_MAPS | SCENE_COAT_NORMAL_MAP | SCENE_ANISOTROPY_MAP | SCENE_SPECULAR_MAPS)
 
 #ifdef __cplusplus
 }  // namespace bolt::render::shared

@@ -118,10 +118,12 @@ Result<Sampler> make_sampler(const Device& device, const SamplerInfo& given) {
     VkPhysicalDeviceFeatures features{};
     vkGetPhysicalDeviceFeatures(device.physical(), &features);
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    info.magFilter = info.minFilter = given.filter;
-    info.mipmapMode =
-        given.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
-    info.addressModeU = info.addressModeV = info.addressModeW = given.address;
+    info.magFilter = given.filter;
+    info.minFilter = given.min_filter.value_or(given.filter);
+    info.mipmapMode = given.mips.value_or(given.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                                           : VK_SAMPLER_MIPMAP_MODE_NEAREST);
+    info.addressModeU = info.addressModeW = given.address;
+    info.addressModeV = given.address_v.value_or(given.address);
     // On llvmpipe (Mesa 22.3) it was measured at a millisecond a pixel: minutes a picture.
     const bool software = device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     info.anisotropyEnable = given.anisotropy > 1.0F && !software ? features.samplerAnisotropy : VK_FALSE;

@@ -1,6 +1,7 @@
 // Buffers and images with their memory: move-only, given back when they go.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "engine/gpu/device.hpp"
@@ -79,6 +80,10 @@ class Image {
 struct SamplerInfo {
     VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    // Where they differ from those.
+    std::optional<VkFilter> min_filter;
+    std::optional<VkSamplerMipmapMode> mips;
+    std::optional<VkSamplerAddressMode> address_v;
     bool compares = false;    // shadow maps: reference ≤ depth
     float anisotropy = 1.0F;  // above 1 where the GPU can
 };

@@ -31,14 +31,16 @@ Kind kind_of(const Object& object, const Part& part) {
     kind.ghost = object.opacity < 1.0F;
     kind.blends = maps.blends || kind.ghost;
     // A mirrored part shows the other winding.
-    kind.double_sided = maps.double_sided || glm::determinant(glm::mat3(object.world)) < 0.0F;
+    const bool mirrored = glm::determinant(glm::mat3(object.world)) < 0.0F;
+    kind.double_sided = maps.double_sided || mirrored != mirrors(object.deformation.get());
     kind.features = object.model->features[part.material];
     if (part.colors) kind.features |= SCENE_VERTEX_COLORS;
     if (part.tangents) kind.features |= SCENE_TANGENTS;
     if (object.flat || object.tint.w > 0.0F || object.opacity < 1.0F) kind.features |= SCENE_MARKED;
     const std::uint32_t f = kind.features;
     const bool two_normals = (f & SCENE_COAT) != 0 && (f & SCENE_NORMAL_MAP) != 0;
-    kind.forward = kind.blends || object.flat || two_normals || (f & SCENE_EMISSIVE_MAP) != 0;
+    kind.forward =
+        kind.blends || object.flat || two_normals || (f & (SCENE_EMISSIVE_MAP | SCENE_FORWARD_MAPS)) != 0;
     if (!kind.forward && (f & own_values) != 0) kind.features |= SCENE_WIDE;
     return kind;
 }
@@ -120,7 +122,8 @@ std::uint32_t features_of(const Scene& scene) {
     return features;
 }
 
-DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Detail& detail) {
+DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Detail& detail,
+                        const DeformedParts& deformed) {
     DrawList list;
     std::map<const GpuModel*, std::pair<std::uint32_t, std::uint32_t>> models;  // → order, first material
     const std::uint32_t scene_features = features_of(scene);
@@ -132,11 +135,13 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
         if (fresh)
             list.materials.insert(list.materials.end(), object.model->materials.begin(),
                                   object.model->materials.end());
-        const float scale = std::cbrt(std::abs(glm::determinant(glm::mat3(object.world))));
+        const Deformation* deformation = object.deformation.get();
+        const float scale =
+            std::cbrt(std::abs(glm::determinant(glm::mat3(object.world)))) * scale_of(deformation);
         const MeshRange range = object.model->meshes[object.mesh];
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
             const Part& part = object.model->parts[i];
-            const Box box = transformed(part.box, object.world);
+            const Box box = bounds(object, part);
             if (!seen(box, eyes)) continue;
             const float distance =
                 eyes.empty() ? 0.0F : glm::distance(0.5F * (box.low + box.high), eyes.front().position);
@@ -168,14 +173,17 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
     std::stable_sort(items.begin(), items.end(), before);
     for (const Item& item : items) {
         const Part& part = item.object->model->parts[item.part];
+        const auto bent = deformed.find({item.object->deformation.get(), &part});
+        const DeformedPart vertices = bent != deformed.end() ? bent->second : DeformedPart{};
         const bool joins = !list.draws.empty() && list.draws.back().kind == item.kind &&
                            list.draws.back().model == item.object->model &&
                            list.draws.back().part == item.part && list.draws.back().level == item.level &&
-                           list.draws.back().outlined == item.outlined;
+                           list.draws.back().outlined == item.outlined &&
+                           list.draws.back().deformed == vertices;
         if (!joins)
             list.draws.push_back({item.kind, item.object->model, item.part, item.level,
                                   models.at(item.object->model).second + part.material, item.outlined,
-                                  static_cast<std::uint32_t>(list.instances.size()), 0});
+                                  static_cast<std::uint32_t>(list.instances.size()), 0, vertices});
         ++list.draws.back().instances;
         if (item.kind.forward)
             list.forward = true;

@@ -1,6 +1,7 @@
 // A scene turned into draw calls: culled, sorted so that state changes little, and gathered into instances.
 #pragma once
 
+#include <map>
 #include <span>
 
 #include "engine/render/scene.hpp"
@@ -18,6 +19,14 @@ struct Kind {
     friend auto operator<=>(const Kind&, const Kind&) = default;
 };
 
+// Where the deform pass has put a part's vertices, in the order that they have in the model.
+struct DeformedPart {
+    VkBuffer buffer = VK_NULL_HANDLE;  // null: the part is as its model has it
+    VkDeviceSize positions = 0, attributes = 0;
+    friend bool operator==(const DeformedPart&, const DeformedPart&) = default;
+};
+using DeformedParts = std::map<std::pair<const Deformation*, const Part*>, DeformedPart>;
+
 struct Draw {
     Kind kind;
     const GpuModel* model = nullptr;
@@ -25,6 +34,7 @@ struct Draw {
     std::uint32_t material = 0;  // of the list
     bool outlined = false;
     std::uint32_t first_instance = 0, instances = 0;
+    DeformedPart deformed;
 };
 
 struct DrawList {
@@ -47,7 +57,9 @@ struct Detail {
 // SCENE_… bits of the scene's light, the same for every part.
 std::uint32_t features_of(const Scene& scene);
 
-// What any of the eyes may see. Without eyes: everything (for the shadow map).
-DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Detail& detail);
+// What any of the eyes may see. Without eyes: everything (for the shadow map). `deformed`: what bends is
+// there; what is not found is drawn as its model has it.
+DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Detail& detail,
+                        const DeformedParts& deformed = {});
 
 }  // namespace bolt::render

@@ -1,5 +1,7 @@
 #include "engine/render/gpu_model.hpp"
 
+#include <algorithm>
+
 #include "engine/assets/levels.hpp"
 #include "engine/gpu/transfer.hpp"
 #include "engine/render/materials.hpp"
@@ -7,48 +9,119 @@
 
 namespace bolt::render {
 
-Box transformed(const Box& box, const glm::mat4& transform) {
-    Box moved;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 point((corner & 1) != 0 ? box.high.x : box.low.x,
-                              (corner & 2) != 0 ? box.high.y : box.low.y,
-                              (corner & 4) != 0 ? box.high.z : box.low.z);
-        moved.add(glm::vec3(transform * glm::vec4(point, 1.0F)));
-    }
-    return moved;
+namespace {
+
+// All parts one after the other, as the buffers hold them.
+struct Streams {
+    Vertices vertices;
+    std::vector<glm::vec2> second_uv;
+    bool has_second_uv = false;  // a material looks at them
+    DeformData deform;
+};
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& more) {
+    to.insert(to.end(), more.begin(), more.end());
 }
+
+bool looks_at_second_uv(const assets::Model& model) {
+    return std::any_of(model.materials.begin(), model.materials.end(), [](const assets::Material& material) {
+        return (features_of(material) & SCENE_SECOND_UV) != 0;
+    });
+}
+
+// Coarser levels of a part, whose added vertices are appended to it.
+std::vector<assets::Level> add_levels(const assets::Primitive& primitive, std::uint32_t features,
+                                      Vertices& vertices) {
+    const bool bends = !primitive.targets.empty() || !primitive.joints.empty();
+    assets::LevelOptions options;
+    options.weld = !bends && primitive.colors.empty() && (features & SCENE_ANY_MAP) == 0;
+    std::vector<glm::vec3> normals;
+    // Triangles that bend without normals of their own stand in the buffer as they are.
+    if (!bends || !primitive.normals.empty())
+        for (const VertexAttributes& a : vertices.attributes)
+            normals.push_back(glm::vec3(a.normal[0], a.normal[1], a.normal[2]) / 32767.0F);
+    std::vector<assets::Level> levels =
+        assets::coarser_levels(vertices.positions, normals, vertices.indices, options);
+    const auto own = static_cast<std::uint32_t>(vertices.positions.size());
+    for (assets::Level& level : levels) {
+        const auto more = static_cast<std::uint32_t>(vertices.positions.size()) - own;
+        for (std::uint32_t& index : level.indices)
+            if (index >= own) index += more;
+        for (const assets::AddedVertex& added : level.added)
+            copy_with_normal(vertices, added.of, added.normal);
+    }
+    return levels;
+}
+
+Part add_part(const assets::Model& model, const assets::Primitive& primitive, Vertices vertices,
+              std::uint32_t features, const UploadOptions& options, Streams& all) {
+    Part part;
+    const auto add_level = [&](const std::vector<std::uint32_t>& indices, float error) {
+        part.levels.push_back({static_cast<std::uint32_t>(all.vertices.indices.size()),
+                               static_cast<std::uint32_t>(indices.size()), error});
+        append(all.vertices.indices, indices);
+    };
+    add_level(vertices.indices, 0.0F);
+    if (options.levels)
+        for (const assets::Level& level : add_levels(primitive, features, vertices))
+            add_level(level.indices, level.error);
+    part.first_vertex = static_cast<std::int32_t>(all.vertices.positions.size());
+    part.material = static_cast<std::uint32_t>(
+        primitive.material >= 0 ? static_cast<std::size_t>(primitive.material) : model.materials.size());
+    part.colors = !primitive.colors.empty();
+    part.tangents = vertices.tangents;
+    for (const glm::vec3& position : vertices.positions) part.box.add(position);
+    part.bends = make_deformable(primitive, vertices.sources, all.deform);
+    append(all.vertices.positions, vertices.positions);
+    append(all.vertices.attributes, vertices.attributes);
+    if (!all.has_second_uv) return part;
+    for (const std::uint32_t source : vertices.sources)
+        all.second_uv.push_back(primitive.texcoords[1].empty() ? glm::vec2(0.0F)
+                                                               : primitive.texcoords[1][source]);
+    return part;
+}
+
+template <class T>
+Status upload(gpu::Device& device, gpu::Buffer& to, const std::vector<T>& values, VkBufferUsageFlags usage) {
+    Result<gpu::Buffer> buffer = gpu::upload_buffer(device, std::as_bytes(std::span(values)), usage);
+    if (!buffer) return fail(buffer.error());
+    to = std::move(*buffer);
+    return {};
+}
+
+Status upload_streams(gpu::Device& device, const Streams& all, GpuModel& to) {
+    constexpr VkBufferUsageFlags vertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                                 index = VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                 storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    Status done = upload(device, to.positions, all.vertices.positions, vertex | storage);
+    if (done) done = upload(device, to.attributes, all.vertices.attributes, vertex | storage);
+    if (done) done = upload(device, to.indices, all.vertices.indices, index);
+    if (done && all.has_second_uv) done = upload(device, to.second_uv, all.second_uv, vertex);
+    if (done && !all.deform.influences.empty())
+        done = upload(device, to.influences, all.deform.influences, storage);
+    if (done && !all.deform.deltas.empty()) done = upload(device, to.deltas, all.deform.deltas, storage);
+    return done;
+}
+
+}  // namespace
 
 Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model, const UploadOptions& options) {
     GpuModel gpu_model;
-    Vertices all;
+    Streams all;
+    all.has_second_uv = looks_at_second_uv(model);
+    const assets::Material plain;
     for (const assets::Mesh& mesh : model.meshes) {
         MeshRange range{static_cast<std::uint32_t>(gpu_model.parts.size()), 0};
         for (const assets::Primitive& primitive : mesh.primitives) {
-            const Vertices vertices = make_vertices(primitive);
+            const assets::Material& material =
+                primitive.material >= 0 ? model.materials[static_cast<std::size_t>(primitive.material)]
+                                        : plain;
+            Vertices vertices = make_vertices(primitive, material);
             if (vertices.indices.empty()) continue;
-            Part part;
-            const auto add_level = [&](const std::vector<std::uint32_t>& indices, float error) {
-                part.levels.push_back({static_cast<std::uint32_t>(all.indices.size()),
-                                       static_cast<std::uint32_t>(indices.size()), error});
-                all.indices.insert(all.indices.end(), indices.begin(), indices.end());
-            };
-            add_level(vertices.indices, 0.0F);
-            if (options.levels)
-                for (const assets::Level& level :
-                     assets::coarser_levels(vertices.positions, vertices.indices))
-                    add_level(level.indices, level.error);
-            part.first_vertex = static_cast<std::int32_t>(all.positions.size());
-            part.material = static_cast<std::uint32_t>(primitive.material >= 0
-                                                           ? static_cast<std::size_t>(primitive.material)
-                                                           : model.materials.size());
-            part.colors = !primitive.colors.empty();
-            part.tangents = !primitive.tangents.empty();
-            for (const glm::vec3& position : vertices.positions) part.box.add(position);
-            all.positions.insert(all.positions.end(), vertices.positions.begin(), vertices.positions.end());
-            all.attributes.insert(all.attributes.end(), vertices.attributes.begin(),
-                                  vertices.attributes.end());
             gpu_model.triangles += vertices.indices.size() / 3;
-            gpu_model.parts.push_back(std::move(part));
+            gpu_model.parts.push_back(
+                add_part(model, primitive, std::move(vertices), features_of(material), options, all));
             ++range.count;
         }
         gpu_model.meshes.push_back(range);
@@ -59,20 +132,8 @@ Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model, c
         gpu_model.maps.push_back(maps_of(material));
     };
     for (const assets::Material& material : model.materials) add_material(material);
-    add_material({});
-
-    const auto upload = [&](gpu::Buffer& to, auto& values, VkBufferUsageFlags usage) -> Status {
-        Result<gpu::Buffer> buffer = gpu::upload_buffer(device, std::as_bytes(std::span(values)), usage);
-        if (!buffer) return fail(buffer.error());
-        to = std::move(*buffer);
-        return {};
-    };
-    if (Status s = upload(gpu_model.positions, all.positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT); !s)
-        return fail(s.error());
-    if (Status s = upload(gpu_model.attributes, all.attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT); !s)
-        return fail(s.error());
-    if (Status s = upload(gpu_model.indices, all.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT); !s)
-        return fail(s.error());
+    add_material(plain);
+    if (Status s = upload_streams(device, all, gpu_model); !s) return fail(s.error());
     Result<std::vector<GpuTexture>> textures = upload_textures(device, model);
     if (!textures) return fail(textures.error());
     gpu_model.textures = std::move(*textures);

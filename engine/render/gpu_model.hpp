@@ -5,22 +5,10 @@
 
 #include "engine/assets/model.hpp"
 #include "engine/gpu/resources.hpp"
+#include "engine/render/deformation.hpp"
 #include "shaders/shared.h"
 
 namespace bolt::render {
-
-struct Box {
-    glm::vec3 low{1e30F}, high{-1e30F};
-
-    void add(const glm::vec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    [[nodiscard]] bool empty() const { return low.x > high.x; }
-};
-
-// The corners of a box moved by a transform, boxed again.
-Box transformed(const Box& box, const glm::mat4& transform);
 
 // Triangles of a part at one level of detail.
 struct LevelRange {
@@ -36,15 +24,16 @@ struct Part {
     bool colors = false;         // has colours at its vertices
     bool tangents = false;
     Box box;  // in the mesh's frame, m
+    Deformable bends;
 };
 
 struct MeshRange {
     std::uint32_t first = 0, count = 0;  // parts
 };
 
-// Where a material's five maps come from; −1: none. Order as in shared::Material::uv.
+// Where a material's maps come from; −1: none. Order as in shared::Material::uv.
 struct MaterialMaps {
-    std::array<int, 5> textures{-1, -1, -1, -1, -1};  // of the model
+    std::array<int, 11> textures{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};  // of the model
     bool blends = false, double_sided = false;
 };
 
@@ -56,7 +45,10 @@ struct GpuTexture {
 struct GpuModel {
     gpu::Buffer positions;   // vec3 float
     gpu::Buffer attributes;  // VertexAttributes
+    gpu::Buffer second_uv;   // vec2 float; only if a material looks at them
     gpu::Buffer indices;     // uint32
+    gpu::Buffer influences;  // Influences, only of parts that have joints
+    gpu::Buffer deltas;      // float, of morph targets
     std::vector<Part> parts;
     std::vector<MeshRange> meshes;
     std::vector<shared::Material> materials;  // one more than the model has: the default, last

@@ -11,15 +11,25 @@ namespace bolt::render {
 
 namespace {
 
-std::array<const assets::TextureRef*, 5> references(const assets::Material& m) {
-    return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
-            &m.emissive_texture};
+// In the order of shared::Material::uv. The first five have a bit each, SCENE_BASE_MAP and its neighbours.
+std::array<const assets::TextureRef*, 11> references(const assets::Material& m) {
+    return {&m.base_color_texture,
+            &m.metallic_roughness_texture,
+            &m.normal_texture,
+            &m.occlusion_texture,
+            &m.emissive_texture,
+            &m.clearcoat_texture,
+            &m.clearcoat_roughness_texture,
+            &m.clearcoat_normal_texture,
+            &m.anisotropy_texture,
+            &m.specular_texture,
+            &m.specular_color_texture};
 }
 
 // KHR_texture_transform: scale, then turn, then move.
 void set_uv(shared::Material& to, std::size_t map, const assets::TextureRef& t) {
     const float c = std::cos(t.rotation), s = std::sin(t.rotation);
-    to.uv[2 * map] = {c * t.scale.x, s * t.scale.y, t.offset.x, 0.0F};
+    to.uv[2 * map] = {c * t.scale.x, s * t.scale.y, t.offset.x, static_cast<float>(t.texcoord & 1)};
     to.uv[2 * map + 1] = {-s * t.scale.x, c * t.scale.y, t.offset.y, 0.0F};
 }
 
@@ -88,10 +98,22 @@ shared::Material make_material(const assets::Material& m) {
 std::uint32_t features_of(const assets::Material& m) {
     std::uint32_t features = 0;
     const auto maps = references(m);
-    for (std::size_t i = 0; i < maps.size(); ++i)
-        if (maps[i]->texture >= 0) features |= 1U << i;  // SCENE_BASE_MAP and its neighbours
-    if (m.clearcoat > 0.0F) features |= SCENE_COAT;
-    if (m.anisotropy > 0.0F) features |= SCENE_ANISOTROPY;
+    for (std::size_t i = 0; i < 5; ++i)
+        if (maps[i]->texture >= 0) features |= 1U << i;
+    const auto has = [](const assets::TextureRef& map) { return map.texture >= 0; };
+    if (m.clearcoat > 0.0F) {
+        features |= SCENE_COAT;
+        if (has(m.clearcoat_texture) || has(m.clearcoat_roughness_texture)) features |= SCENE_COAT_MAPS;
+        if (has(m.clearcoat_normal_texture)) features |= SCENE_COAT_NORMAL_MAP;
+    }
+    if (m.anisotropy > 0.0F) {
+        features |= SCENE_ANISOTROPY;
+        if (has(m.anisotropy_texture)) features |= SCENE_ANISOTROPY_MAP;
+    }
+    if (has(m.specular_texture) || has(m.specular_color_texture)) features |= SCENE_SPECULAR_MAPS;
+    if (std::any_of(maps.begin(), maps.end(),
+                    [&](const assets::TextureRef* map) { return has(*map) && (map->texcoord & 1) != 0; }))
+        features |= SCENE_SECOND_UV;
     if (m.alpha_mode == assets::AlphaMode::mask) features |= SCENE_MASK;
     if (m.alpha_mode == assets::AlphaMode::blend) features |= SCENE_BLEND;
     return features;
@@ -107,14 +129,21 @@ MaterialMaps maps_of(const assets::Material& m) {
 }
 
 Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const assets::Model& model) {
-    // A texture holds colours if a material uses it for some: base colour and emission.
+    // A texture holds colours if a material uses it for some.
     std::vector<bool> color(model.textures.size(), false);
     for (const assets::Material& material : model.materials)
-        for (const assets::TextureRef* ref : {&material.base_color_texture, &material.emissive_texture})
+        for (const assets::TextureRef* ref :
+             {&material.base_color_texture, &material.emissive_texture, &material.specular_color_texture})
             if (ref->texture >= 0) color[static_cast<std::size_t>(ref->texture)] = true;
     std::vector<GpuTexture> textures;
     for (std::size_t i = 0; i < model.textures.size(); ++i) {
         const assets::Texture& texture = model.textures[i];
+        if (texture.image < 0) {  // its image is in a format that only an extension names
+            Result<GpuTexture> white = plain_texture(device, {255, 255, 255, 255});
+            if (!white) return fail(white.error());
+            textures.push_back(std::move(*white));
+            continue;
+        }
         assets::Image image = model.images[static_cast<std::size_t>(texture.image)];
         if (Status decoded = assets::decode(image); !decoded) return fail(decoded.error());
         Result<gpu::Image> uploaded = upload_texels(device, static_cast<std::uint32_t>(image.width),
@@ -123,7 +152,11 @@ Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const asset
         if (!uploaded) return fail(uploaded.error());
         gpu::SamplerInfo info;
         info.filter = texture.mag == assets::Filter::nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+        info.min_filter = texture.min == assets::Filter::nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+        info.mips = texture.mip == assets::Filter::nearest ? VK_SAMPLER_MIPMAP_MODE_NEAREST
+                                                           : VK_SAMPLER_MIPMAP_MODE_LINEAR;
         info.address = address_mode(texture.wrap_s);
+        info.address_v = address_mode(texture.wrap_t);
         info.anisotropy = 8.0F;
         Result<gpu::Sampler> sampler = gpu::make_sampler(device, info);
         if (!sampler) return fail(sampler.error());

@@ -1,5 +1,6 @@
 #include "engine/render/renderer.hpp"
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/render/materials.hpp"
@@ -9,7 +10,7 @@ namespace bolt::render {
 namespace {
 
 shared::Frame describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
-                       const EnvironmentLight& environment) {
+                       const EnvironmentLight& environment, float level_error_px) {
     shared::Frame f{};
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         f.views[i].clip_from_world = eyes[i].clip_from_world;
@@ -26,6 +27,8 @@ shared::Frame describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D
     const auto width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
     f.picture = {width, height, 1.0F / width, 1.0F / height};
     f.occlusion.x = scene.occlusion_radius;
+    const glm::mat4& m = eyes.front().clip_from_world;
+    f.occlusion.y = level_error_px * 2.0F / (height * glm::length(glm::vec3(m[0].y, m[1].y, m[2].y)));
     f.background = scene.background;
     f.cut = glm::vec4(scene.cut_away.focus, scene.cut_away.radius);
     f.cut_strength = scene.cut_away.strength;
@@ -58,7 +61,7 @@ Status Renderer::prepare() {
     for (const char* name :
          {"scene.vert", "surface.frag", "light.frag", "scene.frag", "sky.frag", "mark.vert", "mark.frag",
           "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag",
-          "labels.vert", "labels.frag", "overlay.vert", "overlay.frag"}) {
+          "labels.vert", "labels.frag", "overlay.vert", "overlay.frag", "deform.comp"}) {
         Result<gpu::Shader> shader = take_shader(name, options_.shaders);
         if (!shader) return fail(shader.error());
         shaders_.insert_or_assign(name, std::move(*shader));
@@ -76,6 +79,7 @@ Status Renderer::make_passes() {
     const PassMaker maker{*device_, cache_, shaders_};
     occlusion_.clear();
     outline_.clear();
+    if (Status s = take(deform_, DeformPass::create(maker)); !s) return s;
     if (Status s = take(shadow_, ShadowPass::create(maker, options_.shadow_size)); !s) return s;
     if (Status s = take(surfaces_, SurfacePass::create(maker)); !s) return s;
     if (Status s = take(light_, LightPass::create(maker)); !s) return s;
@@ -117,15 +121,17 @@ Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const E
     if (Status sized = resize(frame, group, extent, static_cast<std::uint32_t>(eyes.size())); !sized)
         return sized;
     const EnvironmentLight& environment = scene.environment != nullptr ? *scene.environment : no_environment_;
-    shared::Frame shared = describe(scene, eyes, extent, environment);
+    shared::Frame shared = describe(scene, eyes, extent, environment, options_.level_error_px);
     PassContext context{*device_,           frame,  scene, environment, shared, {},
-                        group.views_a_pass, extent, {},    {},          white_, white_array_.get()};
+                        group.views_a_pass, extent, {},    {},          white_, white_array_.get(),
+                        deform_.parts()};
     const auto put_frame = [&] { return take(context.frame_block, put<shared::Frame>(frame, {&shared, 1})); };
     if (Status s = put_frame(); !s) return s;
 
     const PassMaker maker{*device_, cache_, shaders_};
-    const DrawList list =
-        make_draw_list(scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F});
+    if (Status s = deform_.draw(context); !s) return s;
+    const DrawList list = make_draw_list(
+        scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F}, deform_.parts());
     if (Status s = take(context.instances, put<shared::Instance>(frame, list.instances)); !s) return s;
     if (Status s = take(context.materials, put<shared::Material>(frame, list.materials)); !s) return s;
 

@@ -1,5 +1,6 @@
 // The frame, from the scene to a picture. Renderer::render reads like it:
 //
+//   deform     vertices of what bends, where joints and morph targets move them
 //   shadow     depth of what light 0 sees; what stands still is kept
 //   surfaces   depth, normal and material of what is seen, 4 samples a pixel
 //   occlusion  how much light neighbours keep away, at half the size, if the scene asks for it
@@ -20,6 +21,7 @@
 #pragma once
 
 #include "engine/render/hot_shaders.hpp"
+#include "engine/render/passes/deform.hpp"
 #include "engine/render/passes/labels.hpp"
 #include "engine/render/passes/light.hpp"
 #include "engine/render/passes/occlusion.hpp"
@@ -73,6 +75,8 @@ class Renderer {
         return options_.keep_depth ? groups_.at(group).depth(view) : Layer{};
     }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
+    // What bent in the last frame; for a look at its vertices.
+    [[nodiscard]] const DeformPass& deformed() const { return deform_; }
     // Keeps compiled pipelines for the next start.
     [[nodiscard]] Status save_pipelines() const { return cache_.save(); }
 
@@ -86,6 +90,7 @@ class Renderer {
     RendererOptions options_;
     gpu::PipelineCache cache_;
     Shaders shaders_;
+    DeformPass deform_;
     ShadowPass shadow_;
     std::map<std::uint32_t, OcclusionPass> occlusion_;  // by views
     std::map<std::uint32_t, OutlinePass> outline_;      // by views

@@ -38,21 +38,42 @@ shared::Light make_light(const assets::Light& light, const glm::mat4& world) {
 
 }  // namespace
 
-void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const glm::mat4& world) {
-    const std::vector<glm::mat4> transforms = assets::world_transforms(model);
-    walk(model, [&](std::size_t node) {
-        if (model.nodes[node].mesh < 0) return;
+void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const assets::Pose& pose,
+           const glm::mat4& world) {
+    const std::vector<glm::mat4> transforms = assets::world_transforms(model, pose);
+    walk(model, [&](std::size_t index) {
+        const assets::Node& node = model.nodes[index];
+        if (node.mesh < 0) return;
         Object object;
         object.model = &gpu_model;
-        object.mesh = static_cast<std::uint32_t>(model.nodes[node].mesh);
-        object.world = world * transforms[node];
-        object.node = static_cast<int>(node);
+        object.mesh = static_cast<std::uint32_t>(node.mesh);
+        object.node = static_cast<int>(index);
+        // glTF 2.0, 3.7.3.3: joints alone say where a skin is, not its node.
+        object.world = node.skin >= 0 ? world : world * transforms[index];
+        const std::vector<float>& weights = pose[index].weights;
+        const bool morphs = std::any_of(weights.begin(), weights.end(), [](float w) { return w != 0.0F; });
+        if (node.skin >= 0 || morphs) {
+            Deformation deformation{{}, weights};
+            if (node.skin >= 0)
+                deformation.joints =
+                    assets::joint_matrices(model.skins[static_cast<std::size_t>(node.skin)], transforms);
+            object.deformation = std::make_shared<const Deformation>(std::move(deformation));
+        }
         scene.objects.push_back(object);
     });
 }
 
+void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const glm::mat4& world) {
+    place(scene, model, gpu_model, assets::rest_pose(model), world);
+}
+
 void place_lights(Scene& scene, const assets::Model& model, const glm::mat4& world) {
-    const std::vector<glm::mat4> transforms = assets::world_transforms(model);
+    place_lights(scene, model, assets::rest_pose(model), world);
+}
+
+void place_lights(Scene& scene, const assets::Model& model, const assets::Pose& pose,
+                  const glm::mat4& world) {
+    const std::vector<glm::mat4> transforms = assets::world_transforms(model, pose);
     walk(model, [&](std::size_t node) {
         if (model.nodes[node].light < 0) return;
         const assets::Light& light = model.lights[static_cast<std::size_t>(model.nodes[node].light)];
@@ -74,12 +95,16 @@ bool casts_shadow(const Scene& scene) {
                        [](const Object& object) { return casts_shadow(object); });
 }
 
+Box bounds(const Object& object, const Part& part) {
+    return transformed(bounds(part.box, part.bends, object.deformation.get()), object.world);
+}
+
 Box bounds(const Scene& scene) {
     Box box;
     for (const Object& object : scene.objects) {
         const MeshRange range = object.model->meshes[object.mesh];
         for (std::uint32_t i = 0; i < range.count; ++i) {
-            const Box moved = transformed(object.model->parts[range.first + i].box, object.world);
+            const Box moved = bounds(object, object.model->parts[range.first + i]);
             box.add(moved.low);
             box.add(moved.high);
         }

@@ -1,8 +1,9 @@
 // What is to be drawn: plain values, filled anew for every frame.
 #pragma once
 
-#include <string>
+#include <memory>
 
+#include "engine/assets/pose.hpp"
 #include "engine/render/environment_light.hpp"
 #include "engine/render/gpu_model.hpp"
 #include "engine/render/label.hpp"
@@ -13,9 +14,11 @@ struct Object {
     const GpuModel* model = nullptr;
     std::uint32_t mesh = 0;
     glm::mat4 world{1.0F};
-    glm::vec4 tint{0.0F};     // w: how much of the material's colour it replaces
-    float opacity = 1.0F;     // below 1: a ghost, of which only what is nearest shows
-    bool flat = false;        // its own colour, without light
+    glm::vec4 tint{0.0F};  // w: how much of the material's colour it replaces
+    float opacity = 1.0F;  // below 1: a ghost, of which only what is nearest shows
+    bool flat = false;     // its own colour, without light
+    // What bends it; null: nothing. A new one for every pose: what was rendered may still be looked at.
+    std::shared_ptr<const Deformation> deformation = nullptr;
     bool moves = false;       // drawn into the shadow map anew each frame
     bool cut = false;         // fades where it hides what the scene's cut-away wants to be seen
     glm::vec4 outline{0.0F};  // a line around it, through whatever hides it; w: its opacity
@@ -54,18 +57,26 @@ struct Eye {
     glm::mat4 clip_from_world{1.0F};
 };
 
-// The meshes of a model's default scene where its nodes stand, moved by `world`.
+// The meshes of a model's default scene where its nodes stand in a pose, skins and morph targets too, moved
+// by `world`.
+void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const assets::Pose& pose,
+           const glm::mat4& world = glm::mat4(1.0F));
+// At rest.
 void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
            const glm::mat4& world = glm::mat4(1.0F));
 
 // KHR_lights_punctual lights of the model. The first directional one is moved to the front and casts a
 // shadow.
+void place_lights(Scene& scene, const assets::Model& model, const assets::Pose& pose,
+                  const glm::mat4& world = glm::mat4(1.0F));
 void place_lights(Scene& scene, const assets::Model& model, const glm::mat4& world = glm::mat4(1.0F));
 
 // Whether an object gives shadow, and whether light 0 throws one in this scene.
 bool casts_shadow(const Object& object);
 bool casts_shadow(const Scene& scene);
 
+// Of a part of an object's model, in the world, as the object is bent.
+Box bounds(const Object& object, const Part& part);
 Box bounds(const Scene& scene);
 
 }  // namespace bolt::render

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "engine/assets/topology.hpp"
 
@@ -22,10 +23,11 @@ void set(std::int16_t (&to)[4], const glm::vec3& v, float w) {
     to[3] = snorm(w);
 }
 
-VertexAttributes attributes_of(const assets::Primitive& p, std::uint32_t i, const glm::vec3& normal) {
+VertexAttributes attributes_of(const assets::Primitive& p, std::uint32_t i, const glm::vec3& normal,
+                               const std::vector<glm::vec4>& tangents) {
     VertexAttributes a{};
     set(a.normal, normal, 0.0F);
-    if (!p.tangents.empty()) set(a.tangent, glm::vec3(p.tangents[i]), p.tangents[i].w);
+    if (!tangents.empty()) set(a.tangent, glm::vec3(tangents[i]), tangents[i].w);
     if (!p.texcoords[0].empty()) {
         a.texcoord[0] = p.texcoords[0][i].x;
         a.texcoord[1] = p.texcoords[0][i].y;
@@ -35,17 +37,62 @@ VertexAttributes attributes_of(const assets::Primitive& p, std::uint32_t i, cons
     return a;
 }
 
+// Brushed metal needs to know along what; normal maps find out in the shader.
+bool wants_tangents(const assets::Primitive& p, const assets::Material& material, std::size_t set) {
+    return p.tangents.empty() && material.anisotropy > 0.0F && !p.texcoords[set].empty();
+}
+
 }  // namespace
 
-Vertices make_vertices(const assets::Primitive& p) {
+void copy_with_normal(Vertices& v, std::uint32_t of, const glm::vec3& normal) {
+    v.positions.push_back(glm::vec3(v.positions[of]));
+    v.sources.push_back(std::uint32_t{v.sources[of]});
+    v.attributes.push_back(VertexAttributes(v.attributes[of]));
+    set(v.attributes.back().normal, normal, 0.0F);
+}
+
+std::vector<glm::vec4> make_tangents(const assets::Primitive& p, std::size_t set) {
+    const std::vector<std::uint32_t> triangles = assets::triangle_indices(p);
+    const std::vector<glm::vec2>& uv = p.texcoords[set];
+    std::vector<glm::vec3> along(p.positions.size(), glm::vec3(0.0F)), up(along);
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+        const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+        const glm::vec2 u = uv[b] - uv[a], v = uv[c] - uv[a];
+        const glm::vec3 x = p.positions[b] - p.positions[a], y = p.positions[c] - p.positions[a];
+        // Divided by the sign of the area of the map only: large triangles have more to say.
+        const float side = u.x * v.y - u.y * v.x < 0.0F ? -1.0F : 1.0F;
+        for (const std::uint32_t corner : {a, b, c}) {
+            along[corner] += side * (x * v.y - y * u.y);
+            up[corner] -= side * (y * u.x - x * v.x);  // against v, which grows downwards
+        }
+    }
+    std::vector<glm::vec4> tangents;
+    for (std::size_t i = 0; i < p.positions.size(); ++i) {
+        const glm::vec3 n = p.normals.empty() ? glm::vec3(0.0F) : p.normals[i];
+        const glm::vec3 t = along[i] - glm::dot(along[i], n) * n;
+        const float length = glm::length(t);
+        const float side = glm::dot(glm::cross(n, t), up[i]) < 0.0F ? -1.0F : 1.0F;
+        tangents.emplace_back(length > 0.0F ? t / length : glm::vec3(0.0F), side);
+    }
+    return tangents;
+}
+
+Vertices make_vertices(const assets::Primitive& p, const assets::Material& material) {
     Vertices v;
     const std::vector<std::uint32_t> triangles = assets::triangle_indices(p);
+    const auto uv_set = static_cast<std::size_t>(material.normal_texture.texcoord & 1);
+    const std::vector<glm::vec4> made =
+        wants_tangents(p, material, uv_set) ? make_tangents(p, uv_set) : std::vector<glm::vec4>();
+    const std::vector<glm::vec4>& tangents = p.tangents.empty() ? made : p.tangents;
+    v.tangents = !tangents.empty();
     if (!p.normals.empty()) {
         v.positions = p.positions;
-        v.attributes.reserve(p.positions.size());
-        for (std::uint32_t i = 0; i < p.positions.size(); ++i)
-            v.attributes.push_back(attributes_of(p, i, p.normals[i]));
         v.indices = triangles;
+        v.sources.resize(p.positions.size());
+        std::iota(v.sources.begin(), v.sources.end(), 0U);
+        v.attributes.reserve(p.positions.size());
+        for (const std::uint32_t i : v.sources)
+            v.attributes.push_back(attributes_of(p, i, p.normals[i], tangents));
         return v;
     }
     v.positions.reserve(triangles.size());
@@ -58,9 +105,11 @@ Vertices make_vertices(const assets::Primitive& p) {
         const float area = glm::length(across);
         const glm::vec3 normal = area > 0.0F ? across / area : glm::vec3(0.0F, 1.0F, 0.0F);
         for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t source = triangles[t + k];
             v.indices.push_back(static_cast<std::uint32_t>(v.positions.size()));
-            v.positions.push_back(p.positions[triangles[t + k]]);
-            v.attributes.push_back(attributes_of(p, triangles[t + k], normal));
+            v.positions.push_back(p.positions[source]);
+            v.sources.push_back(source);
+            v.attributes.push_back(attributes_of(p, source, normal, tangents));
         }
     }
     return v;

@@ -3,14 +3,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "engine/assets/pose.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/math.hpp"
+#include "engine/base/nearest.hpp"
 #include "engine/render/picture.hpp"
 #include "game/cli/commands.hpp"
 #include "game/view/marks.hpp"
@@ -27,7 +30,8 @@ struct RenderOptions {
     std::string what, png = "out/render.png", timings, light = "studio", gpu;
     std::vector<std::string> views;
     view::Marks marks;
-    std::string inset, eye, target, size = "1280x720";
+    std::string inset, eye, target, size = "1280x720", animation;
+    double at_s = 0.0;
     double fov_deg = 35.0, level_error_px = 0.0;
     int frames = 1;
     bool stereo = false, validate = false, no_key = false, labels = false;
@@ -63,6 +67,26 @@ render::Picture joined(const std::vector<render::Picture>& pictures) {
                             row + static_cast<std::ptrdiff_t>(std::size_t{4} * picture.width));
         }
     return all;
+}
+
+// By its name, or else by its index.
+Result<const assets::Animation*> find_animation(const assets::Model& model, const RenderOptions& options) {
+    const std::string& wanted = options.animation;
+    std::vector<std::string> names;
+    for (const assets::Animation& animation : model.animations) {
+        if (animation.name == wanted) return &animation;
+        if (!animation.name.empty()) names.push_back(animation.name);
+    }
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (error == std::errc() && end == wanted.data() + wanted.size() && index < model.animations.size())
+        return &model.animations[index];
+    const std::string what = fmt::format("{} has no animation \"{}\"", options.what, wanted);
+    if (model.animations.empty()) return fail(ErrorCode::usage, what, "a model that has animations");
+    const std::string near = nearest(wanted, names);
+    return fail(ErrorCode::usage, what,
+                near.empty() ? fmt::format("a name or an index from 0 to {}", model.animations.size() - 1)
+                             : fmt::format("\"{}\"", near));
 }
 
 struct FrameTime {
@@ -112,6 +136,16 @@ void name_joints(const view::Subject& subject, render::Scene& scene) {
     }
 }
 
+// What the options say of the animation becomes the model's rest.
+Status pose(assets::Model& model, const RenderOptions& options) {
+    Result<const assets::Animation*> animation = find_animation(model, options);
+    if (!animation) return fail(animation.error());
+    assets::Pose pose = assets::rest_pose(model);
+    assets::apply(**animation, static_cast<float>(options.at_s), pose);
+    assets::set_rest(model, pose);
+    return {};
+}
+
 // From where: the named views, or the one that the options describe.
 Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, const view::Subject& subject,
                                                 const render::Box& box, float aspect) {
@@ -136,10 +170,12 @@ Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, co
 Status render_all(const RenderOptions& options) {
     const Result<VkExtent2D> extent = view::parse_size(options.size);
     if (!extent) return fail(extent.error());
-    const view::LoadedSubject subject = view::load_subject(options.what);
+    view::LoadedSubject subject = view::load_subject(options.what);
     if (!subject.ok()) return fail(subject.errors.front());
     if (options.labels && subject.subject.bare)
         return fail(ErrorCode::usage, "a bare model has no joints that could be named", "an assembly");
+    if (!options.animation.empty())
+        if (Status posed = pose(subject.subject.model, options); !posed) return posed;
     std::vector<std::string> named = options.views;
     if (!options.inset.empty()) named.push_back(options.inset);
     for (const std::string& name : named)
@@ -225,6 +261,11 @@ void add_render(CLI::App& app, int& exit_code) {
         ->add_option("--level-error", options->level_error_px,
                      "Coarser levels of detail that are this near, in pixels; 0: every triangle")
         ->check(CLI::Range(0.0, 100.0));
+    CLI::Option* animation =
+        command->add_option("--animation", options->animation, "Pose it by this animation: name or index");
+    command->add_option("--at", options->at_s, "At which second of the animation")
+        ->check(CLI::Range(0.0, 1e6))
+        ->needs(animation);
     command->add_option("--frames", options->frames, "Draw it this often")->check(CLI::Range(1, 100000));
     command->add_option("--timings", options->timings, "Write the frames' times to this JSON file");
     command->add_option("--outline", options->marks.outlined, "Node that gets a line around it");

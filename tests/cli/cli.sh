@@ -139,6 +139,16 @@ check "an inset and names change the picture" bash -c '! cmp -s marked.png same.
 expect 2 '"front"' "${draw[@]}" render cover-m8 --view top --inset frontt --png never.png
 expect 2 'no joints' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" --labels --png never.png
 expect 1 'fonts-dejavu-core' env BOLTWRIGHT_FONTS=/nowhere "${draw[@]}" render cover-m8 --view top --labels --size 8x8 --png never.png
+posed="$sources/tests/fuzz/gltf/everything.gltf"
+expect 0 'posed.png' "${draw[@]}" render "$posed" --animation wave --at 0.4 --size 64x48 --validate --png posed.png
+expect 0 'first.png' "${draw[@]}" render "$posed" --animation 0 --size 64x48 --png first.png
+check "another time, another pose" test -n "$(cmp posed.png first.png)"
+expect 0 'again.png' "${draw[@]}" render "$posed" --animation 0 --at 0.4 --size 64x48 --png again.png
+check "the same by name and by index" cmp posed.png again.png
+expect 2 '"wave"' "${draw[@]}" render "$posed" --animation wav --png never.png
+expect 2 'index from 0 to 0' "${draw[@]}" render "$posed" --animation 1 --png never.png
+expect 2 'has animations' "${draw[@]}" render cover-m8 --view top --animation wave --png never.png
+expect 2 'animation' "${draw[@]}" render "$posed" --at 1 --png never.png
 expect 2 '"top"' "${draw[@]}" render cover-m8 --view topp --png never.png
 expect 2 'no size' "${draw[@]}" render cover-m8 --size 0x10 --png never.png
 expect 2 'no point' "${draw[@]}" render cover-m8 --eye 1,2 --png never.png

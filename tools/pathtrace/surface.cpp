@@ -24,13 +24,15 @@ glm::mat3 make_frame(const glm::vec3& normal, const glm::vec3& tangent, float ha
     return {t, glm::cross(normal, t) * (handedness < 0.0F ? -1.0F : 1.0F), normal};
 }
 
-// The direction of growing u where a mesh has texture coordinates and no tangents.
-glm::vec3 tangent_of(const Vertex& a, const Vertex& b, const Vertex& c, std::size_t set) {
+// The direction of growing u where a mesh has texture coordinates and no tangents; w: the side on which the
+// texture's top is, against v.
+glm::vec4 tangent_of(const Vertex& a, const Vertex& b, const Vertex& c, std::size_t set) {
     const glm::vec2 e1 = b.texcoords[set] - a.texcoords[set];
     const glm::vec2 e2 = c.texcoords[set] - a.texcoords[set];
     const float area = e1.x * e2.y - e2.x * e1.y;
-    if (area == 0.0F) return glm::vec3(0.0F);
-    return ((b.position - a.position) * e2.y - (c.position - a.position) * e1.y) / area;
+    if (area == 0.0F) return {glm::vec3(0.0F), 1.0F};
+    return {((b.position - a.position) * e2.y - (c.position - a.position) * e1.y) / area,
+            area < 0.0F ? 1.0F : -1.0F};
 }
 
 // Bends the frame's normal by a normal map.
@@ -131,11 +133,11 @@ Surface Scene::surface(const Hit& hit, const glm::vec3& out) const {
     // At a silhouette the smooth normal may look away; it is turned until it does not.
     const float facing = glm::dot(shading, out);
     if (facing < 1e-3F) shading = glm::normalize(shading + (1e-3F - facing) * out);
-    const glm::vec4 tangent = blend(a.tangent, b.tangent, c.tangent);
+    glm::vec4 tangent = blend(a.tangent, b.tangent, c.tangent);
     Surface s;
     const auto set = static_cast<std::size_t>(m.normal_texture.texcoord & 1);
-    s.frame = tangent == glm::vec4(0.0F) ? make_frame(shading, tangent_of(a, b, c, set), 1.0F)
-                                         : make_frame(shading, glm::vec3(tangent), tangent.w);
+    if (tangent == glm::vec4(0.0F)) tangent = tangent_of(a, b, c, set);
+    s.frame = make_frame(shading, glm::vec3(tangent), tangent.w);
     s.coat_frame = s.frame;
     if (m.normal_texture.texture >= 0)
         s.frame = bent(s.frame, textures_.sample(m.normal_texture, uv, false), m.normal_scale, out);

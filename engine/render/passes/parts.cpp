@@ -27,8 +27,13 @@ gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const Kind& kind, std::u
                     {1, VK_FORMAT_R16G16B16A16_SNORM, 1, offsetof(VertexAttributes, normal)},
                     {2, VK_FORMAT_R16G16B16A16_SNORM, 1, offsetof(VertexAttributes, tangent)},
                     {3, VK_FORMAT_R32G32_SFLOAT, 1, offsetof(VertexAttributes, texcoord)},
-                    {4, VK_FORMAT_R8G8B8A8_UNORM, 1, offsetof(VertexAttributes, color)}};
+                    {4, VK_FORMAT_R8G8B8A8_UNORM, 1, offsetof(VertexAttributes, color)},
+                    {5, VK_FORMAT_R32G32_SFLOAT, 1, offsetof(VertexAttributes, texcoord)}};
     info.strides = {sizeof(glm::vec3), sizeof(VertexAttributes)};
+    if ((kind.features & SCENE_SECOND_UV) != 0) {
+        info.streams.back() = {5, VK_FORMAT_R32G32_SFLOAT, 2, 0};
+        info.strides.push_back(sizeof(glm::vec2));
+    }
     info.depth = depth_format;
     info.samples = samples;
     info.view_mask = view_mask(views);
@@ -40,7 +45,7 @@ gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const Kind& kind, std::u
 Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing& drawing) {
     const VkCommandBuffer commands = context.frame.commands();
     const gpu::Pipeline* pipeline = nullptr;
-    const GpuModel* model = nullptr;
+    const Draw* bound = nullptr;
     const MaterialMaps* maps = nullptr;
     for (const Draw& d : list.draws) {
         if (!drawing.wanted(d.kind)) continue;
@@ -58,13 +63,14 @@ Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing&
         }
         const MaterialMaps& needed = d.model->maps[d.model->parts[d.part].material];
         const bool has_maps = pipeline->sets.size() > 1;
-        if (has_maps && (maps == nullptr || model != d.model || maps->textures != needed.textures)) {
+        if (has_maps && (maps == nullptr || bound->model != d.model || maps->textures != needed.textures)) {
             Result<VkDescriptorSet> set = maps_set(context, **wanted, *d.model, needed);
             if (!set) return fail(set.error());
             bind(commands, **wanted, *set, 1);
         }
         maps = &needed;
-        if (std::exchange(model, d.model) != d.model) bind_geometry(commands, *d.model);
+        if (bound == nullptr || !same_geometry(*bound, d)) bind_geometry(commands, d);
+        bound = &d;
         if (pipeline->push_size > 0)
             vkCmdPushConstants(commands, pipeline->layout.get(), pipeline->push_stages, 0, sizeof d.material,
                                &d.material);

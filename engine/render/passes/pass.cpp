@@ -20,18 +20,28 @@ void bind(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorS
                             0, nullptr);
 }
 
-void bind_geometry(VkCommandBuffer commands, const GpuModel& model) {
-    const VkBuffer buffers[] = {model.positions.get(), model.attributes.get()};
-    const VkDeviceSize offsets[] = {0, 0};
-    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+bool same_geometry(const Draw& a, const Draw& b) { return a.model == b.model && a.deformed == b.deformed; }
+
+void bind_geometry(VkCommandBuffer commands, const Draw& d) {
+    const GpuModel& model = *d.model;
+    VkBuffer buffers[] = {model.positions.get(), model.attributes.get(), model.second_uv.get()};
+    VkDeviceSize offsets[] = {0, 0, 0};
+    if (d.deformed.buffer != VK_NULL_HANDLE) {
+        // What is bent begins with the part, so the draw begins at vertex 0, and the other stream is moved.
+        buffers[0] = buffers[1] = d.deformed.buffer;
+        offsets[0] = d.deformed.positions;
+        offsets[1] = d.deformed.attributes;
+        offsets[2] = static_cast<VkDeviceSize>(model.parts[d.part].first_vertex) * sizeof(glm::vec2);
+    }
+    vkCmdBindVertexBuffers(commands, 0, model.second_uv.get() != VK_NULL_HANDLE ? 3 : 2, buffers, offsets);
     vkCmdBindIndexBuffer(commands, model.indices.get(), 0, VK_INDEX_TYPE_UINT32);
 }
 
 void draw(VkCommandBuffer commands, const Draw& d) {
     const Part& part = d.model->parts[d.part];
     const LevelRange& level = part.levels[d.level];
-    vkCmdDrawIndexed(commands, level.index_count, d.instances, level.first_index, part.first_vertex,
-                     d.first_instance);
+    const std::int32_t first = d.deformed.buffer != VK_NULL_HANDLE ? 0 : part.first_vertex;
+    vkCmdDrawIndexed(commands, level.index_count, d.instances, level.first_index, first, d.first_instance);
 }
 
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load,

@@ -43,6 +43,7 @@ struct PassContext {
     gpu::Piece instances, materials;  // of the draw list
     const GpuTexture& white;          // in place of maps that a material has not
     VkImageView white_array;
+    const DeformedParts& deformed;
 };
 
 // Values of this frame for shaders to read; at least room for one, so that nothing is bound empty.
@@ -69,16 +70,19 @@ void set_area(VkCommandBuffer commands, VkExtent2D extent);
 
 void bind(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorSet set,
           std::uint32_t index = 0);
-void bind_geometry(VkCommandBuffer commands, const GpuModel& model);
+// Where a draw's vertices are; the next may have them in the same place.
+bool same_geometry(const Draw& a, const Draw& b);
+void bind_geometry(VkCommandBuffer commands, const Draw& draw);
 void draw(VkCommandBuffer commands, const Draw& draw);
 
 // Draws every part that `wanted` takes with the bound pipeline.
 template <class Wanted>
 void draw_all(VkCommandBuffer commands, const DrawList& list, const Wanted& wanted) {
-    const GpuModel* bound = nullptr;
+    const Draw* bound = nullptr;
     for (const Draw& d : list.draws) {
         if (!wanted(d)) continue;
-        if (std::exchange(bound, d.model) != d.model) bind_geometry(commands, *d.model);
+        if (bound == nullptr || !same_geometry(*bound, d)) bind_geometry(commands, d);
+        bound = &d;
         draw(commands, d);
     }
 }

@@ -24,6 +24,10 @@ std::uint64_t key_of(const Scene& scene, const glm::mat4& shadow_from_world) {
         add(&object.model, sizeof object.model);
         add(&object.mesh, sizeof object.mesh);
         add(glm::value_ptr(object.world), sizeof object.world);
+        if (object.deformation == nullptr) continue;
+        const Deformation& bent = *object.deformation;
+        add(bent.joints.data(), bent.joints.size() * sizeof(glm::mat4));
+        add(bent.weights.data(), bent.weights.size() * sizeof(float));
     }
     return key != 0 ? key : 1;
 }
@@ -96,13 +100,13 @@ Status ShadowPass::draw(PassContext& context) {
     detail.allowed_m = 1.0F / (glm::length(glm::vec3(m[0].x, m[1].x, m[2].x)) * 0.5F *
                                static_cast<float>(still_.info().extent.width));
     const std::uint64_t key = key_of(context.scene, m);
-    const DrawList moving = make_draw_list(casters(context.scene, true), {}, detail);
+    const DrawList moving = make_draw_list(casters(context.scene, true), {}, detail, context.deformed);
     moving_ = !moving.draws.empty();
     if (key == still_key_ && !moving_) return {};
     context.frame.begin_timing("shadow");
     if (key != still_key_) {
         still_key_ = 0;
-        const DrawList list = make_draw_list(casters(context.scene, false), {}, detail);
+        const DrawList list = make_draw_list(casters(context.scene, false), {}, detail, context.deformed);
         gpu::image_barrier_discarding(context.frame.commands(), still_.get(), Use::depth_read,
                                       Use::depth_target, depth_range);
         if (Status done = draw_into(context, still_, list, true); !done) return done;

@@ -8,8 +8,8 @@ Result<const gpu::Pipeline*> SurfacePass::pipeline(gpu::Device& device, const Ki
                                                    bool wide) {
     // What only matters to light does not make another pipeline.
     Variant variant{kind, views, wide};
-    variant.kind.features &= SCENE_ANY_MAP | SCENE_VERTEX_COLORS | SCENE_TANGENTS | SCENE_ANISOTROPY |
-                             SCENE_MASK | SCENE_MARKED | SCENE_WIDE | SCENE_CUT;
+    variant.kind.features &= SCENE_ANY_MAP | SCENE_SECOND_UV | SCENE_VERTEX_COLORS | SCENE_TANGENTS |
+                             SCENE_ANISOTROPY | SCENE_MASK | SCENE_MARKED | SCENE_WIDE | SCENE_CUT;
     const auto known = pipelines_.find(variant);
     if (known != pipelines_.end()) return &known->second;
     gpu::GraphicsInfo info = part_pipeline(*shaders_, variant.kind, views);

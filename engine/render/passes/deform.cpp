@@ -1,0 +1,129 @@
+#include "engine/render/passes/deform.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace bolt::render {
+
+namespace {
+
+using gpu::Use;
+
+constexpr std::uint32_t group_size = 64;  // deform.comp
+constexpr std::uint32_t position_words = sizeof(glm::vec3) / 4;
+constexpr std::uint32_t attribute_words = sizeof(VertexAttributes) / 4;
+static_assert(attribute_words == 7, "deform.comp counts on it");
+
+shared::DeformPart numbers_of(const Part& part, const Deformation& deformation) {
+    const Deformable& bends = part.bends;
+    shared::DeformPart numbers{};
+    numbers.vertices = bends.vertices;
+    numbers.first_vertex = static_cast<std::uint32_t>(part.first_vertex);
+    numbers.first_influence = bends.first_influence;
+    numbers.skinned = !bends.joints.empty() && !deformation.joints.empty() ? 1 : 0;
+    numbers.first_delta = bends.first_delta;
+    numbers.delta_floats = bends.delta_floats;
+    numbers.targets = static_cast<std::uint32_t>(std::min(bends.targets.size(), deformation.weights.size()));
+    numbers.own_normals = bends.own_normals ? 1 : 0;
+    return numbers;
+}
+
+}  // namespace
+
+Result<DeformPass> DeformPass::create(const PassMaker& maker) {
+    DeformPass pass;
+    if (Status s = take(pass.pipeline_, gpu::make_compute_pipeline(maker.device, maker.cache,
+                                                                   maker.shaders.at("deform.comp")));
+        !s)
+        return fail(s.error());
+    return pass;
+}
+
+// Where everything goes, and that there is room for it.
+Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
+    std::uint32_t words = 0;
+    std::set<std::pair<const Deformation*, const Part*>> planned;
+    for (const Object& object : context.scene.objects) {
+        const Deformation* deformation = object.deformation.get();
+        if (deformation == nullptr) continue;
+        const MeshRange range = object.model->meshes[object.mesh];
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+            const Part& part = object.model->parts[i];
+            if (part.bends.vertices == 0 || !planned.insert({deformation, &part}).second) continue;
+            Job job{&object, &part, numbers_of(part, *deformation)};
+            if (job.numbers.skinned != 0 && part.bends.joints.size() > deformation->joints.size())
+                return fail(ErrorCode::failed,
+                            fmt::format("a deformation has {} joints for a part that hangs on joint {}",
+                                        deformation->joints.size(), part.bends.joints.size() - 1));
+            job.numbers.positions = words;
+            job.numbers.attributes = words + position_words * part.bends.vertices;
+            words = job.numbers.attributes + attribute_words * part.bends.vertices;
+            jobs.push_back(job);
+        }
+    }
+    const VkDeviceSize bytes = VkDeviceSize{4} * words;
+    if (bytes > vertices_.size()) {
+        Result<gpu::Buffer> larger =
+            gpu::Buffer::create(context.device, std::max(bytes, 2 * vertices_.size()),
+                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                gpu::MemoryUse::device);
+        if (!larger) return fail(larger.error());
+        context.frame.retire(std::exchange(vertices_, std::move(*larger)));
+    }
+    for (const Job& job : jobs)
+        parts_.insert_or_assign({job.object->deformation.get(), job.part},
+                                DeformedPart{vertices_.get(), VkDeviceSize{4} * job.numbers.positions,
+                                             VkDeviceSize{4} * job.numbers.attributes});
+    return {};
+}
+
+Result<VkDescriptorSet> DeformPass::set_for(PassContext& context, const Object& object) {
+    Result<gpu::Piece> joints = put<glm::mat4>(context.frame, object.deformation->joints);
+    if (!joints) return fail(joints.error());
+    Result<gpu::Piece> weights = put<float>(context.frame, object.deformation->weights);
+    if (!weights) return fail(weights.error());
+    Result<gpu::SetWriter> writer = gpu::SetWriter::create(context.device, context.frame, pipeline_, 0);
+    if (!writer) return fail(writer.error());
+    const GpuModel& model = *object.model;
+    // What a model has not is not read, but something must be bound.
+    const auto bind_whole = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
+        const gpu::Buffer& there = buffer.get() != VK_NULL_HANDLE ? buffer : model.positions;
+        writer->buffer(binding, there.get(), 0, there.size());
+    };
+    bind_whole(0, model.positions);
+    bind_whole(1, model.attributes);
+    bind_whole(2, model.influences);
+    bind_whole(3, model.deltas);
+    bind_whole(6, vertices_);
+    return writer->piece(4, *joints).piece(5, *weights).finish();
+}
+
+Status DeformPass::draw(PassContext& context) {
+    parts_.clear();
+    std::vector<Job> jobs;
+    if (Status planned = plan(context, jobs); !planned) return planned;
+    if (jobs.empty()) return {};
+    const VkCommandBuffer commands = context.frame.commands();
+    context.frame.begin_timing("deform");
+    gpu::memory_barrier(commands, Use::vertex_read, Use::storage_write);  // of the frame before
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.handle.get());
+    const Object* object = nullptr;
+    for (const Job& job : jobs) {
+        if (std::exchange(object, job.object) != job.object) {
+            Result<VkDescriptorSet> set = set_for(context, *job.object);
+            if (!set) return fail(set.error());
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout.get(), 0, 1,
+                                    &*set, 0, nullptr);
+        }
+        vkCmdPushConstants(commands, pipeline_.layout.get(), pipeline_.push_stages, 0, sizeof job.numbers,
+                           &job.numbers);
+        vkCmdDispatch(commands, (job.numbers.vertices + group_size - 1) / group_size, 1, 1);
+    }
+    gpu::memory_barrier(commands, Use::storage_write, Use::vertex_read);
+    context.frame.end_timing();
+    return {};
+}
+
+}  // namespace bolt::render

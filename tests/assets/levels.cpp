@@ -1,0 +1,165 @@
+// Levels of detail of shapes of which all is known.
+#include "engine/assets/levels.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <numbers>
+
+using namespace bolt;
+using namespace bolt::assets;
+
+namespace {
+
+struct Mesh {
+    std::vector<glm::vec3> positions, normals;
+    std::vector<std::uint32_t> indices;
+};
+
+// A profile of points with normals, drawn out along z in steps.
+Mesh extruded(const std::vector<std::pair<glm::vec2, glm::vec2>>& profile, std::uint32_t steps) {
+    Mesh mesh;
+    const auto columns = static_cast<std::uint32_t>(profile.size());
+    for (std::uint32_t row = 0; row <= steps; ++row)
+        for (const auto& [point, normal] : profile) {
+            mesh.positions.emplace_back(point, static_cast<float>(row) / static_cast<float>(steps));
+            mesh.normals.emplace_back(normal, 0.0F);
+        }
+    for (std::uint32_t row = 0; row < steps; ++row)
+        for (std::uint32_t i = 0; i + 1 < columns; ++i) {
+            if (profile[i].first == profile[i + 1].first) continue;  // both sides of an edge
+            const std::uint32_t a = row * columns + i, b = a + 1, c = a + columns, d = c + 1;
+            mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
+        }
+    return mesh;
+}
+
+// Two flats at a right angle with a round of this radius between them: the first looks up, the second to +x.
+Mesh filleted(float radius) {
+    std::vector<std::pair<glm::vec2, glm::vec2>> profile;
+    for (int i = 0; i < 12; ++i) profile.push_back({{static_cast<float>(i) / 12.0F - 1.0F, 0.0F}, {0, 1}});
+    constexpr int arc = 16;
+    for (int i = 0; i <= arc; ++i) {
+        const float angle = std::numbers::pi_v<float> / 2.0F * (1.0F - static_cast<float>(i) / arc);
+        const glm::vec2 n(std::cos(angle), std::sin(angle));
+        profile.push_back({glm::vec2(0.0F, -radius) + radius * n, n});
+    }
+    for (int i = 1; i <= 12; ++i)
+        profile.push_back({{radius, -radius - static_cast<float>(i) / 12.0F}, {1, 0}});
+    return extruded(profile, 24);
+}
+
+// The same with a hard edge: its vertices stand there twice.
+Mesh edged() {
+    std::vector<std::pair<glm::vec2, glm::vec2>> profile;
+    for (int i = 0; i <= 12; ++i) profile.push_back({{static_cast<float>(i) / 12.0F - 1.0F, 0.0F}, {0, 1}});
+    for (int i = 0; i <= 12; ++i) profile.push_back({{0.0F, -static_cast<float>(i) / 12.0F}, {1, 0}});
+    return extruded(profile, 24);
+}
+
+struct Corner {
+    glm::vec3 position, normal;
+};
+
+Corner corner(const Mesh& mesh, const Level& level, std::uint32_t index) {
+    if (index < mesh.positions.size()) return {mesh.positions[index], mesh.normals[index]};
+    const AddedVertex& added = level.added.at(index - mesh.positions.size());
+    return {mesh.positions.at(added.of), added.normal};
+}
+
+double angle_between(const glm::vec3& a, const glm::vec3& b) {
+    return std::acos(std::clamp(glm::dot(glm::dvec3(a), glm::dvec3(b)), -1.0, 1.0));
+}
+
+// The largest turn of a normal against its triangle, where that lies in one of the flats; and elsewhere.
+struct Turned {
+    double flats = 0.0, round = 0.0;
+    std::size_t in_flats = 0;
+};
+Turned turned(const Mesh& mesh, const Level& level) {
+    Turned result;
+    for (std::size_t i = 0; i < level.indices.size(); i += 3) {
+        const Corner a = corner(mesh, level, level.indices[i]), b = corner(mesh, level, level.indices[i + 1]),
+                     c = corner(mesh, level, level.indices[i + 2]);
+        const glm::vec3 area = glm::cross(b.position - a.position, c.position - a.position);
+        if (glm::length(area) < 1e-9F) continue;
+        const glm::vec3 face = glm::normalize(area);
+        const bool flat = std::max(face.x, face.y) > 0.99999F;
+        if (flat) ++result.in_flats;
+        for (const Corner& one : {a, b, c}) {
+            CHECK(glm::length(one.normal) == doctest::Approx(1.0).epsilon(1e-4));
+            double& worst = flat ? result.flats : result.round;
+            worst = std::max(worst, angle_between(one.normal, face));
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("flats beside a round stay flat at every level, and what is left of the round is smooth") {
+    const Mesh mesh = filleted(0.05F);
+    const std::vector<Level> levels = coarser_levels(mesh.positions, mesh.normals, mesh.indices);
+    REQUIRE(levels.size() >= 3);
+    std::size_t before = mesh.indices.size();
+    float error = 0.0F;
+    for (const Level& level : levels) {
+        CHECK(level.indices.size() * 4 <= before * 3);
+        CHECK(level.error >= error);
+        before = level.indices.size();
+        error = level.error;
+        const Turned most = turned(mesh, level);
+        REQUIRE(most.in_flats > 0);
+        CHECK(most.flats < 0.11);
+        CHECK(most.round < 1.06);
+    }
+}
+
+TEST_CASE("a hard edge stays hard") {
+    const Mesh mesh = edged();
+    const std::vector<Level> levels = coarser_levels(mesh.positions, mesh.normals, mesh.indices);
+    REQUIRE_FALSE(levels.empty());
+    for (const Level& level : levels) {
+        CHECK(level.added.empty());
+        CHECK(turned(mesh, level).flats < 1e-3);
+        CHECK(level.error < 1e-4F);
+    }
+    CHECK(levels.back().indices.size() < mesh.indices.size() / 4);
+}
+
+TEST_CASE("what is not welded keeps its seams, and flats stay flat there, too") {
+    const Mesh mesh = edged();
+    const std::vector<Level> levels =
+        coarser_levels(mesh.positions, mesh.normals, mesh.indices, {.weld = false});
+    REQUIRE_FALSE(levels.empty());
+    for (const Level& level : levels) CHECK(turned(mesh, level).flats < 1e-3);
+    const Mesh round = filleted(0.05F);
+    for (const Level& level : coarser_levels(round.positions, round.normals, round.indices, {.weld = false}))
+        CHECK(turned(round, level).flats < 0.11);
+}
+
+TEST_CASE("without normals there are index lists only, and no corner changes sides of an edge") {
+    const Mesh mesh = edged();
+    const std::vector<Level> levels = coarser_levels(mesh.positions, {}, mesh.indices);
+    REQUIRE_FALSE(levels.empty());
+    for (const Level& level : levels) {
+        CHECK(level.added.empty());
+        for (const std::uint32_t index : level.indices) REQUIRE(index < mesh.positions.size());
+        CHECK(turned(mesh, level).flats < 1e-3);
+    }
+}
+
+TEST_CASE("what is small, or nothing, has no levels") {
+    CHECK(coarser_levels({}, {}, {}).empty());
+    const Mesh mesh = extruded({{{0, 0}, {0, 1}}, {{1, 0}, {0, 1}}}, 4);
+    CHECK(coarser_levels(mesh.positions, mesh.normals, mesh.indices).empty());
+    // A thousand triangles without any area.
+    const std::vector<glm::vec3> points(9, glm::vec3(1, 2, 3)), normals(9, glm::vec3(0, 1, 0));
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < 3000; ++i) indices.push_back(i % 9);
+    CHECK(coarser_levels(points, normals, indices).empty());
+    CHECK(coarser_levels(points, {}, indices).size() <= 6);
+}
