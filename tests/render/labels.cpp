@@ -308,6 +308,26 @@ TEST_CASE("outline and plate lie behind the text, and the plate is as large as i
     CHECK(blue > 0.6 * red);
 }
 
+TEST_CASE("of two labels the nearer one lies over the other, whichever comes first in the scene") {
+    test::Studio studio;
+    constexpr VkExtent2D extent{64, 48};
+    const auto middle = [&](float first, float second) {
+        Scene scene = black();
+        for (const auto& [z, color] :
+             {std::pair{first, glm::vec4(1, 0, 0, 1)}, {second, glm::vec4(0, 1, 0, 1)}}) {
+            Label label;
+            label.text = block;
+            label.position.z = z;
+            label.color = color;
+            scene.labels.push_back(label);
+        }
+        return test::pixel(studio.shoot(scene, front(extent), extent), 32, 24);
+    };
+    CHECK(middle(0.5F, 0.0F) == glm::ivec4(255, 0, 0, 255));
+    CHECK(middle(0.0F, 0.5F) == glm::ivec4(0, 255, 0, 255));
+    CHECK(middle(0.0F, 0.0F) == glm::ivec4(0, 255, 0, 255));  // equally far: the later one
+}
+
 TEST_CASE("labels in several views are what they are in each, and a full atlas starts anew") {
     for (const auto multiview : {RendererOptions::Multiview::never, RendererOptions::Multiview::always}) {
         RendererOptions options;
