@@ -17,7 +17,8 @@ namespace bolt::author {
 
 namespace {
 
-constexpr double look_every = 0.1;  // s, at files
+constexpr double look_every = 0.1;   // s, at files
+constexpr float level_error = 0.5F;  // px: coarser levels of detail while they look the same
 
 double seconds() { return std::chrono::duration<double>(platform::Clock::now().time_since_epoch()).count(); }
 
@@ -46,6 +47,7 @@ Result<OnGpu> put_on_gpu(const PreviewOptions& options, const Sources& sources, 
     OnGpu on;
     render::RendererOptions renderer;
     renderer.shaders = shaders;
+    renderer.level_error_px = level_error;
     Result<view::Painter> painter = view::make_painter(instance, {options.gpu, surface}, renderer);
     if (!painter) return fail(painter.error());
     on.painter = std::move(*painter);
@@ -53,7 +55,7 @@ Result<OnGpu> put_on_gpu(const PreviewOptions& options, const Sources& sources, 
         render::upload_environment(*on.painter.device, sources.radiance());
     if (!light) return fail(light.error());
     on.light = std::make_unique<render::EnvironmentLight>(std::move(*light));
-    auto stage = view::set_stage(*on.painter.device, sources.subject(), *on.light);
+    auto stage = view::set_stage(*on.painter.device, sources.subject(), *on.light, {true, true});
     if (!stage) return fail(stage.error());
     on.stage = std::move(*stage);
     return on;
@@ -154,7 +156,7 @@ Status Show::take_subject(view::Level level) {
         tell(of_subject, std::move(loaded.errors));
         return {};
     }
-    auto stage = view::set_stage(*on_->painter.device, loaded.subject, *on_->light);
+    auto stage = view::set_stage(*on_->painter.device, loaded.subject, *on_->light, {true, true});
     if (!stage && stage.error().lost) return fail(stage.error());
     if (!stage) {
         tell(of_subject, {stage.error()});
@@ -189,6 +191,7 @@ Status Show::take_light() {
 Status Show::take_shaders(render::ShaderCode code) {
     render::RendererOptions options;
     options.shaders = code;
+    options.level_error_px = level_error;
     gpu::Device& device = *on_->painter.device;
     const auto draws = [&](render::Renderer& renderer) -> Status {
         const render::Eye eye = view::eye_of(camera_.shown, on_->stage->box, 1.0F);
