@@ -5,8 +5,11 @@
 // direction a pixel, turned over a pattern of 4 × 4 pixels, with the horizons of both sides integrated in closed form.
 //   J. Jimenez, X.-C. Wu, A. Pesce, A. Jarabo, Practical Real-Time Strategies for Accurate Indirect Occlusion, 2016.
 #include "shaders/frame.glsl"
+#include "shaders/small.glsl"
+#include "shaders/surface.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2DArray depth_map;
+layout(set = 0, binding = 5) uniform sampler2DMSArray surfaces;
 layout(location = 0) out float free_out;
 
 const float pi = 3.14159265358979;
@@ -17,10 +20,13 @@ vec3 world_at(vec2 uv, float depth) {
     return p.xyz / p.w;
 }
 
-vec3 seen_at(vec2 uv) { return world_at(uv, max(textureLod(depth_map, vec3(uv, gl_ViewIndex), 0.0).r, 1e-7)); }
-
-// Of two differences the one that stays on the surface.
-vec3 shorter(vec3 a, vec3 b) { return dot(a, a) < dot(b, b) ? a : b; }
+// The point that was seen nearest to there, at the very place where it was: between the two a surface that is seen at a flat
+// angle would shade itself.
+vec3 seen_at(vec2 uv) {
+    const ivec2 size = textureSize(depth_map, 0).xy;
+    const ivec2 texel = clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1);
+    return world_at(place_of(texel), max(texelFetch(depth_map, ivec3(texel, gl_ViewIndex), 0).r, 1e-7));
+}
 
 // The cosine of the highest horizon on one side.
 float horizon(vec2 uv, vec2 way, vec3 p, vec3 v, float jitter) {
@@ -38,25 +44,25 @@ float horizon(vec2 uv, vec2 way, vec3 p, vec3 v, float jitter) {
 void main() {
     const vec2 texel = 1.0 / vec2(textureSize(depth_map, 0).xy);
     const vec2 uv = gl_FragCoord.xy * texel;
-    const float depth = textureLod(depth_map, vec3(uv, gl_ViewIndex), 0.0).r;
-    const vec3 p = world_at(uv, max(depth, 1e-7));
+    const ivec3 at = ivec3(gl_FragCoord.xy, gl_ViewIndex);
+    const float depth = texelFetch(depth_map, at, 0).r;
+    const vec3 p = world_at(place_of(at.xy), max(depth, 1e-7));
     const vec3 eye = frame.views[gl_ViewIndex].eye.xyz - p;
     const vec3 v = normalize(eye);
-    const vec3 right = shorter(seen_at(uv + vec2(texel.x, 0.0)) - p, p - seen_at(uv - vec2(texel.x, 0.0)));
-    const vec3 down = shorter(seen_at(uv + vec2(0.0, texel.y)) - p, p - seen_at(uv - vec2(0.0, texel.y)));
-    vec3 n = normalize(cross(down, right));
-    n = dot(n, v) < 0.0 ? -n : n;
+    vec3 n = unpack_normal(texelFetch(surfaces, full_texel(at), small_sample).xy);
+    n = dot(n, v) < 0.0 ? normalize(n - dot(n, v) * v) : n;
 
     const uvec2 cell = uvec2(gl_FragCoord.xy) & 3u;
     const float turn = (float((cell.x + cell.y * 4u) * 7u % 16u) + 0.5) * (pi / 16.0);
     const float jitter = fract(float(cell.x * 3u + cell.y) * 0.61803);
     const vec2 way = vec2(cos(turn), sin(turn));
     // The radius as large as it is seen, but no more than a sixth of the picture.
-    const float across = length(world_at(uv + vec2(texel.x, 0.0), max(depth, 1e-7)) - p);
+    const vec2 here = place_of(at.xy);
+    const float across = length(world_at(here + vec2(texel.x, 0.0), max(depth, 1e-7)) - p);
     const float pixels = clamp(frame.occlusion.x / max(across, 1e-9), 2.0, 1.0 / (6.0 * texel.y));
     const vec2 reach = way * pixels * texel;
 
-    const vec3 along = normalize(world_at(uv + way * texel, max(depth, 1e-7)) - p);
+    const vec3 along = normalize(world_at(here + way * texel, max(depth, 1e-7)) - p);
     const vec3 side = along - v * dot(along, v);
     const vec3 axis = normalize(cross(along, v));
     const vec3 flat_n = n - axis * dot(n, axis);
@@ -67,5 +73,7 @@ void main() {
     const float h1 = gamma + clamp(behind - gamma, -0.5 * pi, 0.5 * pi);
     const float h2 = gamma + clamp(ahead - gamma, -0.5 * pi, 0.5 * pi);
     const float sum = 2.0 * cos(gamma) + 2.0 * (h1 + h2) * sin(gamma) - cos(2.0 * h1 - gamma) - cos(2.0 * h2 - gamma);
-    free_out = depth > 0.0 ? clamp(0.25 * weight * sum, 0.0, 1.0) : 1.0;
+    // At the rim, where a surface is seen edge on, one texel holds more of it than the radius: nothing can be said there.
+    const float told = smoothstep(0.02, 0.2, dot(n, v));
+    free_out = depth > 0.0 ? mix(1.0, clamp(0.25 * weight * sum, 0.0, 1.0), told) : 1.0;
 }

@@ -1,23 +1,33 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// The mean over the pattern of 4 × 4 slices, of those pixels that lie on the same surface.
+// The mean over the pattern of 4 × 4 slices, of those pixels that lie on the same surface: on a plane depth changes evenly over
+// the picture, and how much is known from the normal.
 #include "shaders/frame.glsl"
+#include "shaders/small.glsl"
+#include "shaders/surface.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2DArray depth_map;
 layout(set = 0, binding = 4) uniform sampler2DArray raw_map;
+layout(set = 0, binding = 5) uniform sampler2DMSArray surfaces;
 layout(location = 0) out float free_out;
 
 void main() {
     const ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(depth_map, 0).xy - 1;
     const float here = texelFetch(depth_map, ivec3(at, gl_ViewIndex), 0).r;
+    const vec3 n = unpack_normal(texelFetch(surfaces, full_texel(ivec3(at, gl_ViewIndex)), small_sample).xy);
+    // Planes go to clip space by the transposed inverse.
+    const mat4 world_from_clip = frame.views[gl_ViewIndex].world_from_clip;
+    const vec4 p = world_from_clip * vec4(place_of(at) * 2.0 - 1.0, here, 1.0);
+    const vec4 plane = vec4(n, -dot(n, p.xyz / p.w)) * world_from_clip;
+    const vec2 slope = abs(plane.z) > 1e-9 ? -plane.xy / plane.z * (4.0 * frame.picture.zw) : vec2(0.0);
     float sum = 0.0, weights = 0.0;
     for (int y = -2; y < 2; ++y) {
         for (int x = -2; x < 2; ++x) {
             const ivec3 there = ivec3(clamp(at + ivec2(x, y), ivec2(0), last), gl_ViewIndex);
-            // Reversed depth is proportional to one over the distance: compare by ratio.
-            const float ratio = texelFetch(depth_map, there, 0).r / max(here, 1e-7);
-            const float weight = abs(ratio - 1.0) < 0.03 ? 1.0 : 0.001;
+            // Reversed depth is proportional to one over the distance: what counts is its share.
+            const float off = texelFetch(depth_map, there, 0).r - here - dot(slope, vec2(there.xy - at));
+            const float weight = abs(off) < 0.02 * here ? 1.0 : 0.001;
             sum += weight * texelFetch(raw_map, there, 0).r;
             weights += weight;
         }

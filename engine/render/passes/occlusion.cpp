@@ -87,12 +87,16 @@ Status OcclusionPass::draw(PassContext& context, Targets& targets) {
     const VkSampler nearest = nearest_.get();
     constexpr VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
     const auto slices_set = make_set(context, slices_, [&](gpu::SetWriter& w) {
-        w.piece(0, context.frame_block).image(3, targets.small_depth.view(), nearest, depth_layout);
+        w.piece(0, context.frame_block)
+            .image(3, targets.small_depth.view(), nearest, depth_layout)
+            .image(5, targets.surfaces.view(), nearest);
     });
     if (!slices_set) return fail(slices_set.error());
     const auto smooth_set = make_set(context, smooth_, [&](gpu::SetWriter& w) {
-        w.image(3, targets.small_depth.view(), nearest, depth_layout)
-            .image(4, targets.raw_occlusion.view(), nearest);
+        w.piece(0, context.frame_block)
+            .image(3, targets.small_depth.view(), nearest, depth_layout)
+            .image(4, targets.raw_occlusion.view(), nearest)
+            .image(5, targets.surfaces.view(), nearest);
     });
     if (!smooth_set) return fail(smooth_set.error());
 
