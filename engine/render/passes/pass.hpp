@@ -50,7 +50,7 @@ struct PassContext {
 template <class T>
 Result<gpu::Piece> put(gpu::Frame& frame, std::span<const T> values) {
     Result<gpu::Piece> piece = frame.piece(std::max<std::size_t>(values.size_bytes(), sizeof(T)));
-    if (piece) std::memcpy(piece->bytes.data(), values.data(), values.size_bytes());
+    if (piece && !values.empty()) std::memcpy(piece->bytes.data(), values.data(), values.size_bytes());
     return piece;
 }
 
