@@ -52,7 +52,7 @@ Seen see(Surface s, sampler2D albedo_table) {
     const float nv = clamp(dot(s.normal, s.out_dir), 0.0, 1.0);
     const vec2 size = vec2(textureSize(albedo_table, 0));
     const float roughness = sqrt(length(s.alpha) * 0.70710678);
-    const vec2 ab = texture(albedo_table, (vec2(sqrt(nv), roughness) * (size - 1.0) + 0.5) / size).xy;
+    const vec2 ab = textureLod(albedo_table, (vec2(sqrt(nv), roughness) * (size - 1.0) + 0.5) / size, 0.0).xy;
     const float gain = 1.0 / (ab.x + ab.y) - 1.0;
     const vec3 dielectric = (s.f0 * ab.x + s.f90 * ab.y) * (1.0 + s.f0 * gain);
     const vec3 metal = (s.base_color * ab.x + ab.y) * (1.0 + s.base_color * gain);
@@ -64,7 +64,7 @@ Seen see(Surface s, sampler2D albedo_table) {
     seen.coat = 0.0;
     if (s.coated) {
         const float cnv = clamp(dot(s.coat_normal, s.out_dir), 0.0, 1.0);
-        const vec2 coat = texture(albedo_table, (vec2(sqrt(cnv), sqrt(s.coat_alpha)) * (size - 1.0) + 0.5) / size).xy;
+        const vec2 coat = textureLod(albedo_table, (vec2(sqrt(cnv), sqrt(s.coat_alpha)) * (size - 1.0) + 0.5) / size, 0.0).xy;
         seen.coat = s.coat * (0.04 * coat.x + coat.y) * (1.0 + 0.04 * (1.0 / (coat.x + coat.y) - 1.0));
     }
     seen.below_coat = 1.0 - seen.coat;

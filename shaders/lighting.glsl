@@ -19,10 +19,10 @@ float lit(vec3 at, vec3 normal) {
     const vec4 place = m * vec4(at + (1.5 * width + off) * normal, 1.0);
     const vec3 p = vec3(place.xy * 0.5 + 0.5, place.z);
     const vec2 step = 0.75 * texel;
-    const float sum = texture(shadow_map, vec3(p.xy + vec2(-step.x, -step.y), p.z)) +
-                      texture(shadow_map, vec3(p.xy + vec2(step.x, -step.y), p.z)) +
-                      texture(shadow_map, vec3(p.xy + vec2(-step.x, step.y), p.z)) +
-                      texture(shadow_map, vec3(p.xy + vec2(step.x, step.y), p.z));
+    const float sum = textureLod(shadow_map, vec3(p.xy + vec2(-step.x, -step.y), p.z), 0.0) +
+                      textureLod(shadow_map, vec3(p.xy + vec2(step.x, -step.y), p.z), 0.0) +
+                      textureLod(shadow_map, vec3(p.xy + vec2(-step.x, step.y), p.z), 0.0) +
+                      textureLod(shadow_map, vec3(p.xy + vec2(step.x, step.y), p.z), 0.0);
     const bool outside = any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)));
     return outside ? 1.0 : 0.25 * sum;
 }
