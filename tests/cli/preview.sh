@@ -73,7 +73,8 @@ ends_well() {
     preview=
     [[ $status -eq 0 ]] || { echo "exit $status"; cat said; return 1; }
 }
-render() { "$bin/boltwright" render "$@" >/dev/null; }
+# At the level of detail that preview draws.
+render() { "$bin/boltwright" render "$@" --level-error 0.5 >/dev/null; }
 
 # Without a display: a picture, or the error that says so.
 expect 4 'DISPLAY.*--png FILE needs none' env -u DISPLAY -u WAYLAND_DISPLAY "$bin/bolt-author" preview cover-m8
