@@ -97,8 +97,8 @@ struct DeformPart {
     uint attributes;    // word of the result
 };
 
-// Bits of the scene pipelines' specialization constant: what a pipeline is for. A software rasteriser runs both sides of every
-// branch, so what a part does not need is not in its shader at all.
+// Bits of the scene pipelines' specialization constant: what a pipeline is for. What a part does not need is not in its
+// shader at all (engine/render/draw_list.hpp).
 #define SCENE_BASE_MAP 1u
 #define SCENE_METALLIC_ROUGHNESS_MAP 2u
 #define SCENE_NORMAL_MAP 4u

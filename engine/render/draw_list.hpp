@@ -9,7 +9,7 @@
 namespace bolt::render {
 
 // Which pipeline draws it: what a part needs that others do not. Shaders are compiled for just these
-// features: software rasterisers run both sides of every branch.
+// features: one for all of them, with flags, took lavapipe half as long again.
 struct Kind {
     bool blends = false;
     bool forward = false;  // lit as it is drawn: blends, or has more than the geometry buffer keeps

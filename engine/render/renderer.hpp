@@ -12,7 +12,8 @@
 // draw_over puts an overlay on a finished picture: the user interface, and pictures of other views as insets.
 //
 // Light comes after, and not while parts are drawn, because a part's triangles are often smaller than the
-// blocks that a rasteriser shades: on lavapipe the same picture of the reducer took three times as long.
+// blocks that a rasteriser shades: on lavapipe the same picture of the reducer took nearly three times as
+// long.
 //
 // Each pass is a class in passes/ with its pipelines. Several views are drawn in one pass by multiview, a
 // layer each; on software rasterisers one after the other, each into images of its own. lavapipe (Mesa 22.3)
