@@ -2,7 +2,7 @@
 //
 // 0: as it is … 1: gone.
 float faded(vec3 at) {
-    const vec3 eye = frame.views[gl_ViewIndex].eye.xyz;
+    const vec3 eye = frame.views[view_index].eye.xyz;
     const vec3 way = frame.cut.xyz - eye, p = at - eye;
     const float distance2 = dot(way, way);
     const float t = dot(p, way) / distance2;

@@ -1,18 +1,22 @@
 // Light from all around: specular levels in a cube map, diffuse in spherical harmonics.
+#include "shaders/lit_frame.glsl"
+
+LitFrame here;  // set first of all by main
+
 vec3 turned(vec3 d) {
-    const float c = cos(frame.environment.y), s = sin(frame.environment.y);
+    const float c = cos(here.environment.y), s = sin(here.environment.y);
     return vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
 }
 
 vec3 diffuse_light(vec3 normal) {
     const vec3 n = turned(normal);
-    const vec3 sum = frame.diffuse[0].rgb + frame.diffuse[1].rgb * n.y + frame.diffuse[2].rgb * n.z +
-                     frame.diffuse[3].rgb * n.x + frame.diffuse[4].rgb * (n.x * n.y) + frame.diffuse[5].rgb * (n.y * n.z) +
-                     frame.diffuse[6].rgb * (3.0 * n.z * n.z - 1.0) + frame.diffuse[7].rgb * (n.x * n.z) +
-                     frame.diffuse[8].rgb * (n.x * n.x - n.y * n.y);
-    return max(sum, vec3(0.0)) * frame.environment.x;
+    const vec3 sum = here.diffuse[0] + here.diffuse[1] * n.y + here.diffuse[2] * n.z +
+                     here.diffuse[3] * n.x + here.diffuse[4] * (n.x * n.y) + here.diffuse[5] * (n.y * n.z) +
+                     here.diffuse[6] * (3.0 * n.z * n.z - 1.0) + here.diffuse[7] * (n.x * n.z) +
+                     here.diffuse[8] * (n.x * n.x - n.y * n.y);
+    return max(sum, vec3(0.0)) * here.environment.x;
 }
 
 vec3 specular_light(samplerCube levels, vec3 direction, float roughness) {
-    return textureLod(levels, turned(direction), roughness * frame.environment.z).rgb * frame.environment.x;
+    return textureLod(levels, turned(direction), roughness * here.environment.z).rgb * here.environment.x;
 }

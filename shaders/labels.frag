@@ -4,6 +4,9 @@
 // How much of a pixel a glyph covers, from its distance field: four taps, each for its quarter of the pixel, with ramps as
 // wide as a quarter is seen under the angle at which the edge passes.
 
+#include "shaders/shared.h"
+#include "shaders/features.glsl"
+
 layout(location = 0) in vec2 em;
 layout(location = 1) in vec2 uv;
 layout(location = 2) flat in vec4 color;
@@ -41,7 +44,7 @@ void main() {
 
     float hidden = 0.0;
     for (int i = 0; i < 4; ++i)
-        hidden += texelFetch(depths, ivec3(gl_FragCoord.xy, gl_ViewIndex), i).r > depth ? 0.25 : 0.0;
+        hidden += texelFetch(depths, ivec3(gl_FragCoord.xy, view_index), i).r > depth ? 0.25 : 0.0;
     const float alpha = color.a * covered * mix(1.0, kind.y, hidden);
     color_out = vec4(color.rgb * alpha, alpha);
 }

@@ -3,6 +3,7 @@
 #extension GL_EXT_multiview : require
 // Text in the scene: six corners a glyph, from buffers alone.
 #include "shaders/shared.h"
+#include "shaders/features.glsl"
 #include "shaders/labels.h"
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { Frame frame; };
@@ -27,7 +28,7 @@ void main() {
     kind = vec4(quad.grow, label.up.w, float(quad.plate), 0.0);
     middle = 0.5 * (quad.rect.xy + quad.rect.zw);
 
-    const View view = frame.views[gl_ViewIndex];
+    const View view = frame.views[view_index];
     const vec2 pixel = 2.0 * frame.picture.zw;  // in clip space, before the division
     vec2 moved = label.pixels.xy;
     vec3 at = label.position.xyz;

@@ -2,17 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 // The picture from the surfaces that were drawn: samples of a pixel that show the same surface are lit once, together; where
-// an edge passes through, each side is lit for itself. Only where something was drawn: the depth test leaves out the rest, and
-// the samples of a pixel that show nothing.
+// an edge passes through, each side is lit for itself. One sample a pixel leaves it: the mean of the four.
 #include "shaders/frame.glsl"
-#include "shaders/features.glsl"
 #include "shaders/lighting.glsl"
 #include "shaders/surface.glsl"
+#include "shaders/sky.glsl"
 
 layout(set = 0, binding = 7) uniform sampler2DMSArray depths;
 layout(set = 0, binding = 8) uniform sampler2DMSArray surfaces;
 layout(set = 0, binding = 9) uniform sampler2DMSArray wide_colors;
 layout(set = 0, binding = 10) uniform sampler2DMSArray wide_roughs;
+layout(location = 0) flat in vec4 lit_inputs[LIT_INPUTS];
 layout(location = 0) out vec4 color_out;
 
 // Vulkan's standard sample locations, from the pixel's corner.
@@ -20,13 +20,14 @@ const vec2 places[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125
 const float alike = 0.03;  // between packed normals of one surface: 4 to 8 degrees
 
 vec3 world_at(vec2 pixel, float depth) {
-    const vec2 ndc = pixel * frame.picture.zw * 2.0 - 1.0;
-    const vec4 p = frame.views[gl_ViewIndex].world_from_clip * vec4(ndc, depth, 1.0);
+    const vec2 ndc = pixel * here.texel * 2.0 - 1.0;
+    const vec4 p = here.world_from_clip * vec4(ndc, depth, 1.0);
     return p.xyz / p.w;
 }
 
 void main() {
-    const ivec3 pixel = ivec3(gl_FragCoord.xy, gl_ViewIndex);
+    here = unpack(lit_inputs);
+    const ivec3 pixel = ivec3(gl_FragCoord.xy, view_index);
     const vec2 corner = vec2(pixel.xy);
     float depth[4];
     vec4 packed[4];
@@ -36,9 +37,17 @@ void main() {
         packed[i] = texelFetch(surfaces, pixel, i);
         left |= depth[i] > 0.0 ? 1u << i : 0u;
     }
-    const float covered = float(bitCount(left));
+    const float bare = 4.0 - float(bitCount(left));  // samples that show what lies behind
     vec3 sum = vec3(0.0);
-    while (left != 0u) {
+    if (bare > 0.0) sum = bare * behind_all(gl_FragCoord.xy);
+    // Tested at its end: lavapipe runs a loop until no pixel of eight wants it, so a test at the top alone costs one round more.
+    // And each way out of it says what comes of it: what only the body has computed, lavapipe takes from the last round of all
+    // eight.
+    for (;;) {
+        if (left == 0u) {
+            color_out = vec4(0.25 * sum, 1.0);
+            break;
+        }
         int first = 3;
         vec4 one = packed[3];
         float d0 = depth[3];
@@ -69,7 +78,7 @@ void main() {
         const Material m = materials[id & (SURFACE_WIDE - 1u)];
         Surface s;
         s.position = world_at(corner + place / share, d / share);
-        s.out_dir = normalize(frame.views[gl_ViewIndex].eye.xyz - s.position);
+        s.out_dir = normalize(here.eye - s.position);
         const vec3 n = unpack_normal(facing_packed / share);
         s.coat_normal = n;
         // A normal that looks away from the eye is bent back to the rim: what is seen faces the eye.
@@ -91,7 +100,10 @@ void main() {
         }
         finish_surface(s, m);
         if (one.w == SURFACE_NO_GRAIN) s.alpha.x = s.alpha.y;
-        sum += share * shade(s, gl_FragCoord.xy * frame.picture.zw);
+        sum += share * shade(s, gl_FragCoord.xy * here.texel);
+        if (left == 0u) {
+            color_out = vec4(0.25 * sum, 1.0);
+            break;
+        }
     }
-    color_out = vec4(sum / covered, 1.0);
 }

@@ -13,11 +13,11 @@ layout(set = 0, binding = 6) uniform sampler2DArray ambient_occlusion;
 // by a little more than a texel, and by how far its level of detail may be from the map's, so that it does not shade itself.
 float lit(vec3 at, vec3 normal) {
     const vec2 texel = 1.0 / vec2(textureSize(shadow_map, 0));
-    const mat4 m = frame.shadow_from_world;
-    const float width = 2.0 * texel.x / length(vec3(m[0].x, m[1].x, m[2].x));
-    const float off = frame.occlusion.y * (frame.views[gl_ViewIndex].clip_from_world * vec4(at, 1.0)).w;
-    const vec4 place = m * vec4(at + (1.5 * width + off) * normal, 1.0);
-    const vec3 p = vec3(place.xy * 0.5 + 0.5, place.z);
+    const float width = 2.0 * texel.x / length(here.shadow[0].xyz);
+    const float off = here.level_off * dot(here.w_row, vec4(at, 1.0));
+    const vec4 from = vec4(at + (1.5 * width + off) * normal, 1.0);
+    const vec2 place = vec2(dot(here.shadow[0], from), dot(here.shadow[1], from));
+    const vec3 p = vec3(place * 0.5 + 0.5, dot(here.shadow[2], from));
     const vec2 step = 0.75 * texel;
     const float sum = textureLod(shadow_map, vec3(p.xy + vec2(-step.x, -step.y), p.z), 0.0) +
                       textureLod(shadow_map, vec3(p.xy + vec2(step.x, -step.y), p.z), 0.0) +
@@ -65,10 +65,18 @@ void finish_surface(inout Surface s, Material m) {
     s.coat_alpha = max(m.coat_roughness * m.coat_roughness, 1e-3);
 }
 
+const uint light_count = (features >> SCENE_LIGHTS_SHIFT) & 15u;
+
+vec3 from_light(Light lamp, Surface s, Seen seen, float shadow) {
+    vec3 l;
+    const vec3 light = arriving(lamp, s.position, l);
+    return shadow * light * reflect_light(s, seen, l);
+}
+
 vec3 shade(Surface s, vec2 screen) {
     const Seen seen = see(s, albedo_table);
     float ao = s.occlusion;
-    if (has(SCENE_OCCLUSION)) ao = min(ao, textureLod(ambient_occlusion, vec3(screen, gl_ViewIndex), 0.0).r);
+    if (has(SCENE_OCCLUSION)) ao = min(ao, textureLod(ambient_occlusion, vec3(screen, view_index), 0.0).r);
     const bool occluded = has(SCENE_OCCLUSION) || has(SCENE_OCCLUSION_MAP);
     vec3 diffuse = seen.diffuse * diffuse_light(s.normal);
     vec3 specular = seen.specular * specular_light(specular_levels, reflect(-s.out_dir, s.normal), s.roughness);
@@ -83,12 +91,14 @@ vec3 shade(Surface s, vec2 screen) {
         if (occluded) coat *= mirrored_share(clamp(dot(s.coat_normal, s.out_dir), 0.0, 1.0), ao, s.coat_roughness);
         color += coat;
     }
-    const uint light_count = (features >> SCENE_LIGHTS_SHIFT) & 15u;
-    for (uint i = 0u; i < light_count; ++i) {
-        vec3 l;
-        vec3 light = arriving(frame.lights[i], s.position, l);
-        if (has(SCENE_SHADOW) && i == 0u) light *= lit(s.position, s.coat_normal);
-        color += light * reflect_light(s, seen, l);
-    }
-    return pbr_neutral(color * frame.environment.w);
+    if (light_count > 0u) color += from_light(here.light_0, s, seen, has(SCENE_SHADOW) ? lit(s.position, s.coat_normal) : 1.0);
+    if (light_count > 1u) color += from_light(here.light_1, s, seen, 1.0);
+    // No loop: lavapipe does not unroll it, and everything in it would be done for every light.
+    if (light_count > 2u) color += from_light(frame.lights[2], s, seen, 1.0);
+    if (light_count > 3u) color += from_light(frame.lights[3], s, seen, 1.0);
+    if (light_count > 4u) color += from_light(frame.lights[4], s, seen, 1.0);
+    if (light_count > 5u) color += from_light(frame.lights[5], s, seen, 1.0);
+    if (light_count > 6u) color += from_light(frame.lights[6], s, seen, 1.0);
+    if (light_count > 7u) color += from_light(frame.lights[7], s, seen, 1.0);
+    return pbr_neutral(color * here.environment.w);
 }

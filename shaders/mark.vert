@@ -9,6 +9,6 @@ layout(location = 0) flat out vec4 outline;
 
 void main() {
     outline = instances[gl_InstanceIndex].outline;
-    gl_Position = frame.views[gl_ViewIndex].clip_from_world *
+    gl_Position = frame.views[view_index].clip_from_world *
                   (instances[gl_InstanceIndex].world_from_object * vec4(position, 1.0));
 }

@@ -16,7 +16,7 @@ const float pi = 3.14159265358979;
 const int steps = 4;
 
 vec3 world_at(vec2 uv, float depth) {
-    const vec4 p = frame.views[gl_ViewIndex].world_from_clip * vec4(uv * 2.0 - 1.0, depth, 1.0);
+    const vec4 p = frame.views[view_index].world_from_clip * vec4(uv * 2.0 - 1.0, depth, 1.0);
     return p.xyz / p.w;
 }
 
@@ -25,7 +25,7 @@ vec3 world_at(vec2 uv, float depth) {
 vec3 seen_at(vec2 uv) {
     const ivec2 size = textureSize(depth_map, 0).xy;
     const ivec2 texel = clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1);
-    return world_at(place_of(texel), max(texelFetch(depth_map, ivec3(texel, gl_ViewIndex), 0).r, 1e-7));
+    return world_at(place_of(texel), max(texelFetch(depth_map, ivec3(texel, view_index), 0).r, 1e-7));
 }
 
 // The cosine of the highest horizon on one side.
@@ -44,10 +44,10 @@ float horizon(vec2 uv, vec2 way, vec3 p, vec3 v, float jitter) {
 void main() {
     const vec2 texel = 1.0 / vec2(textureSize(depth_map, 0).xy);
     const vec2 uv = gl_FragCoord.xy * texel;
-    const ivec3 at = ivec3(gl_FragCoord.xy, gl_ViewIndex);
+    const ivec3 at = ivec3(gl_FragCoord.xy, view_index);
     const float depth = texelFetch(depth_map, at, 0).r;
     const vec3 p = world_at(place_of(at.xy), max(depth, 1e-7));
-    const vec3 eye = frame.views[gl_ViewIndex].eye.xyz - p;
+    const vec3 eye = frame.views[view_index].eye.xyz - p;
     const vec3 v = normalize(eye);
     vec3 n = unpack_normal(texelFetch(surfaces, full_texel(at), small_sample).xy);
     n = dot(n, v) < 0.0 ? normalize(n - dot(n, v) * v) : n;

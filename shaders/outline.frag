@@ -10,7 +10,7 @@ layout(location = 0) out vec4 color_out;
 const int directions = 12;
 
 void main() {
-    const vec3 here = vec3(gl_FragCoord.xy * frame.picture.zw, gl_ViewIndex);
+    const vec3 here = vec3(gl_FragCoord.xy * frame.picture.zw, view_index);
     vec4 strongest = vec4(0.0);
     for (int ring = 1; ring <= 2; ++ring)
         for (int i = 0; i < directions; ++i) {

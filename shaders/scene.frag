@@ -3,7 +3,6 @@
 #extension GL_EXT_multiview : require
 // A part drawn and lit at once: what blends, and what the geometry buffer has no room for.
 #include "shaders/frame.glsl"
-#include "shaders/features.glsl"
 #include "shaders/lighting.glsl"
 #include "shaders/material.glsl"
 #include "shaders/cut.glsl"
@@ -35,13 +34,14 @@ void set_mapped_layers(inout Surface s, Material m) {
 }
 
 void main() {
+    here = of_block();
     const Material m = materials[material_index];
     const vec4 base = base_color(m);
     if (has(SCENE_MASK) && base.a < m.emissive.w) discard;
 
     Surface s;
     s.position = at;
-    s.out_dir = normalize(frame.views[gl_ViewIndex].eye.xyz - at);
+    s.out_dir = normalize(here.eye - at);
     s.coat_normal = plain_normal();
     vec3 n = mapped_normal(m, s.coat_normal);
     // A normal that looks away from the eye is bent back to the rim: what is seen faces the eye.
@@ -59,7 +59,7 @@ void main() {
     finish_surface(s, m);
     set_mapped_layers(s, m);
 
-    vec3 color = shade(s, gl_FragCoord.xy * frame.picture.zw);
+    vec3 color = shade(s, gl_FragCoord.xy * here.texel);
     float opacity = has(SCENE_BLEND) ? base.a : 1.0;
     if (has(SCENE_MARKED)) {
         if (mark.y > 0.5) color = base.rgb;

@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 #include "shaders/frame.glsl"
-#include "shaders/features.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normal;
@@ -42,5 +41,5 @@ void main() {
         mark.x = instances[gl_InstanceIndex].opacity;
         mark.y = (instances[gl_InstanceIndex].flags & INSTANCE_FLAT) != 0u ? 1.0 : 0.0;
     }
-    gl_Position = frame.views[gl_ViewIndex].clip_from_world * world;
+    gl_Position = frame.views[view_index].clip_from_world * world;
 }

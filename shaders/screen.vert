@@ -1,7 +1,6 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
+// The whole picture.
+#include "shaders/corners.glsl"
 
-// A rectangle that ends at the picture's edges, not a triangle that reaches beyond: of several views, lavapipe (Mesa 22.3) draws
-// what it must clip into the layer of the view before (tests/render/multiview.cpp).
-const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(-1, 1), vec2(1, -1), vec2(1, 1));
-
-void main() { gl_Position = vec4(corners[gl_VertexIndex], 0.0, 1.0); }
+void main() { gl_Position = corner(gl_VertexIndex); }

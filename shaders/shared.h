@@ -123,6 +123,8 @@ struct DeformPart {
 #define SCENE_ANISOTROPY_MAP (1u << 23)
 #define SCENE_SPECULAR_MAPS (1u << 24)    // of the dielectric's strength or colour
 #define SCENE_SECOND_UV (1u << 25)        // a map has texture coordinates of its own
+#define SCENE_VIEWS (1u << 26)            // several views are drawn at once
+#define SCENE_PLAIN (1u << 27)            // one colour lies behind everything, not the environment
 // Of maps that the geometry buffer has no room for.
 #define SCENE_FORWARD_MAPS (SCENE_COAT_MAPS | SCENE_COAT_NORMAL_MAP | SCENE_ANISOTROPY_MAP | SCENE_SPECULAR_MAPS)
 

@@ -8,5 +8,5 @@
 layout(set = 0, binding = 3) uniform sampler2DMSArray depths;
 
 void main() {
-    gl_FragDepth = texelFetch(depths, full_texel(ivec3(gl_FragCoord.xy, gl_ViewIndex)), small_sample).r;
+    gl_FragDepth = texelFetch(depths, full_texel(ivec3(gl_FragCoord.xy, view_index)), small_sample).r;
 }

@@ -14,17 +14,17 @@ layout(location = 0) out float free_out;
 
 void main() {
     const ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(depth_map, 0).xy - 1;
-    const float here = texelFetch(depth_map, ivec3(at, gl_ViewIndex), 0).r;
-    const vec3 n = unpack_normal(texelFetch(surfaces, full_texel(ivec3(at, gl_ViewIndex)), small_sample).xy);
+    const float here = texelFetch(depth_map, ivec3(at, view_index), 0).r;
+    const vec3 n = unpack_normal(texelFetch(surfaces, full_texel(ivec3(at, view_index)), small_sample).xy);
     // Planes go to clip space by the transposed inverse.
-    const mat4 world_from_clip = frame.views[gl_ViewIndex].world_from_clip;
+    const mat4 world_from_clip = frame.views[view_index].world_from_clip;
     const vec4 p = world_from_clip * vec4(place_of(at) * 2.0 - 1.0, here, 1.0);
     const vec4 plane = vec4(n, -dot(n, p.xyz / p.w)) * world_from_clip;
     const vec2 slope = abs(plane.z) > 1e-9 ? -plane.xy / plane.z * (4.0 * frame.picture.zw) : vec2(0.0);
     float sum = 0.0, weights = 0.0;
     for (int y = -2; y < 2; ++y) {
         for (int x = -2; x < 2; ++x) {
-            const ivec3 there = ivec3(clamp(at + ivec2(x, y), ivec2(0), last), gl_ViewIndex);
+            const ivec3 there = ivec3(clamp(at + ivec2(x, y), ivec2(0), last), view_index);
             // Reversed depth is proportional to one over the distance: what counts is its share.
             const float off = texelFetch(depth_map, there, 0).r - here - dot(slope, vec2(there.xy - at));
             const float weight = abs(off) < 0.02 * here ? 1.0 : 0.001;

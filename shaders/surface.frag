@@ -3,7 +3,6 @@
 #extension GL_EXT_multiview : require
 // What is seen, without light: normal, material and grain; and what maps and colours say, where a part has them.
 #include "shaders/frame.glsl"
-#include "shaders/features.glsl"
 #include "shaders/material.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/cut.glsl"

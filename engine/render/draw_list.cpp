@@ -113,6 +113,8 @@ shared::Instance instance_of(const Object& object) {
 
 }  // namespace
 
+Box end_of(const CutAway& cut) { return {cut.focus - cut.radius, cut.focus + cut.radius}; }
+
 std::uint32_t features_of(const Scene& scene) {
     std::uint32_t features =
         static_cast<std::uint32_t>(std::min<std::size_t>(scene.lights.size(), MAX_LIGHTS))
@@ -163,11 +165,13 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
                     item.kind.features |= SCENE_CUT_REST;
                 }
                 item.kind.blends = item.kind.forward = true;
+                if (!kind.forward) list.forward.push_back(end_of(scene.cut_away));
                 item.kind.ghost = false;  // what is gone hides nothing
                 item.kind.features &= ~SCENE_WIDE;
                 item.outlined = item.outlined && kind.forward;
             }
             items.push_back(item);
+            if (kind.forward) list.forward.push_back(box);
         }
     }
     std::stable_sort(items.begin(), items.end(), before);
@@ -185,10 +189,7 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
                                   models.at(item.object->model).second + part.material, item.outlined,
                                   static_cast<std::uint32_t>(list.instances.size()), 0, vertices});
         ++list.draws.back().instances;
-        if (item.kind.forward)
-            list.forward = true;
-        else
-            list.features |= item.kind.features;
+        if (!item.kind.forward) list.features |= item.kind.features;
         list.instances.push_back(instance_of(*item.object));
         list.triangles += part.levels[item.level].index_count / 3;
     }

@@ -42,7 +42,7 @@ struct DrawList {
     std::vector<shared::Material> materials;  // of all models
     std::vector<Draw> draws;                  // opaque by state, then what blends, far to near
     std::uint32_t features = 0;               // SCENE_… bits that any part of the geometry buffer needs
-    bool forward = false;                     // something is lit as it is drawn
+    std::vector<Box> forward;                 // world: where something is lit as it is drawn
     std::vector<Box> outlined;                // world
     std::uint64_t triangles = 0;
 };
@@ -53,6 +53,9 @@ struct Detail {
     float allowed_px = 0.0F;  // as the nearest eye sees it
     float allowed_m = 0.0F;   // without eyes
 };
+
+// What fades does so in the cone around what is to be seen; of the cone the eye sees no more than its end.
+Box end_of(const CutAway& cut);
 
 // SCENE_… bits of the scene's light, the same for every part.
 std::uint32_t features_of(const Scene& scene);

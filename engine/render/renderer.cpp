@@ -59,9 +59,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device, const Re
 Status Renderer::prepare() {
     if (Status s = take(cache_, gpu::PipelineCache::open(*device_, options_.pipeline_cache)); !s) return s;
     for (const char* name :
-         {"scene.vert", "surface.frag", "light.frag", "scene.frag", "sky.frag", "mark.vert", "mark.frag",
-          "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag", "smooth.frag",
-          "labels.vert", "labels.frag", "overlay.vert", "overlay.frag", "deform.comp"}) {
+         {"scene.vert", "light.vert", "surface.frag", "light.frag", "scene.frag", "over.frag", "mark.vert",
+          "mark.frag", "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag",
+          "smooth.frag", "labels.vert", "labels.frag", "overlay.vert", "overlay.frag", "deform.comp"}) {
         Result<gpu::Shader> shader = take_shader(name, options_.shaders);
         if (!shader) return fail(shader.error());
         shaders_.insert_or_assign(name, std::move(*shader));
@@ -78,6 +78,7 @@ Status Renderer::prepare() {
 Status Renderer::make_passes() {
     const PassMaker maker{*device_, cache_, shaders_};
     occlusion_.clear();
+    forward_.clear();
     outline_.clear();
     if (Status s = take(deform_, DeformPass::create(maker)); !s) return s;
     if (Status s = take(shadow_, ShadowPass::create(maker, options_.shadow_size)); !s) return s;
@@ -153,6 +154,11 @@ Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const E
             inputs.occlusion = targets.occlusion.view();
         }
         if (Status s = light_.draw(context, targets, list, inputs); !s) return s;
+        if (!list.forward.empty()) {
+            Result<ForwardPass*> forward = of_views(forward_, maker, group.views_a_pass);
+            if (!forward) return fail(forward.error());
+            if (Status s = (*forward)->draw(context, targets, list, light_, inputs); !s) return s;
+        }
         if (!list.outlined.empty()) {
             Result<OutlinePass*> outlining = of_views(outline_, maker, group.views_a_pass);
             if (!outlining) return fail(outlining.error());

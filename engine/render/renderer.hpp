@@ -4,8 +4,8 @@
 //   shadow     depth of what light 0 sees; what stands still is kept
 //   surfaces   depth, normal and material of what is seen, 4 samples a pixel
 //   occlusion  how much light neighbours keep away, at half the size, if the scene asks for it
-//   light      every surface lit and tone-mapped, once for all samples of a pixel that show it; then what
-//   blends
+//   light      every surface lit and tone-mapped, once for all samples of a pixel that show it
+//   forward    what is lit as it is drawn: what blends, and what the geometry buffer has no room for
 //   outline    lines around what the scene marks
 //   labels     text in the scene
 //
@@ -23,6 +23,7 @@
 
 #include "engine/render/hot_shaders.hpp"
 #include "engine/render/passes/deform.hpp"
+#include "engine/render/passes/forward.hpp"
 #include "engine/render/passes/labels.hpp"
 #include "engine/render/passes/light.hpp"
 #include "engine/render/passes/occlusion.hpp"
@@ -93,6 +94,7 @@ class Renderer {
     Shaders shaders_;
     DeformPass deform_;
     ShadowPass shadow_;
+    std::map<std::uint32_t, ForwardPass> forward_;      // by views
     std::map<std::uint32_t, OcclusionPass> occlusion_;  // by views
     std::map<std::uint32_t, OutlinePass> outline_;      // by views
     SurfacePass surfaces_;

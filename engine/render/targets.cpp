@@ -33,8 +33,6 @@ Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32
     if (Status s = add(device, t, t.depth, depth_format, depth_and_read, samples); !s) return fail(s.error());
     if (Status s = add(device, t, t.surfaces, surface_format, drawn_and_read, samples); !s)
         return fail(s.error());
-    if (Status s = add(device, t, t.drawn, color_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples); !s)
-        return fail(s.error());
     const VkImageUsageFlags seen = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if (Status s = add(device, t, t.picture, color_format, seen, VK_SAMPLE_COUNT_1_BIT); !s)
         return fail(s.error());
@@ -44,6 +42,12 @@ Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32
 Status add_wide_targets(gpu::Device& device, Targets& t) {
     if (Status s = add(device, t, t.wide_colors, wide_color_format, drawn_and_read, samples); !s) return s;
     return add(device, t, t.wide_roughs, wide_rough_format, drawn_and_read, samples);
+}
+
+Status add_forward_targets(gpu::Device& device, Targets& t) {
+    if (Status s = add(device, t, t.drawn, layer_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples); !s)
+        return s;
+    return add(device, t, t.over, layer_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
 }
 
 Status add_mark_target(gpu::Device& device, Targets& t) {

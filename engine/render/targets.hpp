@@ -10,7 +10,8 @@ struct Targets {
     gpu::Image depth;
     gpu::Image surfaces;                  // normal, material, grain (shaders/surface.glsl)
     gpu::Image wide_colors, wide_roughs;  // base colour and metallic; roughness and occlusion
-    gpu::Image drawn;                     // lit
+    gpu::Image drawn;                     // lit as it is drawn; made when a scene asks for it
+    gpu::Image over;                      // the same, one sample
     gpu::Image picture;                   // one sample
     gpu::Image kept_depth;                // of the first sample; made when it is to be read back
     gpu::Image marks;                     // of what has an outline; made when a scene asks for it
@@ -21,6 +22,7 @@ struct Targets {
 
 Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers);
 Status add_wide_targets(gpu::Device& device, Targets& targets);
+Status add_forward_targets(gpu::Device& device, Targets& targets);
 Status add_mark_target(gpu::Device& device, Targets& targets);
 Status add_occlusion_targets(gpu::Device& device, Targets& targets);
 Status add_kept_depth(gpu::Device& device, Targets& targets);
@@ -48,9 +50,10 @@ struct ViewGroup {
 // Visits every image of them.
 template <class Visit>
 void each_image(Targets& targets, const Visit& visit) {
-    for (gpu::Image* image : {&targets.depth, &targets.surfaces, &targets.wide_colors, &targets.wide_roughs,
-                              &targets.drawn, &targets.picture, &targets.kept_depth, &targets.marks,
-                              &targets.small_depth, &targets.raw_occlusion, &targets.occlusion})
+    for (gpu::Image* image :
+         {&targets.depth, &targets.surfaces, &targets.wide_colors, &targets.wide_roughs, &targets.drawn,
+          &targets.over, &targets.picture, &targets.kept_depth, &targets.marks, &targets.small_depth,
+          &targets.raw_occlusion, &targets.occlusion})
         visit(*image);
 }
 

@@ -79,14 +79,14 @@ TEST_CASE("a change is compiled, in what is included too; a mistake is told and 
     const ShaderCode first = hot.changed(now).value().value();
     const std::string good = copy.read("tone.glsl");
 
-    copy.replace("sky.frag", "void main() {", "void main() { broken;");
+    copy.replace("over.frag", "void main() {", "void main() { broken;");
     const auto broken = later(hot, now);
     REQUIRE(broken.has_value());
     REQUIRE_FALSE(broken->has_value());
-    CHECK(broken->error().what.find("sky.frag") != std::string::npos);
+    CHECK(broken->error().what.find("over.frag") != std::string::npos);
     CHECK(broken->error().what.find("'broken' : undeclared identifier") != std::string::npos);
     CHECK_FALSE(later(hot, now).has_value());  // told once
-    copy.replace("sky.frag", "broken;", "");
+    copy.replace("over.frag", "broken;", "");
     const auto mended = later(hot, now);
     REQUIRE(mended.has_value());
     REQUIRE(mended->has_value());

@@ -119,11 +119,11 @@ TEST_CASE("culling never loses what is in sight, and instances are gathered") {
     const DrawList list = make_draw_list(still.scene, {&eye, 1}, {});
     REQUIRE(list.draws.size() == 2);  // the tinted one needs a pipeline of its own
     CHECK(list.draws[0].instances + list.draws[1].instances == 3);
-    CHECK_FALSE(list.forward);
+    CHECK(list.forward.empty());
     still.scene.objects[0].opacity = 0.5F;
     const DrawList ghost = make_draw_list(still.scene, {&eye, 1}, {});
     REQUIRE(ghost.draws.size() == 3);
-    CHECK(ghost.forward);
+    CHECK(!ghost.forward.empty());
     CHECK_FALSE(ghost.draws[1].kind.blends);
     CHECK(ghost.draws[2].kind.blends);
 }

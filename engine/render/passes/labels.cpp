@@ -105,7 +105,7 @@ Result<const gpu::Pipeline*> LabelPass::pipeline(gpu::Device& device, std::uint3
     info.vertex = &shaders_->at("labels.vert");
     info.fragment = &shaders_->at("labels.frag");
     info.colors = {color_format};
-    info.view_mask = view_mask(views);
+    draw_views(info, views);
     info.cull = VK_CULL_MODE_NONE;
     info.depth_test = info.depth_write = false;
     info.blend = true;

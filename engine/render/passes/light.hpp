@@ -1,5 +1,5 @@
-// Light: the picture from the geometry buffer, what lies behind it, then what is lit as it is drawn (what
-// blends, and what the buffer has no room for); four samples a pixel, resolved.
+// Light: the picture from the geometry buffer, and what lies behind it. It reads four samples a pixel and
+// writes one.
 #pragma once
 
 #include "engine/render/passes/parts.hpp"
@@ -21,26 +21,20 @@ class LightPass {
     // Leaves `targets.picture` a colour target.
     Status draw(PassContext& context, Targets& targets, const DrawList& list, const LightInputs& inputs);
 
+    // Bindings 0 and 2 to 6 of what includes lighting.glsl.
+    void bind_inputs(PassContext& context, gpu::SetWriter& writer, const LightInputs& inputs) const;
+
   private:
     Result<const gpu::Pipeline*> light_pipeline(gpu::Device& device, std::uint32_t features,
                                                 std::uint32_t views);
-    Result<const gpu::Pipeline*> sky_pipeline(gpu::Device& device, std::uint32_t views);
-    Result<const gpu::Pipeline*> forward_pipeline(gpu::Device& device, const Kind& kind, std::uint32_t views);
-    Result<const gpu::Pipeline*> ghost_pipeline(gpu::Device& device, const Kind& kind, std::uint32_t views);
     Result<VkDescriptorSet> light_set(PassContext& context, const Targets& targets,
                                       const gpu::Pipeline& pipeline, const LightInputs& inputs, bool wide);
-    void bind_inputs(PassContext& context, gpu::SetWriter& writer, const LightInputs& inputs);
     Status draw_surfaces(PassContext& context, const Targets& targets, const DrawList& list,
                          const LightInputs& inputs);
-    Status draw_sky(PassContext& context);
-    Status draw_forward(PassContext& context, const DrawList& list, const LightInputs& inputs);
 
     const gpu::PipelineCache* cache_ = nullptr;
     const Shaders* shaders_ = nullptr;
     std::map<std::pair<std::uint32_t, std::uint32_t>, gpu::Pipeline> lights_;  // by features and views
-    std::map<std::uint32_t, gpu::Pipeline> skies_;                             // by views
-    std::map<std::pair<Kind, std::uint32_t>, gpu::Pipeline> forwards_;         // by kind and views
-    std::map<std::pair<Kind, std::uint32_t>, gpu::Pipeline> ghosts_;
     gpu::Image albedo_table_;
     gpu::Image nothing_;  // bound where there is no wide buffer
     gpu::Sampler clamped_, nearest_, comparing_;

@@ -19,7 +19,7 @@ Result<VkDescriptorSet> make_set(PassContext& context, const gpu::Pipeline& pipe
 Result<OcclusionPass> OcclusionPass::create(const PassMaker& maker, std::uint32_t views) {
     OcclusionPass pass;
     gpu::GraphicsInfo info;
-    info.view_mask = view_mask(views);
+    draw_views(info, views);
     info.vertex = &maker.shaders.at("screen.vert");
     info.cull = VK_CULL_MODE_NONE;
     info.depth = depth_format;

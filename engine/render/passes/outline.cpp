@@ -7,7 +7,7 @@ using gpu::Use;
 Result<OutlinePass> OutlinePass::create(const PassMaker& maker, std::uint32_t views) {
     OutlinePass pass;
     gpu::GraphicsInfo info;
-    info.view_mask = view_mask(views);
+    draw_views(info, views);
     info.depth_test = info.depth_write = false;
     info.cull = VK_CULL_MODE_NONE;
     info.colors = {mark_format};

@@ -36,9 +36,9 @@ gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const Kind& kind, std::u
     }
     info.depth = depth_format;
     info.samples = samples;
-    info.view_mask = view_mask(views);
+    draw_views(info, views);
     info.cull = kind.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
-    info.constants = kind.features;
+    info.constants |= kind.features;
     return info;
 }
 

@@ -6,6 +6,11 @@ namespace bolt::render {
 
 std::uint32_t view_mask(std::uint32_t views) { return views > 1 ? (1U << views) - 1U : 0U; }
 
+void draw_views(gpu::GraphicsInfo& info, std::uint32_t views) {
+    info.view_mask = view_mask(views);
+    if (views > 1) info.constants |= SCENE_VIEWS;
+}
+
 void set_area(VkCommandBuffer commands, VkExtent2D extent) {
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
                               0.0F, 1.0F};

@@ -11,6 +11,8 @@ namespace bolt::render {
 
 // Pictures are 8-bit sRGB, one layer a view.
 inline constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
+// Of layers that are laid over a picture: eight bits of a colour times its opacity would show.
+inline constexpr VkFormat layer_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat surface_format = VK_FORMAT_R16G16B16A16_UNORM;
 inline constexpr VkFormat wide_color_format = VK_FORMAT_R8G8B8A8_SRGB;
@@ -62,8 +64,10 @@ Status take(T& to, Result<T> made) {
     return {};
 }
 
-// For VkRenderingInfo and pipelines: 0 without multiview.
+// For VkRenderingInfo: 0 without multiview.
 std::uint32_t view_mask(std::uint32_t views);
+// A pipeline that draws that many at once.
+void draw_views(gpu::GraphicsInfo& info, std::uint32_t views);
 
 // Viewport and scissor: all of it.
 void set_area(VkCommandBuffer commands, VkExtent2D extent);
