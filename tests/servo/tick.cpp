@@ -2,28 +2,15 @@
 
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
+#include <unistd.h>
+#include <chrono>
+#include <mutex>
 
 #include "tests/servo/support.hpp"
+#include "tests/support/forbidden.hpp"
 
 using namespace bolt;
 using namespace bolt::servo;
-
-namespace {
-std::atomic<bool> watching{false};
-std::atomic<int> allocations{0};
-}  // namespace
-
-// Every allocation of this program is counted while somebody watches.
-void* operator new(std::size_t size) {
-    if (watching) ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -41,17 +28,43 @@ Input scripted(const Setup& setup, const State& state, int i) {
 
 }  // namespace
 
-TEST_CASE("the tick allocates nothing, and the watch would see it if it did") {
+TEST_CASE("the tick allocates nothing, takes no lock, talks to nobody and looks at no clock") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
-    watching = true;
-    allocations = 0;
-    for (int i = 0; i < 5000; ++i) tick(setup, state, scripted(setup, state, i));
-    const int in_tick = allocations;
-    std::vector<int> seen(100);
-    watching = false;
-    CHECK(in_tick == 0);
-    CHECK(allocations > 0);
+    const test::Forbidden in_ticks = test::forbidden_in([&] {
+        for (int i = 0; i < 5000; ++i) tick(setup, state, scripted(setup, state, i));
+    });
+    CHECK(in_ticks.allocations == 0);
+    CHECK(in_ticks.locks == 0);
+    CHECK(in_ticks.io == 0);
+    CHECK(in_ticks.clocks == 0);
+}
+
+TEST_CASE("each of these would have been seen") {
+    CHECK(test::forbidden_in([] { std::vector<int> seen(100); }).allocations >= 2);
+    if (test::sees_the_c_library) {
+        void* volatile memory = nullptr;
+        CHECK(test::forbidden_in([&] { memory = std::malloc(10); }).allocations == 1);
+        std::free(memory);
+        std::mutex mutex;
+        CHECK(test::forbidden_in([&] { const std::lock_guard lock(mutex); }).locks == 1);
+        CHECK(test::forbidden_in([] { CHECK(write(-1, nullptr, 0) == -1); }).io >= 1);
+        CHECK(test::forbidden_in([] { (void)std::fflush(stdout); }).io == 1);
+        CHECK(test::forbidden_in([] { (void)std::chrono::steady_clock::now(); }).clocks == 1);
+        CHECK(test::forbidden_in([] { usleep(0); }).clocks >= 1);
+    }
+    CHECK(test::forbidden_in([] {}).all() == 0);
+}
+
+TEST_CASE("the tick makes no system call at all; one would end it") {
+    const Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    auto ticks = [&] {
+        for (int i = 0; i < 5000; ++i) tick(setup, state, scripted(setup, state, i));
+    };
+    if (test::sees_the_c_library) CHECK(test::makes_no_system_call(ticks));  // sanitizers make their own
+    auto asks = [] { (void)getppid(); };
+    CHECK_FALSE(test::makes_no_system_call(asks));
 }
 
 TEST_CASE("same inputs, same bits") {

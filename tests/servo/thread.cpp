@@ -1,0 +1,131 @@
+// The servo thread on the real clock. What passes or fails is what is so at any speed: counts, order, what is
+// set and put back. Whether this host keeps time is for `boltwright doctor`.
+#include "haptics/servo/thread.hpp"
+
+#include <doctest/doctest.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <atomic>
+#include <limits>
+
+#include "haptics/servo/denormals.hpp"
+#include "tests/support/eventually.hpp"
+
+using namespace bolt;
+using namespace bolt::servo;
+
+namespace {
+
+bool flushes_now() {
+    volatile double small = std::numeric_limits<double>::min();
+    small = small * 0.5;
+    return small == 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("denormals are flushed while it lives and as before afterwards, also nested") {
+    REQUIRE_FALSE(flushes_now());
+    {
+        const FlushDenormals outer;
+        CHECK(flushes_now() == FlushDenormals::supported());
+        { const FlushDenormals inner; }
+        CHECK(flushes_now() == FlushDenormals::supported());
+    }
+    CHECK_FALSE(flushes_now());
+}
+
+TEST_CASE("the thread ticks until it is told to stop, in order, and its timing counts every tick") {
+    std::atomic<std::uint64_t> ticks{0}, backwards{0};
+    std::uint64_t last = 0;
+    Result<Thread> thread = Thread::start({}, [&](const Beat& beat) {
+        if (beat.number != last + beat.missed + 1) ++backwards;
+        last = beat.number;
+        ++ticks;
+        return true;
+    });
+    REQUIRE(thread.has_value());
+    CHECK(test::eventually([&] { return ticks >= 300; }));
+    CHECK(thread->running());
+    CHECK(test::eventually([&] { return thread->timing().ticks >= 200; }));  // seen while it runs
+    thread->stop();
+    CHECK_FALSE(thread->running());
+    const Timing& timing = thread->timing();
+    CHECK(timing.ticks == ticks + 1);  // the turn that saw the request to stop did no tick
+    CHECK(timing.wake_up.count == timing.ticks);
+    CHECK(timing.compute.count == timing.ticks);
+    CHECK(timing.period.count == timing.ticks - 1);
+    CHECK(backwards == 0);
+    CHECK(last >= ticks);
+    thread->stop();  // once more does no harm
+}
+
+TEST_CASE("a tick that says no ends the thread by itself") {
+    int ticks = 0;
+    Result<Thread> thread = Thread::start({4000.0}, [&](const Beat&) { return ++ticks < 10; });
+    REQUIRE(thread.has_value());
+    CHECK(test::eventually([&] { return !thread->running(); }));
+    thread->stop();
+    CHECK(ticks == 10);
+    CHECK(thread->timing().ticks == 10);
+}
+
+TEST_CASE("what it says it got is what the kernel says, in the thread and only there") {
+    std::atomic<int> policy{-1}, priority{-1};
+    std::atomic<bool> flushes{false};
+    Result<Thread> thread = Thread::start({}, [&](const Beat&) {
+        sched_param now{};
+        int p = -1;
+        pthread_getschedparam(pthread_self(), &p, &now);
+        policy = p;
+        priority = now.sched_priority;
+        flushes = flushes_now();
+        return false;
+    });
+    REQUIRE(thread.has_value());
+    CHECK(test::eventually([&] { return !thread->running(); }));
+    const Granted& granted = thread->granted();
+    CHECK((policy == SCHED_FIFO) == (granted.priority > 0));
+    CHECK(priority == granted.priority);
+    CHECK(flushes == granted.flushes_denormals);
+    CHECK(granted.refused.size() == (granted.priority > 0 ? 0U : 1U) + (granted.memory_locked ? 0U : 1U));
+    CHECK_FALSE(flushes_now());
+    sched_param now{};
+    int here = -1;
+    pthread_getschedparam(pthread_self(), &here, &now);
+    CHECK(here == SCHED_OTHER);
+}
+
+TEST_CASE("without asking for anything nothing is refused") {
+    ThreadOptions options;
+    options.priority = 0;
+    options.lock_memory = false;
+    Result<Thread> thread = Thread::start(options, [](const Beat&) { return false; });
+    REQUIRE(thread.has_value());
+    CHECK(thread->granted().refused.empty());
+    CHECK(thread->granted().priority == 0);
+    CHECK_FALSE(thread->granted().memory_locked);
+}
+
+TEST_CASE("rates and priorities that are none are refused; a moved thread is stopped once") {
+    const auto no = [](const Beat&) { return false; };
+    CHECK_FALSE(Thread::start({0.0}, no).has_value());
+    CHECK_FALSE(Thread::start({std::numeric_limits<double>::quiet_NaN()}, no).has_value());
+    CHECK_FALSE(Thread::start({1e6}, no).has_value());
+    ThreadOptions options;
+    options.priority = 100;
+    CHECK_FALSE(Thread::start(options, no).has_value());
+
+    std::atomic<int> a{0}, b{0};
+    Result<Thread> first = Thread::start({}, [&](const Beat&) { return ++a > 0; });
+    Result<Thread> second = Thread::start({}, [&](const Beat&) { return ++b > 0; });
+    REQUIRE(first.has_value());
+    REQUIRE(second.has_value());
+    CHECK(test::eventually([&] { return a > 5 && b > 5; }));
+    *first = std::move(*second);  // stops the first
+    const int stood = a;
+    const int then = b;
+    CHECK(test::eventually([&] { return b > then + 5; }));
+    CHECK(a == stood);
+}
