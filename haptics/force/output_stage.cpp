@@ -9,46 +9,32 @@ namespace {
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Not glm::length: a huge but finite component must not overflow to infinity and so slip through as NaN.
-Vec3 at_most(const Vec3& v, double most) {
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (largest == 0.0 || most <= 0.0) return Vec3(0.0);
-    const Vec3 unit = v / largest;
-    const double length = largest * glm::length(unit);
-    return length <= most ? v : unit * (most / glm::length(unit));
-}
-
-Vec3 towards(const Vec3& now, const Vec3& wanted, double most) { return now + at_most(wanted - now, most); }
-
 }  // namespace
 
-OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& wanted,
-                           bool enabled, double dt) {
-    const bool healthy = finite(state.force) && finite(state.torque);
-    if (!healthy) state.force = state.torque = Vec3(0.0);
-    const bool sound = healthy && finite(wanted.force) && finite(wanted.torque);
-    if (!sound) ++state.faults;
-    if (!enabled || !sound) {
-        // Down from the greatest output in whole steps within `release`, whatever the slew limits say.
-        const double steps = std::max(1.0, std::floor(limits.release / dt + 1e-9));
-        const double share = (1.0 + 1e-9) / steps;
-        state.strength = 0.0;
-        state.force = towards(state.force, Vec3(0.0), limits.force * share);
-        state.torque = towards(state.torque, Vec3(0.0), limits.torque * share);
+OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortInput& input,
+                     const Wanted& wanted, double dt) {
+    const bool sound = finite(wanted.command.force) && finite(wanted.command.torque) &&
+                       std::isfinite(wanted.stored) && std::isfinite(wanted.granted);
+    const bool may = watch(limits, stage.watchdog, input, sound, dt) && input.enabled;
+    const Motion& motion = stage.watchdog.motion;
+    PassivityState& passivity = stage.passivity;
+    observe(limits, passivity, motion, 1.0 + input.missed);
+
+    OutputCommand command;
+    if (may) {
+        const double before = stage.output.strength;
+        const double strength = std::min(1.0, before + dt / limits.ramp_up);
+        command = control(limits, passivity, motion, wanted, strength, before, dt);
     } else {
-        state.strength = std::min(1.0, state.strength + dt / limits.ramp_up);
-        const Vec3 force = at_most(wanted.force, limits.force) * state.strength;
-        const Vec3 torque = at_most(wanted.torque, limits.torque) * state.strength;
-        state.force = towards(state.force, force, limits.force_rate * dt);
-        state.torque = towards(state.torque, torque, limits.torque_rate * dt);
+        passivity.balance = passivity.stored = passivity.damping = 0.0;
+        if (!sound) command = wanted.command;  // the limiter counts it and makes nothing of it
     }
-    // Last of all, so that nothing above can be wrong enough to matter.
-    state.force = at_most(state.force, limits.force);
-    state.torque = at_most(state.torque, limits.torque);
-    if (!finite(state.force) || !finite(state.torque)) {
-        state = {Vec3(0.0), Vec3(0.0), 0.0, state.faults + 1};
-    }
-    return {state.force, state.torque};
+    // A silent device has used up a part of its time already.
+    const bool silent = stage.watchdog.fault == Fault::silent;
+    const double release = silent ? limits.release - limits.silence - dt : limits.release;
+    const OutputCommand sent = limit_output(limits, stage.output, command, may, dt, release);
+    note_sent(passivity, sent);
+    return sent;
 }
 
 }  // namespace bolt::force

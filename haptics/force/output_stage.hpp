@@ -1,38 +1,25 @@
-// The one place where forces are limited. Whatever is computed before it, what leaves it is finite, inside
-// what the device takes, and changes no faster than the device and the hand take. Nothing else writes to a
-// device.
+// Everything that is felt goes through here, and nothing else writes to a device:
+//
+//   watchdog    may anything be rendered?            watchdog.hpp
+//   passivity   observer, then controller            passivity.hpp
+//   limiter     ramp, slew limit, clamp, release     limiter.hpp
 #pragma once
 
-#include <cstdint>
-
-#include "engine/base/math.hpp"
+#include "haptics/force/limiter.hpp"
+#include "haptics/force/passivity.hpp"
+#include "haptics/force/watchdog.hpp"
 
 namespace bolt::force {
 
-// From the device's description.
-struct OutputLimits {
-    double force = 20.0;         // N, magnitude
-    double torque = 2.0;         // N·m, magnitude; 0: the device has none
-    double force_rate = 2000.0;  // N/s, while rendering
-    double torque_rate = 200.0;  // N·m/s
-    double ramp_up = 0.5;        // s from enabling to full strength
-    double release = 0.02;       // s: with the dead-man let go everything is zero after at most this time
+struct OutputStage {
+    WatchdogState watchdog;
+    PassivityState passivity;
+    OutputState output;
 };
 
-struct OutputState {
-    Vec3 force{0.0};
-    Vec3 torque{0.0};
-    double strength = 0.0;     // 0…1, the ramp
-    std::uint64_t faults = 0;  // steps in which something not finite was asked for
-};
-
-struct OutputCommand {
-    Vec3 force{0.0};
-    Vec3 torque{0.0};
-};
-
-// One step of dt. Returns what may go to the device; also kept in the state.
-OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& wanted,
-                           bool enabled, double dt);
+// One tick of dt. Returns what goes to the device. Within limits.release of the dead-man being let go, of the
+// last sample, or of any other fault, that is nothing.
+OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortInput& input,
+                     const Wanted& wanted, double dt);
 
 }  // namespace bolt::force

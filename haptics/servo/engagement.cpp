@@ -56,8 +56,9 @@ ToolPose pose_of(const DeviceSample& sample) {
                  static_cast<double>(sample.orientation[2]), static_cast<double>(sample.orientation[3]));
     const double norm = std::sqrt(glm::dot(q, q));
     tool.valid = tool.valid && norm > 0.5 && norm < 2.0;
-    if (!tool.valid) return {Vec3(0.0), Vec3(1, 0, 0), Vec3(0, 0, 1), false};
+    if (!tool.valid) return {Vec3(0.0), Quat(1, 0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), false};
     const Quat unit = q / norm;
+    tool.orientation = unit;
     tool.handle = unit * Vec3(1, 0, 0);
     tool.normal = unit * Vec3(0, 0, 1);
     return tool;

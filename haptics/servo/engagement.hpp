@@ -10,9 +10,10 @@ namespace bolt::servo {
 
 struct ToolPose {
     Vec3 position{0.0};
-    Vec3 handle{1.0, 0.0, 0.0};  // x axis of the tool
-    Vec3 normal{0.0, 0.0, 1.0};  // z axis of the tool
-    bool valid = true;           // false: the sample was no pose, and holds nothing
+    Quat orientation{1.0, 0.0, 0.0, 0.0};  // unit
+    Vec3 handle{1.0, 0.0, 0.0};            // x axis of the tool
+    Vec3 normal{0.0, 0.0, 1.0};            // z axis of the tool
+    bool valid = true;                     // false: the sample was no pose, and holds nothing
 };
 
 ToolPose pose_of(const DeviceSample& sample);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/servo/denormals.hpp"
+
 namespace bolt::servo {
 
 namespace {
@@ -58,6 +60,7 @@ State initial_state(const Setup& setup) {
 }
 
 Output tick(const Setup& setup, State& state, const Input& input) {
+    const FlushDenormals flush;
     const ToolPose tool = pose_of(input.device);
     const Grip grip = input.enabled ? input.grip : Grip::none;
     update_engagement(setup, state.joints, tool, grip, state.engagement);
@@ -82,8 +85,11 @@ Output tick(const Setup& setup, State& state, const Input& input) {
         wanted.force = force::guiding_force(setup.guiding, tool.position,
                                             nut_centre(setup.nuts[i], state.joints[i].nut.angle));
     }
-    const force::OutputCommand limited =
-        force::limit_output(setup.limits, state.output, wanted, input.enabled, setup.dt);
+    force::PortInput port;
+    port.pose = {tool.position, tool.orientation};
+    port.valid = tool.valid;
+    port.enabled = input.enabled;
+    const force::OutputCommand limited = force::render(setup.limits, state.output, port, {wanted}, setup.dt);
     output.force = limited.force;
     output.torque = limited.torque;
     ++state.tick;

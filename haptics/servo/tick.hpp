@@ -20,7 +20,7 @@ struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
     Engagement engagement;
-    force::OutputState output;
+    force::OutputStage output;
 };
 
 State initial_state(const Setup& setup);

@@ -156,9 +156,9 @@ TEST_CASE("an angle that leaps further than a hand turns in a tick lets go and d
 }
 
 TEST_CASE("an empty hand is led to the centre of the guided nut with k over the distance") {
-    Held held;
-    CHECK(held.setup.guiding.gain == doctest::Approx(9.0 / 500.0));  // 3 N at most on a spring of 500 N/m
+    CHECK(Held().setup.guiding.gain == doctest::Approx(9.0 / 500.0));  // 3 N at most on a spring of 500 N/m
     for (std::int16_t guide = 0; guide < 2; ++guide) {
+        Held held;
         const NutPlace& nut = held.setup.nuts[static_cast<std::size_t>(guide)];
         const Vec3 away = Vec3(0.06, 0.08, 0.0) + 0.02 * nut.e2;
         Input input = test::holding(Grip::none, test::tool_at(nut, nut_centre(nut, 0.0) + away, 0.0));

@@ -4,7 +4,7 @@
 
 #include "engine/base/random.hpp"
 #include "haptics/force/guiding.hpp"
-#include "haptics/force/output_stage.hpp"
+#include "haptics/force/limiter.hpp"
 
 using namespace bolt;
 using namespace bolt::force;

@@ -1,0 +1,154 @@
+// The output stage as a whole: whatever goes wrong before it, a hand is let go of in 20 ms and never jerked.
+#include "haptics/force/output_stage.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "engine/base/random.hpp"
+#include "tests/support/forbidden.hpp"
+
+using namespace bolt;
+using namespace bolt::force;
+
+namespace {
+
+constexpr double dt = 1e-3;
+const Wanted hard{{Vec3(100, 0, 0), Vec3(0, 100, 0)}};
+
+PortInput held() {
+    PortInput input;
+    input.enabled = true;
+    return input;
+}
+
+OutputStage at_full(const OutputLimits& limits) {
+    OutputStage stage;
+    for (int i = 0; i < 2000; ++i)
+        render(limits, stage, held(), {{Vec3(0.8 * limits.force, 0, 0), Vec3(0.0)}}, dt);
+    REQUIRE(stage.output.force.x == doctest::Approx(0.8 * limits.force));
+    return stage;
+}
+
+bool nothing(const OutputCommand& out) { return out.force == Vec3(0.0) && out.torque == Vec3(0.0); }
+
+}  // namespace
+
+TEST_CASE("everything within 20 ms of its cause is nothing: silence, NaN, a jump, a stop, the dead-man") {
+    const OutputLimits limits;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (int cause = 0; cause < 6; ++cause) {
+        CAPTURE(cause);
+        OutputStage stage = at_full(limits);
+        PortInput input = held();
+        Wanted wanted = hard;
+        if (cause == 0) input.fresh = false;
+        if (cause == 1) input.pose.position.x = nan;
+        if (cause == 2) input.pose.position.x = 0.5;
+        if (cause == 3) input.stop = true;
+        if (cause == 4) input.enabled = false;
+        if (cause == 5) wanted.command.torque.z = nan;
+        OutputCommand out;
+        for (int i = 0; i < 20; ++i) out = render(limits, stage, input, wanted, dt);
+        CHECK(nothing(out));
+        if (cause != 2)
+            for (int i = 0; i < 2000; ++i) REQUIRE(nothing(render(limits, stage, input, wanted, dt)));
+    }
+}
+
+TEST_CASE("a runaway at 5 m/s is let go of within 20 ms") {
+    const OutputLimits limits;
+    OutputStage stage = at_full(limits);
+    PortInput input = held();
+    OutputCommand out;
+    for (int i = 0; i < 20; ++i) {
+        input.pose.position.x += 5.0 * dt;
+        out = render(limits, stage, input, hard, dt);
+    }
+    CHECK(nothing(out));
+    CHECK(stage.watchdog.fault == Fault::too_fast);
+}
+
+TEST_CASE("after a fault the force comes back by its ramp, not at once") {
+    const OutputLimits limits;
+    OutputStage stage = at_full(limits);
+    PortInput input = held();
+    input.fresh = false;
+    for (int i = 0; i < 50; ++i) render(limits, stage, input, hard, dt);
+    input.fresh = true;
+    const Wanted wanted{{Vec3(10, 0, 0), Vec3(0.0)}};
+    for (int i = 0; i < 99; ++i) CHECK(nothing(render(limits, stage, input, wanted, dt)));
+    for (int i = 0; i < 250; ++i) render(limits, stage, input, wanted, dt);
+    CHECK(stage.output.force.x == doctest::Approx(5.0).epsilon(0.02));
+}
+
+TEST_CASE("whatever goes in, what comes out is finite, inside the limits and never faster than the slew") {
+    const OutputLimits limits;
+    Random random(12);
+    OutputStage stage;
+    Vec3 last(0.0);
+    PortInput input = held();
+    const auto wild = [&] { return random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0)); };
+    // Silence leaves the least time to let go in.
+    const double fastest =
+        std::max(limits.force_rate, limits.force / (limits.release - limits.silence - dt)) * dt;
+    std::uint64_t rendered = 0;
+    int running = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        Wanted wanted;
+        for (int k = 0; k < 3; ++k) {
+            wanted.command.force[k] = wild();
+            wanted.command.torque[k] = wild();
+        }
+        wanted.stored = std::abs(wild());
+        wanted.granted = wild();
+        if (random.chance(0.5)) wanted = {{Vec3(5.0 * random.normal(), 0, 3), Vec3(0, 0.3, 0)}};
+        if (random.chance(0.0005)) wanted.command.force.y = std::numeric_limits<double>::infinity();
+        if (random.chance(0.0005)) wanted.stored = std::numeric_limits<double>::quiet_NaN();
+        input.pose.position += 1e-3 * Vec3(random.normal(), random.normal(), random.normal());
+        input.pose.orientation =
+            glm::normalize(rotation(0.01 * Vec3(random.normal(), 0, 1)) * input.pose.orientation);
+        if (random.chance(0.0002)) input.pose.position.z += 0.05;
+        if (random.chance(0.0002)) running = 30;
+        if (running-- > 0) input.pose.position.y += 5e-3;
+        if (glm::length(input.pose.position) > 100.0) input.pose.position = Vec3(0.0);
+        PortInput now = input;
+        if (random.chance(0.0003)) now.pose.position.x = wild();
+        now.fresh = random.chance(0.9);
+        now.enabled = random.chance(0.9995);
+        now.stop = random.chance(0.0001);
+        now.reset = random.chance(0.5);
+        const OutputCommand out = render(limits, stage, now, wanted, dt);
+        REQUIRE(glm::length(out.force) <= limits.force * (1 + 1e-12));
+        REQUIRE(glm::length(out.torque) <= limits.torque * (1 + 1e-12));
+        REQUIRE(glm::length(out.force - last) <= fastest * (1 + 1e-9));
+        REQUIRE(std::isfinite(stage.passivity.balance));
+        rendered += nothing(out) ? 0U : 1U;
+        last = out.force;
+    }
+    CHECK(rendered > 50'000);
+    for (std::size_t i = 1; i < fault_kinds; ++i)
+        if (i != static_cast<std::size_t>(Fault::silent)) CHECK(stage.watchdog.counts[i] > 0);
+}
+
+TEST_CASE("it allocates nothing, takes no lock, looks at no clock, and gives the same bits twice") {
+    const auto run = [] {
+        OutputStage stage;
+        PortInput input = held();
+        Random random(5);
+        OutputCommand out;
+        std::uint64_t hash = 14695981039346656037ULL;
+        for (int i = 0; i < 3000; ++i) {
+            input.pose.position += 1e-4 * Vec3(random.normal(), random.normal(), random.normal());
+            out = render({}, stage, input, {{-800.0 * input.pose.position, Vec3(0, 0.1, 0)}, 1e-3}, dt);
+            unsigned char bytes[sizeof out];
+            std::memcpy(bytes, &out, sizeof out);
+            for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;
+        }
+        return hash;
+    };
+    std::uint64_t first = 0;
+    CHECK(test::forbidden_in([&] { first = run(); }).all() == 0);
+    CHECK(run() == first);
+}

@@ -1,0 +1,171 @@
+// The energy of the port against motions whose work is known, and what the controller may and may not do.
+#include "haptics/force/passivity.hpp"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "engine/base/random.hpp"
+
+using namespace bolt;
+using namespace bolt::force;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+OutputLimits no_delay() {
+    OutputLimits limits;
+    limits.delay = 0;
+    return limits;
+}
+
+Motion moved(const Vec3& shift, const Vec3& turn = Vec3(0.0)) {
+    return {shift, turn, shift / dt, turn / dt, true};
+}
+
+}  // namespace
+
+TEST_CASE("the balance is the work of what was out, force and torque, and no other") {
+    Random random(8);
+    const auto any = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
+    for (int delay = 0; delay < 4; ++delay) {
+        OutputLimits limits;
+        limits.delay = delay;
+        PassivityState s;
+        std::vector<OutputCommand> sent(4);
+        double work = 0.0;
+        for (int i = 0; i < 200; ++i) {
+            const Motion motion = moved(1e-3 * any(), 1e-3 * any());
+            const OutputCommand& had = sent[sent.size() - 1 - static_cast<std::size_t>(delay)];
+            work += glm::dot(had.force, motion.shift) + glm::dot(had.torque, motion.turn);
+            observe(limits, s, motion, 1.0);
+            REQUIRE(s.balance == doctest::Approx(-work));
+            sent.push_back({any(), any()});
+            note_sent(s, sent.back());
+        }
+    }
+}
+
+TEST_CASE("a sample every third tick: the motion is charged with the mean of what was out meanwhile") {
+    PassivityState s;
+    const Vec3 forces[] = {Vec3(1, 0, 0), Vec3(4, 0, 0), Vec3(7, 0, 0)};
+    for (int i = 0; i < 3; ++i) {
+        note_sent(s, {forces[i], Vec3(0.0)});
+        observe(no_delay(), s, i == 2 ? moved(Vec3(0.01, 0, 0)) : Motion{}, 1.0);
+    }
+    CHECK(s.balance == doctest::Approx(-0.04));
+}
+
+TEST_CASE("an ideal spring pressed in and let out: the balance stays at nothing, and nothing is damped") {
+    // Fine steps: what sampling makes goes with the step.
+    const double K = 1000.0, step = 1e-6;
+    PassivityState s;
+    double x = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+        const double shift = i < 10'000 ? step : -step;
+        x += shift;
+        observe(no_delay(), s, moved(Vec3(-shift, 0, 0)), 1.0);
+        const Wanted wanted{{Vec3(K * x, 0, 0), Vec3(0.0)}, 0.5 * K * x * x};
+        const OutputCommand out = control(no_delay(), s, {}, wanted, 1.0, 1.0, dt);
+        note_sent(s, out);
+        REQUIRE(std::abs(s.balance) < 0.5 * K * step * step * 20'000);
+    }
+    CHECK(std::abs(s.balance) < 0.02e-3);
+}
+
+TEST_CASE("a sampled spring pressed at a speed makes K v² T² / 2 a tick, and the controller takes it out") {
+    const double K = 1000.0, v = 0.2;
+    const auto press = [&](double damping) {
+        OutputLimits limits = no_delay();
+        limits.damping = damping;
+        PassivityState s;
+        double x = 0.0;
+        const int ticks = 50;
+        for (int i = 0; i < ticks; ++i) {
+            x += v * dt;
+            const Motion motion = moved(Vec3(-v * dt, 0, 0));
+            observe(limits, s, motion, 1.0);
+            const Wanted wanted{{Vec3(K * x, 0, 0), Vec3(0.0)}, 0.5 * K * x * x};
+            note_sent(s, control(limits, s, motion, wanted, 1.0, 1.0, dt));
+        }
+        return s.balance / ticks;
+    };
+    CHECK(press(0.0) == doctest::Approx(-0.5 * K * v * v * dt * dt).epsilon(1e-6));
+    CHECK(press(20.0) > -0.05 * 0.5 * K * v * v * dt * dt);
+}
+
+TEST_CASE("damping is never above nine tenths of what the device takes, nor against the motion") {
+    OutputLimits limits;
+    PassivityState s;
+    s.balance = -10.0;
+    const Motion motion = moved(Vec3(3e-4, 0, -4e-4), Vec3(0, 2e-3, 0));
+    const OutputCommand out = control(limits, s, motion, {}, 1.0, 1.0, dt);
+    CHECK(glm::length(out.force + 0.9 * limits.damping * motion.velocity) < 1e-12);
+    CHECK(glm::length(out.torque + 0.9 * limits.angular_damping * motion.angular_velocity) < 1e-12);
+    CHECK(s.damping == 1.0);
+}
+
+TEST_CASE("only what is missing is damped: the power taken is the deficit over a tick") {
+    const OutputLimits limits;
+    PassivityState s;
+    s.balance = -1e-4;
+    const Motion motion = moved(Vec3(1e-3, 0, 0), Vec3(0, 1e-3, 0));
+    const OutputCommand out = control(limits, s, motion, {}, 1.0, 1.0, dt);
+    const double power =
+        -glm::dot(out.force, motion.velocity) - glm::dot(out.torque, motion.angular_velocity);
+    CHECK(power * dt == doctest::Approx(1e-4));
+    CHECK(s.removed == doctest::Approx(1e-4));
+    CHECK(s.damping < 1.0);
+}
+
+TEST_CASE("what was dissipated long ago is not saved up") {
+    const OutputLimits limits = no_delay();
+    PassivityState s;
+    note_sent(s, {Vec3(-10, 0, 0), Vec3(0.0)});
+    for (int i = 0; i < 1000; ++i) {
+        observe(limits, s, moved(Vec3(1e-3, 0, 0)), 1.0);  // 10 mJ a tick into a brake
+        control(limits, s, {}, {}, 1.0, 1.0, dt);
+    }
+    CHECK(s.balance == doctest::Approx(saved_at_most));
+}
+
+TEST_CASE("help that is granted is no deficit; a store that grows without work is one") {
+    const OutputLimits limits;
+    PassivityState s;
+    Wanted wanted;
+    wanted.stored = 5e-3;
+    wanted.granted = 5e-3;
+    control(limits, s, {}, wanted, 1.0, 1.0, dt);
+    CHECK(s.balance == doctest::Approx(0.0));
+    wanted.stored = 8e-3;
+    wanted.granted = 0.0;
+    control(limits, s, {}, wanted, 1.0, 1.0, dt);
+    CHECK(s.balance == doctest::Approx(-3e-3));
+}
+
+TEST_CASE(
+    "too much is wanted: force and torque are cut alike, and the spring gives back what is left of it") {
+    const OutputLimits limits;
+    PassivityState s;
+    Wanted wanted{{Vec3(2.0 * limits.force, 0, 0), Vec3(0, 1, 0)}, 1.0};
+    const OutputCommand out = control(limits, s, {}, wanted, 1.0, 1.0, dt);
+    CHECK(out.force.x == doctest::Approx(limits.force));
+    CHECK(out.torque.y == doctest::Approx(0.5));
+    CHECK(s.stored == doctest::Approx(0.75));  // of a spring that is held at half of its force
+
+    wanted = {{Vec3(10, 0, 0), Vec3(0, 4.0 * limits.torque, 0)}, 0.0};
+    CHECK(control(limits, s, {}, wanted, 1.0, 1.0, dt).force.x == doctest::Approx(2.5));
+    OutputLimits without = limits;
+    without.torque = 0.0;
+    CHECK(control(without, s, {}, wanted, 1.0, 1.0, dt).force.x == doctest::Approx(10.0));
+}
+
+TEST_CASE("the ramp lets the store in as a grant") {
+    const OutputLimits limits;
+    PassivityState s;
+    const Wanted wanted{{}, 2e-3};
+    for (int i = 1; i <= 10; ++i) control(limits, s, {}, wanted, 0.1 * i, 0.1 * (i - 1), dt);
+    CHECK(s.balance == doctest::Approx(0.0));
+    CHECK(s.stored == doctest::Approx(2e-3));
+}

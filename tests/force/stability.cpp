@@ -1,0 +1,199 @@
+// Forty arms against forty walls, 1 sample late and through an encoder: with the controller no energy comes
+// out and nothing trembles on. Without it the same scenes run away, which shows that this test can fail.
+//
+// The walls are contact points on springs, undamped: nothing but the output stage stands between them and
+// trembling.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/force/output_stage.hpp"
+#include "tests/support/simulated_arm.hpp"
+
+using namespace bolt;
+using namespace bolt::force;
+
+namespace {
+
+constexpr double clear = 0.08;  // m from the wall, where the hand begins
+
+// A tool with three points that touch, before a plane through the origin or in a corner of two.
+struct Scene {
+    Vec3 points[3] = {Vec3(0.0, 0.012, 0.0), Vec3(0.01, -0.012, 0.004), Vec3(0.04, 0.0, 0.0)};
+    Vec3 normals[2];
+    int walls = 1;
+    double stiffness = 1500.0;  // N/m of each contact
+    Vec3 way{0.0};              // from the wall to where the hand begins
+    double speed = 0.2;         // m/s of the hand's intention
+    double press = 5.0;         // N
+    test::ArmParameters arm;
+};
+
+Scene random_scene(std::uint64_t seed) {
+    Random random(seed, 5);
+    Scene s;
+    s.arm = test::random_arm(random);
+    const auto direction = [&] {
+        return glm::normalize(Vec3(random.normal(), random.normal(), random.normal() + 1e-3));
+    };
+    s.normals[0] = direction();
+    s.walls = random.chance(0.5) ? 2 : 1;
+    const Vec3 across = direction();
+    s.normals[1] = glm::normalize(glm::cross(s.normals[0], across));
+    s.way = s.walls == 2 ? glm::normalize(s.normals[0] + s.normals[1]) : s.normals[0];
+    s.stiffness = random.uniform(1000.0, 3000.0);
+    s.press = random.uniform(2.0, 12.0);
+    s.speed = random.uniform(0.08, 0.4);
+    return s;
+}
+
+Wanted wall_of(const Scene& scene, const Pose& tool) {
+    Wanted wanted;
+    for (int wall = 0; wall < scene.walls; ++wall) {
+        const Vec3& n = scene.normals[wall];
+        for (const Vec3& point : scene.points) {
+            const Vec3 arm = tool.orientation * point;
+            const double depth = -glm::dot(tool.position + arm, n);
+            if (depth <= 0.0) continue;
+            wanted.command.force += scene.stiffness * depth * n;
+            wanted.command.torque += scene.stiffness * depth * glm::cross(arm, n);
+            wanted.stored += 0.5 * scene.stiffness * depth * depth;
+        }
+    }
+    return wanted;
+}
+
+struct Felt {
+    double greatest_energy = 0.0, energy = 0.0;  // J that came out: at any time, at the end
+    double early_swing = 0.0, late_swing = 0.0;  // m of the tool's way to and fro while the hand holds still
+};
+
+struct Range {
+    double low = 1e9, high = -1e9;
+    void add(double x) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+    [[nodiscard]] double width() const { return std::max(0.0, high - low); }
+};
+
+enum class Energy { told, not_told };
+
+// Comes, presses, shakes half a second at 6 Hz, holds still for 1.5 s.
+Felt feel(const Scene& scene, const OutputLimits& limits, Energy energy, double dt) {
+    test::Arm arm;
+    arm.parameters = scene.arm;
+    arm.parameters.delay = limits.delay;
+    arm.pose.position = arm.intention.position = clear * scene.way;
+    OutputStage stage;
+    Felt felt;
+    Range early, late;
+    const int second = static_cast<int>(std::lround(1.0 / dt));
+    for (int k = 0; k < 4 * second; ++k) {
+        const double t = k * dt;
+        double at = std::max(clear - scene.speed * t, -scene.press / scene.arm.stiffness);
+        if (t > 2.0 && t < 2.5) at += 0.01 * std::sin(2.0 * pi * 6.0 * (t - 2.0));
+        arm.intention.position = at * scene.way;
+        PortInput input;
+        input.pose = test::sample(arm);
+        input.enabled = true;
+        Wanted wanted = wall_of(scene, input.pose);
+        if (energy == Energy::not_told) wanted.stored = 0.0;
+        test::step(arm, render(limits, stage, input, wanted, dt), dt);
+        felt.greatest_energy = std::max(felt.greatest_energy, arm.energy_out);
+        const double x = glm::dot(arm.pose.position, scene.way);
+        if (t >= 2.6 && t < 2.9) early.add(x);
+        if (t >= 3.7 && t < 4.0) late.add(x);
+    }
+    felt.energy = arm.energy_out;
+    felt.early_swing = early.width();
+    felt.late_swing = late.width();
+    return felt;
+}
+
+OutputLimits device() {
+    OutputLimits limits;
+    limits.ramp_up = 1e-3;  // the scenes begin with the first tick
+    return limits;
+}
+
+bool swings_on(const Felt& felt) {
+    return felt.late_swing > 50e-6 && felt.late_swing > 0.3 * felt.early_swing;
+}
+
+}  // namespace
+
+TEST_CASE("forty arms and walls: no net energy comes out, and nothing swings on") {
+    for (const double dt : {1e-3, 0.25e-3}) {
+        double most = 0.0;
+        for (std::uint64_t seed = 0; seed < 40; ++seed) {
+            CAPTURE(seed);
+            CAPTURE(dt);
+            const Scene scene = random_scene(seed);
+            const Felt felt = feel(scene, device(), Energy::told, dt);
+            CHECK(felt.energy <= 0.0);
+            CHECK(felt.greatest_energy <=
+                  5e-3);  // on the way: what a slew-limited force cannot take back at once
+            CHECK_FALSE(swings_on(felt));
+            most = std::max(most, felt.greatest_energy);
+        }
+        MESSAGE("dt ", dt, ": most energy that was out at any time, mJ: ", 1e3 * most);
+    }
+}
+
+TEST_CASE("a wall of 1 N/mm is felt as one: at least 0.8 N/mm, by every hand, however it is damped") {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        CAPTURE(seed);
+        Scene scene = random_scene(seed);
+        scene.arm.friction = 0.0;  // it would carry a part of the force
+        test::Arm arm;
+        arm.parameters = scene.arm;
+        OutputStage stage;
+        // Pressed with 3 N, then 5 N, for three seconds each; what counts is how far the hand gives way.
+        const Vec3& n = scene.normals[0];
+        double stood[2] = {}, pushed[2] = {};
+        for (int k = 0; k < 6000; ++k) {
+            const int level = k / 3000;
+            arm.intention.position = -(level == 0 ? 3.0 : 5.0) / scene.arm.stiffness * n;
+            PortInput input;
+            input.pose = test::sample(arm);
+            input.enabled = true;
+            const double depth = std::max(0.0, -glm::dot(input.pose.position, n));
+            const Wanted wanted{{1000.0 * depth * n, Vec3(0.0)}, 500.0 * depth * depth};
+            test::step(arm, render(device(), stage, input, wanted, 1e-3), 1e-3);
+            if (k % 3000 < 2500) continue;
+            stood[level] -= glm::dot(arm.pose.position, n) / 500.0;
+            pushed[level] +=
+                scene.arm.stiffness * glm::dot(arm.pose.position - arm.intention.position, n) / 500.0;
+        }
+        CHECK((pushed[1] - pushed[0]) / (stood[1] - stood[0]) >= 800.0);
+    }
+}
+
+TEST_CASE("the same without a word of the energy that the springs hold: as stable") {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        CAPTURE(seed);
+        const Felt felt = feel(random_scene(seed), device(), Energy::not_told, 1e-3);
+        CHECK(felt.energy <= 0.0);
+        CHECK(felt.greatest_energy <= 2e-3);
+        CHECK_FALSE(swings_on(felt));
+    }
+}
+
+TEST_CASE("the same without the controller: energy comes out of most of them, and many tremble on") {
+    OutputLimits uncontrolled = device();
+    uncontrolled.damping = uncontrolled.angular_damping = 0.0;
+    int active = 0, trembling = 0;
+    double most = 0.0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const Felt felt = feel(random_scene(seed), uncontrolled, Energy::told, 1e-3);
+        active += felt.energy > 0.0;
+        trembling += swings_on(felt);
+        most = std::max(most, felt.energy);
+    }
+    CHECK(active >= 20);
+    CHECK(trembling >= 10);
+    CHECK(most > 1.0);
+    MESSAGE("energy came out of ", active, ", ", trembling, " tremble on; the worst, J: ", most);
+}

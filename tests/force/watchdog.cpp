@@ -1,0 +1,206 @@
+// What the watchdog holds off, for how long, and that it says so.
+#include "haptics/force/watchdog.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+using namespace bolt;
+using namespace bolt::force;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+struct Device {
+    OutputLimits limits;
+    WatchdogState state;
+    PortInput input;
+    Device() { input.enabled = true; }
+
+    bool step() { return watch(limits, state, input, true, dt); }
+    // Moves along x at a speed for some ticks; the last answer.
+    bool move(double speed, int ticks) {
+        bool may = false;
+        for (int i = 0; i < ticks; ++i) {
+            input.pose.position.x += speed * dt;
+            may = step();
+        }
+        return may;
+    }
+    int ticks_until(bool wanted, double speed = 0.0) {
+        for (int n = 1; n <= 1000; ++n)
+            if (move(speed, 1) == wanted) return n;
+        return -1;
+    }
+    [[nodiscard]] std::uint64_t count(Fault fault) const {
+        return state.counts[static_cast<std::size_t>(fault)];
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a device that moves as hands do is rendered upon from its first sample, at 2 m/s too") {
+    Device device;
+    device.input.pose.position = Vec3(0.3, -0.2, 5.0);
+    CHECK(device.step());
+    CHECK(device.move(2.0, 200));
+    CHECK(device.move(-2.0, 400));
+    for (const std::uint64_t n : device.state.counts) CHECK(n == 0);
+}
+
+TEST_CASE("the motion is told: shift, turn and velocity") {
+    Device device;
+    device.step();
+    CHECK_FALSE(device.state.motion.fresh);  // one sample is no motion
+    device.move(0.5, 20);
+    CHECK(device.state.motion.fresh);
+    CHECK(device.state.motion.shift.x == doctest::Approx(0.5e-3));
+    CHECK(device.state.motion.velocity.x == doctest::Approx(0.5).epsilon(1e-4));
+    for (int i = 0; i < 20; ++i) {
+        device.input.pose.orientation =
+            glm::normalize(rotation(Vec3(0, 0, 2e-3)) * device.input.pose.orientation);
+        device.step();
+    }
+    CHECK(device.state.motion.turn.z == doctest::Approx(2e-3));
+    CHECK(device.state.motion.angular_velocity.z == doctest::Approx(2.0).epsilon(1e-4));
+    // A tick later, and another: the shift is that of three ticks, the velocity what it was.
+    device.input.fresh = false;
+    device.step();
+    CHECK_FALSE(device.state.motion.fresh);
+    device.input.missed = 1;
+    device.input.fresh = true;
+    device.input.pose.orientation =
+        glm::normalize(rotation(Vec3(0, 0, 6e-3)) * device.input.pose.orientation);
+    device.step();
+    CHECK(device.state.motion.turn.z == doctest::Approx(6e-3));
+    CHECK(device.state.motion.angular_velocity.z == doctest::Approx(2.0).epsilon(1e-4));
+}
+
+TEST_CASE("silence: the eighth millisecond may be quiet, the ninth is held off; missed deadlines count") {
+    Device device;
+    device.move(0.1, 10);
+    device.input.fresh = false;
+    for (int i = 0; i < 8; ++i) CHECK(device.step());
+    CHECK_FALSE(device.step());
+    CHECK(device.state.fault == Fault::silent);
+    CHECK(device.count(Fault::silent) == 1);
+    device.input.fresh = true;
+    CHECK(device.ticks_until(true) == 100);
+    CHECK(device.count(Fault::silent) == 1);
+
+    device.input.fresh = false;
+    device.input.missed = 8;  // the loop itself stood still for nine
+    CHECK_FALSE(device.step());
+    CHECK(device.state.fault == Fault::silent);
+}
+
+TEST_CASE("what is no pose is held off, reported once, and recovered from") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::function<void(PortInput&)> broken[] = {
+        [&](PortInput& in) { in.pose.position.y = nan; },
+        [&](PortInput& in) { in.pose.position.z = std::numeric_limits<double>::infinity(); },
+        [&](PortInput& in) { in.pose.position.x = 1e300; },
+        [&](PortInput& in) { in.pose.orientation.w = nan; },
+        [&](PortInput& in) { in.pose.orientation = Quat(0.0, 0.0, 0.0, 0.0); },
+        [&](PortInput& in) { in.pose.orientation = Quat(2.0, 0.0, 0.0, 0.0); },
+        [&](PortInput& in) { in.valid = false; },
+    };
+    for (const auto& spoil : broken) {
+        Device device;
+        device.move(0.1, 10);
+        const PortInput good = device.input;
+        spoil(device.input);
+        for (int i = 0; i < 5; ++i) CHECK_FALSE(device.step());
+        CHECK(device.state.fault == Fault::no_pose);
+        CHECK(device.count(Fault::no_pose) == 1);
+        device.input = good;
+        device.input.pose.position.x += 0.2;  // wherever it is now: that is a beginning, not a jump
+        CHECK(device.ticks_until(true) == 100);
+        CHECK(device.count(Fault::jumped) == 0);
+        CHECK(glm::length(device.state.motion.velocity) == 0.0);
+    }
+}
+
+TEST_CASE("a jump of place or turn is held off and makes no velocity; the new place is taken after a while") {
+    Device device;
+    device.move(0.1, 10);
+    device.input.pose.position.y += 0.031;
+    CHECK_FALSE(device.step());
+    CHECK(device.state.fault == Fault::jumped);
+    CHECK(glm::length(device.state.motion.velocity) == 0.0);
+    CHECK(device.ticks_until(true) == 100);
+
+    device.input.pose.orientation = rotation(Vec3(0, 0.51, 0));
+    CHECK_FALSE(device.step());
+    CHECK(device.state.fault == Fault::jumped);
+    CHECK(device.count(Fault::jumped) == 2);
+    // A sample that flickers between two places never gets through.
+    for (int i = 0; i < 500; ++i) {
+        device.input.pose.position.x = i % 2 == 0 ? 0.0 : 0.1;
+        CHECK_FALSE(device.step());
+    }
+}
+
+TEST_CASE("too fast for a hand: held off within 20 ms, until it has come down to half of that") {
+    Device device;
+    device.move(0.1, 10);
+    const int held_off = device.ticks_until(false, 3.5);
+    CHECK(held_off > 1);
+    CHECK(held_off <= 10);  // 10 ms to see it leaves 10 of the 20 for a runaway at twice the speed
+    CHECK(device.state.fault == Fault::too_fast);
+    CHECK_FALSE(device.move(2.0, 300));
+    CHECK(device.move(1.0, 300));
+    CHECK(device.count(Fault::too_fast) == 1);
+
+    for (int i = 0; i < 30; ++i) {
+        device.input.pose.orientation =
+            glm::normalize(rotation(Vec3(0.06, 0, 0)) * device.input.pose.orientation);
+        device.step();
+    }
+    CHECK(device.state.fault == Fault::too_fast);
+}
+
+TEST_CASE("a force that is no number is the renderer's fault, and is held off like the device's") {
+    Device device;
+    device.move(0.1, 10);
+    CHECK_FALSE(watch(device.limits, device.state, device.input, false, dt));
+    CHECK(device.state.fault == Fault::bad_request);
+    CHECK(device.ticks_until(true) == 100);
+}
+
+TEST_CASE("the emergency stop lasts until it is reset with the dead-man let go, and wins over all else") {
+    Device device;
+    device.move(0.1, 10);
+    device.input.stop = true;
+    CHECK_FALSE(device.step());
+    device.input.stop = false;
+    CHECK_FALSE(device.move(0.0, 5000));
+    CHECK(device.state.fault == Fault::stopped);
+    device.input.reset = true;  // with the dead-man held: it would start by itself
+    CHECK_FALSE(device.move(0.0, 10));
+    device.input.enabled = false;
+    device.input.stop = true;  // while it is still pressed
+    CHECK_FALSE(device.move(0.0, 10));
+    device.input.stop = false;
+    CHECK(device.move(0.0, 1));
+    CHECK(device.count(Fault::stopped) == 1);
+
+    device.input = {};
+    device.input.stop = true;
+    device.input.pose.position.x = std::numeric_limits<double>::quiet_NaN();
+    device.step();
+    CHECK(device.state.fault == Fault::stopped);
+    device.input.stop = false;  // a fault of the device does not take the stop away
+    device.step();
+    CHECK(device.state.fault == Fault::stopped);
+}
+
+TEST_CASE("every fault has its words") {
+    for (std::size_t i = 0; i < fault_kinds; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            CHECK(std::string(name(static_cast<Fault>(i))) != name(static_cast<Fault>(j)));
+}
