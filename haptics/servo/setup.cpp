@@ -50,12 +50,10 @@ Setup make_setup(const Description& d) {
         greatest / to_radians(2.5);  // wrench and wrists give 2.5° at the greatest torque
 
     setup.limits = d.limits;
-    const double margin = 0.8;  // of the device's range at the greatest torque asked for
-    if (d.limits.torque > 0.0)
-        setup.torque_scale = std::min(1.0, margin * d.limits.torque / greatest);
-    else
-        setup.torque_as_force = std::min(1.0 / d.handle_length, margin * d.limits.force / greatest);
-    setup.guiding.gain = square(std::min(3.0, 0.2 * d.limits.force)) / setup.guiding.stiffness;
+    setup.torque = force::make_torque_rendering(d.limits, d.greatest_torque, d.handle_length);
+    setup.guiding.greatest = std::min(3.0, 0.2 * d.limits.force);
+    setup.guiding.stiffness = std::min(setup.guiding.stiffness, d.limits.stiffness);
+    setup.guiding.torque = 0.1 * d.limits.torque;
     return setup;
 }
 

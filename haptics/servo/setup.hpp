@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "haptics/force/guiding.hpp"
-#include "haptics/force/output_stage.hpp"
+#include "haptics/force/output_limits.hpp"
+#include "haptics/force/torque_rendering.hpp"
 #include "haptics/joint/design.hpp"
 #include "haptics/joint/group.hpp"
 
@@ -41,8 +42,7 @@ struct Setup {
     double finger_force = 65.0;      // N across the flats at which fingertips slip on the nut
     double hold_stiffness = 1000.0;  // N/m, engaged tool against the nut's centre
     double hold_torsion = 5.0;       // N·m/rad, against tilting
-    double torque_scale = 1.0;       // device torque / true torque
-    double torque_as_force = 0.0;    // N at the grip per N·m, for devices without torque
+    force::TorqueRendering torque;
     force::Guiding guiding;
     force::OutputLimits limits;
 

@@ -30,25 +30,59 @@ void let_slip(const Setup& setup, Engagement& e, double nut_angle) {
     e.hand_angle = nut_angle + std::clamp(e.hand_angle - nut_angle, -most, most);
 }
 
+double spring_energy(double stiffness, const Vec3& stretch) {
+    return 0.5 * stiffness * glm::dot(stretch, stretch);
+}
+
 // What the hand feels while it holds a nut: the joint about the bolt's axis, the nut's place in the rest.
-force::OutputCommand held(const Setup& setup, const State& state, const ToolPose& tool) {
+force::Wanted held(const Setup& setup, State& state, const ToolPose& tool, bool held_before) {
     const auto i = static_cast<std::size_t>(state.engagement.joint);
     const NutPlace& nut = setup.nuts[i];
     const double torque = state.joints[i].torque;
-    force::OutputCommand command;
     const Vec3 target = nut_centre(nut, state.joints[i].nut.angle) + state.engagement.held_at;
-    command.force = setup.hold_stiffness * (target - tool.position);
-    // Tightening turns about −axis; the nut's answer is about +axis.
-    command.torque = nut.axis * (torque * setup.torque_scale);
-    command.force += glm::cross(nut.axis, tool.handle) * (torque * setup.torque_as_force);
-    if (state.engagement.grip == Grip::wrench) {
+    force::Wanted wanted;
+    wanted.command = force::render_torque(setup.torque, torque, nut.axis, tool.handle);
+    wanted.command.force += setup.hold_stiffness * (target - tool.position);
+    const double stiffness =
+        state.engagement.grip == Grip::wrench ? setup.wrench.stiffness : setup.finger_stiffness;
+    wanted.stored = force::stored_torque(setup.torque, torque, stiffness, setup.wrench.handle_length);
+    const double hold = spring_energy(setup.hold_stiffness, target - tool.position);
+    wanted.stored += hold;
+    // The place that it is held at moves with the nut, and to its middle: that is no work of the hand.
+    wanted.granted =
+        hold - spring_energy(setup.hold_stiffness, (held_before ? state.drawn_to : target) - tool.position);
+    state.drawn_to = target;
+    if (state.engagement.grip == Grip::wrench && setup.limits.torque > 0.0) {
         const Vec3 square_to = glm::dot(tool.normal, nut.axis) < 0.0 ? -nut.axis : nut.axis;
         // The joint's torque goes first; keeping the wrench square takes what range is left.
-        const double room = std::max(0.0, setup.limits.torque - std::abs(torque * setup.torque_scale));
-        const Vec3 torsion = setup.hold_torsion * glm::cross(tool.normal, square_to);
-        command.torque += torsion * std::min(1.0, room / std::max(glm::length(torsion), 1e-9));
+        const double room = std::max(0.0, setup.limits.torque - std::abs(torque * setup.torque.scale));
+        const Vec3 torsion = force::at_most(setup.hold_torsion * glm::cross(tool.normal, square_to), room);
+        wanted.command.torque += torsion;
+        wanted.stored += 0.5 * glm::dot(torsion, torsion) / setup.hold_torsion;
     }
-    return command;
+    return wanted;
+}
+
+// The tool on its way to a nut.
+force::Wanted led(const Setup& setup, State& state, const ToolPose& tool, int joint, force::Free free) {
+    force::GuideGoal goal;
+    const auto i = static_cast<std::size_t>(joint);
+    if (joint >= 0 && i < setup.nuts.size()) {
+        const NutPlace& nut = setup.nuts[i];
+        const double angle = state.joints[i].nut.angle;
+        goal.id = joint;
+        goal.target.point = nut_centre(nut, angle);
+        goal.target.axis = nut.axis;
+        // Half a nut and the bolt's end above it, and a corner's radius: what is its own.
+        goal.target.shell = 1.2 * std::max(nut.height, nut.across_flats);
+        // A tightening turn is one about -axis.
+        goal.hexagon = {nut.axis, std::cos(angle) * nut.e1 - std::sin(angle) * nut.e2,
+                        std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};
+    }
+    const Vec3 across = glm::cross(tool.normal, tool.handle);
+    const Vec3 jaw =
+        std::cos(setup.wrench.head_angle) * tool.handle + std::sin(setup.wrench.head_angle) * across;
+    return force::guide(setup.guiding, state.guide, {tool.position, jaw, tool.normal}, goal, free, setup.dt);
 }
 
 }  // namespace
@@ -60,36 +94,48 @@ State initial_state(const Setup& setup) {
 }
 
 Output tick(const Setup& setup, State& state, const Input& input) {
+    return tick(setup, state, input, [](const Vec3&, const Vec3&) { return true; });
+}
+
+Output tick(const Setup& setup, State& state, const Input& input, force::Free free) {
     const FlushDenormals flush;
     const ToolPose tool = pose_of(input.device);
     const Grip grip = input.enabled ? input.grip : Grip::none;
+    const int engaged_before = state.engagement.joint;
     update_engagement(setup, state.joints, tool, grip, state.engagement);
 
     const int engaged = state.engagement.joint;
     step_group(setup.group, state.joints, engaged, handle_of(setup, state.engagement), setup.dt);
 
     Output output;
-    force::OutputCommand wanted;
+    force::Wanted wanted;
+    // Engaged it has come there, and without a pose there is nobody to lead: what help there was fades.
+    const bool leads = engaged < 0 && tool.valid && input.enabled;
+    const force::Wanted help = led(setup, state, tool, leads ? input.guide : -1, free);
     if (engaged >= 0) {
         const auto i = static_cast<std::size_t>(engaged);
         const joint::JointState& joint = state.joints[i];
         if (state.engagement.grip == Grip::fingers) let_slip(setup, state.engagement, joint.nut.angle);
-        wanted = held(setup, state, tool);
+        wanted = held(setup, state, tool, engaged_before == engaged);
         output.joint = static_cast<std::int16_t>(engaged);
         output.stage = joint.stage;
         output.wrench_torque = joint.torque;
         output.nut_angle = joint.nut.angle;
         output.clamp = joint.clamp;
-    } else if (tool.valid && input.guide >= 0 && static_cast<std::size_t>(input.guide) < setup.nuts.size()) {
-        const auto i = static_cast<std::size_t>(input.guide);
-        wanted.force = force::guiding_force(setup.guiding, tool.position,
-                                            nut_centre(setup.nuts[i], state.joints[i].nut.angle));
+    }
+    if (tool.valid) {
+        wanted.command.force += help.command.force;
+        wanted.command.torque += help.command.torque;
+        wanted.stored += help.stored;
+        wanted.granted += help.granted;
     }
     force::PortInput port;
-    port.pose = {tool.position, tool.orientation};
+    // A device without torque has its force at the grip.
+    const double grip_at = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
+    port.pose = {tool.position + grip_at * tool.handle, tool.orientation};
     port.valid = tool.valid;
     port.enabled = input.enabled;
-    const force::OutputCommand limited = force::render(setup.limits, state.output, port, {wanted}, setup.dt);
+    const force::OutputCommand limited = force::render(setup.limits, state.output, port, wanted, setup.dt);
     output.force = limited.force;
     output.torque = limited.torque;
     ++state.tick;

@@ -3,13 +3,15 @@
 //
 //   1 hand pose → which nut is held        engagement.hpp
 //   2 nut and joint: angle, stage, torque   joint/group.hpp
-//   3 coupling forces, or the guiding force
-//   4 output stage: slew, clamp, dead-man   force/output_stage.hpp
+//   3 what the nut does to the hand, or the guiding force on its way there   force/guide.hpp
+//   4 output stage: watchdog, passivity, limits                              force/output_stage.hpp
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "haptics/force/guide.hpp"
+#include "haptics/force/output_stage.hpp"
 #include "haptics/servo/engagement.hpp"
 #include "haptics/servo/io.hpp"
 #include "haptics/servo/setup.hpp"
@@ -20,11 +22,15 @@ struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
     Engagement engagement;
+    Vec3 drawn_to{0.0};  // where an engaged tool is held, m
+    force::GuideState guide;
     force::OutputStage output;
 };
 
 State initial_state(const Setup& setup);
 
+// `free`: whether the straight way between two points is, for the guiding force; without it every way is.
 Output tick(const Setup& setup, State& state, const Input& input);
+Output tick(const Setup& setup, State& state, const Input& input, force::Free free);
 
 }  // namespace bolt::servo

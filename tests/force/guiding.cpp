@@ -1,16 +1,16 @@
 #include <doctest/doctest.h>
 
-#include <limits>
+#include <initializer_list>
 
+#include "engine/base/pose.hpp"
 #include "engine/base/random.hpp"
 #include "haptics/force/guiding.hpp"
-#include "haptics/force/limiter.hpp"
 
 using namespace bolt;
 using namespace bolt::force;
 
 TEST_CASE("guiding force: k/d outside d_min, K d inside, continuous between, never above the root of k K") {
-    const Guiding g{0.02, 800.0, 0.5};
+    const Guiding g{0.02, 800.0, 0.5, 10.0};
     const double d_min = std::sqrt(0.02 / 800.0);
     const auto at = [&](double d) { return guiding_force(g, Vec3(d, 0, 0), Vec3(0.0)).x; };
     CHECK(at(0.1) == doctest::Approx(-0.2));
@@ -24,56 +24,104 @@ TEST_CASE("guiding force: k/d outside d_min, K d inside, continuous between, nev
     CHECK(at(1.0) == 0.0);  // too far to be led
 }
 
-TEST_CASE("what leaves the output stage is inside the limits and the slew rate, whatever goes in") {
-    const OutputLimits limits;
-    Random random(4);
-    OutputState state;
-    constexpr double dt = 1e-3;
-    Vec3 last(0.0);
-    for (int i = 0; i < 100'000; ++i) {
-        OutputCommand wanted;
-        for (int k = 0; k < 3; ++k) {
-            wanted.force[k] = random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0));
-            wanted.torque[k] = random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0));
+TEST_CASE("capped: the spring up to the cap, the cap up to where k/d is less") {
+    const Guiding g{0.1, 500.0, 1.0, 3.0};
+    CHECK(guiding_pull(g, 0.003) == doctest::Approx(1.5));
+    CHECK(guiding_pull(g, 0.006) == doctest::Approx(3.0));
+    CHECK(guiding_pull(g, 0.02) == 3.0);
+    CHECK(guiding_pull(g, 0.1 / 3.0) == doctest::Approx(3.0));
+    CHECK(guiding_pull(g, 0.1) == doctest::Approx(1.0));
+}
+
+TEST_CASE("the potential's slope is the pull, from the target to where it ends") {
+    for (const double cap : {10.0, 3.0}) {
+        const Guiding g{0.02, 800.0, 0.5, cap};
+        CHECK(guiding_potential(g, 0.0) == 0.0);
+        for (double d = 1e-4; d < 1.5; d *= 1.05) {
+            CAPTURE(d);
+            const double h = 1e-6 * d;
+            const double slope = (guiding_potential(g, d + h) - guiding_potential(g, d - h)) / (2 * h);
+            CHECK(slope == doctest::Approx(guiding_pull(g, d)).epsilon(1e-4));
         }
-        if (random.chance(0.01)) wanted.force.x = std::numeric_limits<double>::quiet_NaN();
-        if (random.chance(0.01)) wanted.torque.y = std::numeric_limits<double>::infinity();
-        const bool enabled = random.chance(0.95);
-        const OutputCommand out = limit_output(limits, state, wanted, enabled, dt);
-        REQUIRE(glm::length(out.force) <= limits.force * (1 + 1e-12));
-        REQUIRE(glm::length(out.torque) <= limits.torque * (1 + 1e-12));
-        // While rendering the force slews; letting go may be faster, never slower.
-        const double most = std::max(limits.force_rate, limits.force / limits.release) * dt;
-        REQUIRE(glm::length(out.force - last) <= most * (1 + 1e-9));
-        last = out.force;
+        CHECK(guiding_potential(g, 7.0) == guiding_potential(g, 1.0));
     }
-    CHECK(state.faults > 0);
 }
 
-TEST_CASE("letting go of the dead-man: zero within 20 ms from full output, and it stays zero") {
-    const OutputLimits limits;
-    OutputState state;
-    const OutputCommand full{Vec3(100, 0, 0), Vec3(0, 100, 0)};
-    for (int i = 0; i < 2000; ++i) limit_output(limits, state, full, true, 1e-3);
-    CHECK(glm::length(state.force) == doctest::Approx(limits.force));
-    for (int i = 0; i < 20; ++i) limit_output(limits, state, full, false, 1e-3);
-    CHECK(glm::length(state.force) == doctest::Approx(0.0));
-    CHECK(glm::length(state.torque) == doctest::Approx(0.0));
-    for (int i = 0; i < 100; ++i) limit_output(limits, state, full, false, 1e-3);
-    CHECK(state.force == Vec3(0.0));
+namespace {
+
+Vec3 any_direction(Random& random) {
+    return glm::normalize(Vec3(random.normal(), random.normal(), random.normal() + 1e-6));
 }
 
-TEST_CASE("enabling ramps up: half the strength after half the time") {
-    const OutputLimits limits;
-    OutputState state;
-    for (int i = 0; i < 250; ++i) limit_output(limits, state, {Vec3(10, 0, 0), Vec3(0.0)}, true, 1e-3);
-    CHECK(state.force.x == doctest::Approx(5.0).epsilon(0.01));
+Hexagon any_hexagon(Random& random) {
+    Hexagon h;
+    h.axis = any_direction(random);
+    h.flat = glm::normalize(glm::cross(h.axis, any_direction(random)));
+    h.across = glm::cross(h.axis, h.flat);
+    return h;
 }
 
-TEST_CASE("a device without torque gets none") {
-    OutputLimits limits;
-    limits.torque = 0.0;
-    OutputState state;
-    for (int i = 0; i < 1000; ++i)
-        CHECK(limit_output(limits, state, {Vec3(0.0), Vec3(0, 1, 0)}, true, 1e-3).torque == Vec3(0.0));
+}  // namespace
+
+TEST_CASE("the aligning torque is the slope of its potential, whichever way the tool is held") {
+    Random random(6);
+    for (int i = 0; i < 200; ++i) {
+        const Hexagon hexagon = any_hexagon(random);
+        const Vec3 normal = any_direction(random);
+        const Vec3 jaw = glm::normalize(glm::cross(normal, any_direction(random)));
+        const Vec3 torque = aligning_torque(0.2, hexagon, jaw, normal);
+        for (int k = 0; k < 3; ++k) {
+            Vec3 turn(0.0);
+            turn[k] = 1e-6;
+            const Quat there = rotation(turn), back = rotation(-turn);
+            const double slope = (aligning_potential(0.2, hexagon, there * jaw, there * normal) -
+                                  aligning_potential(0.2, hexagon, back * jaw, back * normal)) /
+                                 2e-6;
+            REQUIRE(torque[k] == doctest::Approx(-slope).epsilon(1e-5).scale(0.1));
+        }
+        REQUIRE(glm::length(torque) <= 2.0 * 0.2);
+    }
+}
+
+TEST_CASE(
+    "a jaw is turned to the nearest of six flats, upright and flipped, with 6 N m/rad a N m of greatest") {
+    const Hexagon h;  // axis y, flats along x
+    for (const double side : {1.0, -1.0}) {
+        const Vec3 normal = side * h.axis;
+        for (int flat = 0; flat < 6; ++flat) {
+            for (const double off : {-25.0, -10.0, -1.0, 0.0, 1.0, 10.0, 25.0}) {
+                const Quat turned = glm::angleAxis(to_radians(60.0 * flat + off), h.axis);
+                const Vec3 torque = aligning_torque(0.2, h, turned * h.flat, normal);
+                CHECK(torque.y ==
+                      doctest::Approx(-0.2 * std::sin(6.0 * to_radians(off))).scale(1.0).epsilon(1e-9));
+                CHECK(std::hypot(torque.x, torque.z) < 1e-12);
+            }
+        }
+    }
+}
+
+TEST_CASE("a tilted tool is turned square by the shorter way; flat on its edge neither way") {
+    const Hexagon h;
+    const auto tilt = [&](double degrees) {
+        const Quat q = glm::angleAxis(to_radians(degrees), h.flat);
+        return aligning_torque(0.2, h, h.flat, q * h.axis).x;
+    };
+    for (const double degrees : {10.0, 45.0, 80.0}) {
+        CHECK(tilt(degrees) < 0.0);
+        CHECK(tilt(-degrees) == doctest::Approx(-tilt(degrees)));
+        CHECK(tilt(180.0 - degrees) == doctest::Approx(-tilt(degrees)));
+    }
+    CHECK(std::abs(tilt(90.0)) < 1e-12);
+    CHECK(std::abs(tilt(0.0)) < 1e-12);
+}
+
+TEST_CASE("nothing jumps where the nearest flat or side changes") {
+    const Hexagon h;
+    Vec3 last(0.0);
+    for (int i = 0; i <= 36'000; ++i) {
+        const Quat q = glm::angleAxis(to_radians(0.01 * i), glm::normalize(Vec3(1, 2, 3)));
+        const Vec3 torque = aligning_torque(0.2, h, q * h.flat, q * h.axis);
+        if (i > 0) REQUIRE(glm::length(torque - last) < 10.0 * 0.2 * to_radians(0.01));
+        last = torque;
+    }
 }

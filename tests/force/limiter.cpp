@@ -7,6 +7,8 @@
 #include <initializer_list>
 #include <limits>
 
+#include "engine/base/random.hpp"
+
 using namespace bolt;
 using namespace bolt::force;
 
@@ -102,4 +104,57 @@ TEST_CASE("what is not finite in the state itself is cleared and does not stay")
             }
         }
     }
+}
+
+TEST_CASE("what leaves the output stage is inside the limits and the slew rate, whatever goes in") {
+    const OutputLimits limits;
+    Random random(4);
+    OutputState state;
+    Vec3 last(0.0);
+    for (int i = 0; i < 100'000; ++i) {
+        OutputCommand wanted;
+        for (int k = 0; k < 3; ++k) {
+            wanted.force[k] = random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0));
+            wanted.torque[k] = random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0));
+        }
+        if (random.chance(0.01)) wanted.force.x = std::numeric_limits<double>::quiet_NaN();
+        if (random.chance(0.01)) wanted.torque.y = std::numeric_limits<double>::infinity();
+        const bool enabled = random.chance(0.95);
+        const OutputCommand out = limit_output(limits, state, wanted, enabled, dt);
+        REQUIRE(glm::length(out.force) <= limits.force * (1 + 1e-12));
+        REQUIRE(glm::length(out.torque) <= limits.torque * (1 + 1e-12));
+        // While rendering the force slews; letting go may be faster, never slower.
+        const double most = std::max(limits.force_rate, limits.force / limits.release) * dt;
+        REQUIRE(glm::length(out.force - last) <= most * (1 + 1e-9));
+        last = out.force;
+    }
+    CHECK(state.faults > 0);
+}
+
+TEST_CASE("letting go of the dead-man: zero within 20 ms from full output, and it stays zero") {
+    const OutputLimits limits;
+    OutputState state;
+    const OutputCommand full{Vec3(100, 0, 0), Vec3(0, 100, 0)};
+    for (int i = 0; i < 2000; ++i) limit_output(limits, state, full, true, 1e-3);
+    CHECK(glm::length(state.force) == doctest::Approx(limits.force));
+    for (int i = 0; i < 20; ++i) limit_output(limits, state, full, false, 1e-3);
+    CHECK(glm::length(state.force) == doctest::Approx(0.0));
+    CHECK(glm::length(state.torque) == doctest::Approx(0.0));
+    for (int i = 0; i < 100; ++i) limit_output(limits, state, full, false, 1e-3);
+    CHECK(state.force == Vec3(0.0));
+}
+
+TEST_CASE("enabling ramps up: half the strength after half the time") {
+    const OutputLimits limits;
+    OutputState state;
+    for (int i = 0; i < 250; ++i) limit_output(limits, state, {Vec3(10, 0, 0), Vec3(0.0)}, true, 1e-3);
+    CHECK(state.force.x == doctest::Approx(5.0).epsilon(0.01));
+}
+
+TEST_CASE("a device without torque gets none") {
+    OutputLimits limits;
+    limits.torque = 0.0;
+    OutputState state;
+    for (int i = 0; i < 1000; ++i)
+        CHECK(limit_output(limits, state, {Vec3(0.0), Vec3(0, 1, 0)}, true, 1e-3).torque == Vec3(0.0));
 }

@@ -117,9 +117,9 @@ TEST_CASE(
         if (output.wrench_torque < 150.0) angle += to_radians(0.05);
     }
     REQUIRE(output.wrench_torque > 140.0);
-    CHECK(output.torque.y == doctest::Approx(output.wrench_torque * setup.torque_scale).epsilon(0.02));
+    CHECK(output.torque.y == doctest::Approx(output.wrench_torque * setup.torque.scale).epsilon(0.02));
     CHECK(output.torque.y < setup.limits.torque);
-    CHECK(setup.torque_scale * 210.0 == doctest::Approx(0.8 * setup.limits.torque));
+    CHECK(setup.torque.scale * 210.0 == doctest::Approx(0.8 * setup.limits.torque));
 }
 
 TEST_CASE("a device without torque feels it as a force across the handle, against the pull") {
@@ -139,7 +139,7 @@ TEST_CASE("a device without torque feels it as a force across the handle, agains
     const ToolPose tool = pose_of(test::tool_at(nut, Vec3(0.0), angle));
     const Vec3 pull = glm::cross(-nut.axis, tool.handle);  // where the grip goes when tightening
     CHECK(glm::dot(output.force, pull) ==
-          doctest::Approx(-output.wrench_torque * setup.torque_as_force).epsilon(0.05));
+          doctest::Approx(-output.wrench_torque * setup.torque.as_force).epsilon(0.05));
     CHECK(glm::length(output.torque) == 0.0);
 }
 

@@ -1,0 +1,287 @@
+// Leading a hand to a nut: round what is in the way, without a jump, and not at all where there is no way.
+#include "haptics/force/guide.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/base/random.hpp"
+#include "haptics/force/output_stage.hpp"
+#include "tests/support/forbidden.hpp"
+#include "tests/support/simulated_arm.hpp"
+
+using namespace bolt;
+using namespace bolt::force;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+// A box in the way, as the segments see it (slabs; Kay and Kajiya's test).
+struct Box {
+    Vec3 low, high;
+    [[nodiscard]] bool inside(const Vec3& p) const {
+        return p.x > low.x && p.x < high.x && p.y > low.y && p.y < high.y && p.z > low.z && p.z < high.z;
+    }
+    [[nodiscard]] bool crosses(const Vec3& from, const Vec3& to) const {
+        double begin = 0.0, end = 1.0;
+        const Vec3 way = to - from;
+        for (int k = 0; k < 3; ++k) {
+            if (std::abs(way[k]) < 1e-15) {
+                if (from[k] <= low[k] || from[k] >= high[k]) return false;
+                continue;
+            }
+            const double a = (low[k] - from[k]) / way[k], b = (high[k] - from[k]) / way[k];
+            begin = std::max(begin, std::min(a, b));
+            end = std::min(end, std::max(a, b));
+        }
+        return begin < end;
+    }
+};
+
+bool all_free(const Vec3&, const Vec3&) { return true; }
+
+// A wall between the hand (x < 0) and the nut (x > 0) that one has to go over.
+const Box wall{Vec3(-0.05, -1.0, -1.0), Vec3(0.05, 0.25, 1.0)};
+const auto over_the_wall = [](const Vec3& a, const Vec3& b) { return !wall.crosses(a, b); };
+
+GuideGoal nut_at(const Vec3& point, int id = 0) {
+    GuideGoal goal;
+    goal.id = id;
+    goal.target.point = point;
+    return goal;
+}
+
+GuidedTool tool_at(const Vec3& position) {
+    GuidedTool tool;
+    tool.position = position;
+    tool.normal = Vec3(0, 1, 0);
+    return tool;
+}
+
+// A hand that goes where it is pulled, 0.2 m/s at most.
+void follow(Vec3& hand, const Vec3& force) {
+    const double pull = glm::length(force);
+    if (pull > 0.0) hand += force * (std::min(0.2, 0.5 * pull) * dt / pull);
+}
+
+}  // namespace
+
+TEST_CASE("a free way is the straight one; one behind a wall goes over it, and is free piece by piece") {
+    const GuideTarget target = nut_at(Vec3(0.2, 0, 0)).target;
+    const GuidePath straight = plan_path(Vec3(-0.2, 0.1, 0), target, all_free);
+    CHECK(straight.count == 2);
+    const GuidePath path = plan_path(Vec3(-0.2, 0, 0), target, over_the_wall);
+    REQUIRE(path.count > 2);
+    CHECK(path.points[0] == Vec3(-0.2, 0, 0));
+    CHECK(path.points[path.count - 1] == target.point);
+    for (std::size_t i = 1; i < path.count; ++i)
+        CHECK_FALSE(wall.crosses(path.points[i - 1], path.points[i]));
+    CHECK(length(path) < 1.3);
+    for (double s = 0.0; s < length(path); s += 1e-3) REQUIRE_FALSE(wall.inside(point_at(path, s)));
+    CHECK(point_at(path, 99.0) == target.point);
+    CHECK(point_at(path, -1.0) == path.points[0]);
+}
+
+TEST_CASE("no way: none is planned; the question is asked a bounded number of times") {
+    int asked = 0;
+    const auto closed = [&](const Vec3&, const Vec3&) {
+        ++asked;
+        return false;
+    };
+    CHECK(plan_path(Vec3(-0.2, 0, 0), nut_at(Vec3(0.2, 0, 0)).target, closed).count == 0);
+    // The worst: only what goes into the very end is closed.
+    int worst = 0;
+    const auto nearly = [&](const Vec3& from, const Vec3&) {
+        ++worst;
+        return glm::length(from - Vec3(0.2, 0.08, 0)) > 1e-9 || worst < 3;
+    };
+    plan_path(Vec3(-0.2, 0, 0), nut_at(Vec3(0.2, 0, 0)).target, nearly);
+    CHECK(asked <= 100);
+    CHECK(worst <= 100);
+}
+
+TEST_CASE("the target's own nut is no obstacle, what is before and behind it is") {
+    const Box nut{Vec3(-0.012, -0.007, -0.012), Vec3(0.012, 0.02, 0.012)};
+    const Box behind{Vec3(0.05, -0.1, -0.1), Vec3(0.06, 0.1, 0.1)};
+    const auto free = [&](const Vec3& a, const Vec3& b) {
+        return !nut.crosses(a, b) && !behind.crosses(a, b);
+    };
+    const GuideTarget target;
+    const Vec3 hand(-0.2, 0.05, 0.0);
+    CHECK_FALSE(free(hand, Vec3(0.0)));
+    CHECK(free_to(hand, Vec3(0.0), target, free));
+    CHECK(free_to(Vec3(0.01, 0, 0), Vec3(0.0), target, free));       // from inside it
+    CHECK_FALSE(free_to(hand, Vec3(0.1, 0.0, 0.0), target, free));   // through it and on to what is behind
+    CHECK_FALSE(free_to(Vec3(0.2, 0, 0), Vec3(0.0), target, free));  // from behind that
+    CHECK(free_to(hand, Vec3(-0.1, 0.0, 0.0), target, free));        // before it
+    CHECK(free_to(Vec3(0.0), Vec3(0.04, 0, 0), target, free));       // out of it
+}
+
+TEST_CASE("over a wall: the hand gets there, is never pulled against it, and no force jumps") {
+    const Guiding guiding;
+    GuideState state;
+    Vec3 hand(-0.2, 0, 0), last(0.0);
+    const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+    int arrived = 0;
+    for (int i = 0; i < 20'000 && arrived < 500; ++i) {
+        const Wanted wanted = guide(guiding, state, tool_at(hand), goal, over_the_wall, dt);
+        const Vec3& force = wanted.command.force;
+        REQUIRE(glm::length(force) <= 3.0 + 1e-9);
+        REQUIRE(glm::length(force - last) <= 0.35);
+        last = force;
+        // Where it pulls is seen from where the tool is: along the force the wall is not met before that.
+        if (glm::length(force) > 0.0)
+            REQUIRE_FALSE(wall.crosses(
+                hand, hand + glm::normalize(force) * std::min(0.01, glm::length(goal.target.point - hand))));
+        follow(hand, force);
+        REQUIRE_FALSE(wall.inside(hand));
+        arrived += glm::length(hand - goal.target.point) < 2e-3;
+    }
+    CHECK(arrived == 500);
+    CHECK(glm::length(last) < 1.0);  // on the spring's bottom
+}
+
+TEST_CASE(
+    "in the open the force is k over the distance, full after a quarter of a second, aligned when near") {
+    const Guiding guiding;
+    GuideState state;
+    const GuideGoal goal = nut_at(Vec3(0.0));
+    const Vec3 hand(0.3, 0.1, 0.0);
+    Wanted wanted;
+    for (int i = 1; i <= 250; ++i) {
+        wanted = guide(guiding, state, tool_at(hand), goal, all_free, dt);
+        REQUIRE(state.strength == doctest::Approx(i / 250.0));
+    }
+    CHECK(glm::length(wanted.command.force - guiding_force(guiding, hand, Vec3(0.0))) < 1e-12);
+    CHECK(wanted.command.torque == Vec3(0.0));
+    GuidedTool near = tool_at(Vec3(0.05, 0, 0));
+    near.jaw = glm::normalize(Vec3(1.0, 0.0, -0.1));
+    for (int i = 0; i < 250; ++i) wanted = guide(guiding, state, near, goal, all_free, dt);
+    CHECK(glm::length(wanted.command.torque -
+                      aligning_torque(guiding.torque, goal.hexagon, near.jaw, near.normal)) < 1e-12);
+    CHECK(wanted.command.torque.y < 0.0);
+}
+
+TEST_CASE("half the help is half the force; none is none; engaged it fades in a quarter of a second") {
+    Guiding guiding;
+    guiding.strength = 0.5;
+    GuideState state;
+    const GuideGoal goal = nut_at(Vec3(0.0));
+    const GuidedTool tool = tool_at(Vec3(0.1, 0, 0));
+    Wanted wanted;
+    for (int i = 0; i < 500; ++i) wanted = guide(guiding, state, tool, goal, all_free, dt);
+    CHECK(wanted.command.force.x == doctest::Approx(-0.5 * guiding.gain / 0.1));
+    double last = glm::length(wanted.command.force);
+    for (int i = 0; i < 125; ++i) {
+        wanted = guide(guiding, state, tool, {}, all_free, dt);
+        REQUIRE(glm::length(wanted.command.force) < last);
+        last = glm::length(wanted.command.force);
+    }
+    CHECK(wanted.command.force == Vec3(0.0));
+    guiding.strength = 0.0;
+    for (int i = 0; i < 500; ++i)
+        REQUIRE(guide(guiding, state, tool, goal, all_free, dt).command.force == Vec3(0.0));
+}
+
+TEST_CASE("another target: the old force fades, then the new one comes; the force never points between") {
+    const Guiding guiding;
+    GuideState state;
+    const GuidedTool tool = tool_at(Vec3(0.0));
+    const GuideGoal left = nut_at(Vec3(-0.1, 0, 0), 0), right = nut_at(Vec3(0.1, 0, 0), 1);
+    for (int i = 0; i < 500; ++i) guide(guiding, state, tool, left, all_free, dt);
+    double last = -guiding.gain / 0.1;
+    bool there = false;
+    for (int i = 0; i < 600; ++i) {
+        const double x = guide(guiding, state, tool, right, all_free, dt).command.force.x;
+        REQUIRE(x >= last);
+        REQUIRE(x - last < 0.0041);
+        last = x;
+        there = there || x > 0.0;
+    }
+    CHECK(there);
+    CHECK(last == doctest::Approx(guiding.gain / 0.1));
+}
+
+TEST_CASE("something comes between hand and target: the force fades, and leads round it where that can be") {
+    const Guiding guiding;
+    GuideState state;
+    const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+    const GuidedTool tool = tool_at(Vec3(-0.2, 0, 0));
+    bool closed = false;
+    const auto free = [&](const Vec3& a, const Vec3& b) { return !closed || over_the_wall(a, b); };
+    Vec3 force(0.0);
+    for (int i = 0; i < 500; ++i) force = guide(guiding, state, tool, goal, free, dt).command.force;
+    CHECK(force.x > 0.0);
+    CHECK(std::abs(force.y) < 1e-12);
+    closed = true;
+    for (int i = 0; i < 1500; ++i) {
+        const Vec3 now = guide(guiding, state, tool, goal, free, dt).command.force;
+        REQUIRE(glm::length(now - force) < 0.005);
+        force = now;
+    }
+    CHECK(force.y > 0.0);  // over it
+    const auto walled_in = [](const Vec3&, const Vec3&) { return false; };
+    for (int i = 0; i < 500; ++i) force = guide(guiding, state, tool, goal, walled_in, dt).command.force;
+    CHECK(force == Vec3(0.0));
+}
+
+TEST_CASE("a nut that comes down as it turns is followed without a step") {
+    const Guiding guiding;
+    GuideState state;
+    GuideGoal goal = nut_at(Vec3(0.0));
+    const GuidedTool tool = tool_at(Vec3(0.02, 0.01, 0));
+    Vec3 last(0.0);
+    for (int i = 0; i < 1000; ++i) {
+        goal.target.point.y -= 2e-6;
+        const Vec3 force = guide(guiding, state, tool, goal, all_free, dt).command.force;
+        REQUIRE(glm::length(force - last) < 0.0125);
+        last = force;
+    }
+    CHECK(glm::length(last - guiding_force(guiding, tool.position, goal.target.point)) < 1e-12);
+}
+
+TEST_CASE("help is not taken for energy made of nothing: led and aligned, the controller hardly acts") {
+    // Arms that mean to stand where they are and give way to what leads them.
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        CAPTURE(seed);
+        Random random(seed, 9);
+        test::Arm arm;
+        arm.parameters = test::random_arm(random);
+        arm.parameters.stiffness = arm.parameters.angular_stiffness = 0.0;  // it lets itself be led
+        arm.parameters.damping = std::min(arm.parameters.damping, 3.0);
+        arm.parameters.friction = arm.parameters.angular_friction = 0.0;
+        arm.pose.position = Vec3(-0.2, 0.02 * random.normal(), 0.05 * random.normal());
+        arm.pose.orientation = rotation(Vec3(0.3 * random.normal(), 0.2, 0.3 * random.normal()));
+        const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+        const Guiding guiding;
+        GuideState state;
+        OutputStage stage;
+        const OutputLimits limits;
+        for (int i = 0; i < 30'000; ++i) {
+            PortInput port;
+            port.pose = test::sample(arm);
+            port.enabled = true;
+            const GuidedTool tool{port.pose.position, port.pose.orientation * Vec3(1, 0, 0),
+                                  port.pose.orientation * Vec3(0, 1, 0)};
+            const Wanted wanted = guide(guiding, state, tool, goal, over_the_wall, dt);
+            test::step(arm, render(limits, stage, port, wanted, dt), dt);
+            REQUIRE(stage.watchdog.fault == Fault::none);
+        }
+        CHECK(glm::length(arm.pose.position - goal.target.point) < 1e-3);
+        CHECK(glm::length(arm.velocity) < 5e-3);
+        CHECK(arm.energy_out > 0.3);  // that is what help is
+        CHECK(stage.passivity.removed < 0.15 * arm.energy_out);
+    }
+}
+
+TEST_CASE("leading allocates nothing, planning included") {
+    const Guiding guiding;
+    const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+    CHECK(test::forbidden_in([&] {
+              GuideState state;
+              Vec3 hand(-0.2, 0, 0);
+              for (int i = 0; i < 3000; ++i)
+                  follow(hand, guide(guiding, state, tool_at(hand), goal, over_the_wall, dt).command.force);
+          }).all() == 0);
+}
