@@ -1,0 +1,72 @@
+// A surface that can be touched: triangles in float, with what tells inside from outside and what is sharp.
+// Inside is told by angle-weighted pseudonormals (Bærentzen and Aanæs, "Signed distance computation using the
+// angle weighted pseudonormal", IEEE TVCG 11(3), 2005), which are right for closed surfaces only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "engine/base/pose.hpp"
+#include "engine/base/result.hpp"
+
+namespace bolt::contact {
+
+// An edge whose faces' normals are further apart than `sharp_angle`, or one that has not exactly two faces.
+struct SharpEdge {
+    std::array<std::uint32_t, 2> vertices;
+    // One of its faces.
+    std::uint32_t triangle;
+    // Unit, of the two faces; equal where there is one face only.
+    std::array<glm::vec3, 2> normals;
+    // Unit, in each face and away from the edge.
+    std::array<glm::vec3, 2> inward;
+    // Sticks out. Only such edges can be touched by other edges.
+    bool convex;
+};
+
+struct ContactMesh {
+    std::vector<glm::vec3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+
+    // Pseudonormals; only the faces' have unit length. Edge i of a triangle goes from its vertex i to the
+    // next.
+    std::vector<glm::vec3> face_normals;
+    std::vector<std::array<glm::vec3, 3>> edge_normals;
+    std::vector<glm::vec3> vertex_normals;
+
+    std::vector<SharpEdge> sharp_edges;
+
+    // What was wrong with the triangles given. Where edges are open, the side of a point near them is a
+    // guess.
+    std::size_t without_area = 0;  // left out
+    std::size_t open_edges = 0;    // of one triangle only, or of two that face opposite ways
+    std::size_t forked_edges = 0;  // of more than two triangles
+
+    [[nodiscard]] bool watertight() const { return open_edges == 0 && forked_edges == 0; }
+};
+
+// Below this angle an edge counts as part of a round surface. A facet's edge that is touched between two
+// sample points a millimetre away goes unseen by at most 1 mm × tan(sharp_angle / 2), less than 0.1 mm.
+inline constexpr double sharp_angle = 10.0 * pi / 180.0;
+
+// Three indices a triangle, counterclockwise seen from outside. Vertices in one place become one. An error:
+// no triangle that has an area, an index out of range, a coordinate that is not finite or beyond 1 km.
+Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
+                                      std::span<const std::uint32_t> indices);
+
+// The same mesh somewhere else.
+ContactMesh moved(ContactMesh mesh, const Pose& pose);
+
+// `mesh` as a further, unconnected part of `whole`.
+void append(ContactMesh& whole, const ContactMesh& mesh);
+
+inline std::array<Vec3, 3> corners(const ContactMesh& mesh, std::size_t triangle) {
+    const auto& t = mesh.triangles[triangle];
+    return {Vec3(mesh.vertices[t[0]]), Vec3(mesh.vertices[t[1]]), Vec3(mesh.vertices[t[2]])};
+}
+
+}  // namespace bolt::contact

@@ -1,0 +1,219 @@
+#include "haptics/contact/samples.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <unordered_map>
+
+#include "engine/base/random.hpp"
+
+namespace bolt::contact {
+namespace {
+
+// Edges that follow each other within this angle go on straight; a corner that is missed between them sticks
+// out by a quarter of it times the length of a piece at most.
+const double straight = std::cos(to_radians(8.0));
+
+// The convex edges as a graph: which of them meet at each vertex.
+struct Ridges {
+    const ContactMesh& mesh;
+    std::vector<std::vector<std::uint32_t>> at_vertex;
+    std::vector<bool> done;
+
+    explicit Ridges(const Solid& solid)
+        : mesh(solid.mesh), at_vertex(mesh.vertices.size()), done(mesh.sharp_edges.size(), true) {
+        for (const std::uint32_t e : solid.ridges) {
+            done[e] = false;
+            for (const std::uint32_t v : mesh.sharp_edges[e].vertices) at_vertex[v].push_back(e);
+        }
+    }
+    [[nodiscard]] std::uint32_t other_end(std::uint32_t edge, std::uint32_t vertex) const {
+        const auto& ends = mesh.sharp_edges[edge].vertices;
+        return ends[0] == vertex ? ends[1] : ends[0];
+    }
+    [[nodiscard]] Vec3 leaving(std::uint32_t edge, std::uint32_t vertex) const {
+        return glm::normalize(Vec3(mesh.vertices[other_end(edge, vertex)]) - Vec3(mesh.vertices[vertex]));
+    }
+    [[nodiscard]] bool is_corner(std::uint32_t vertex) const {
+        const auto& edges = at_vertex[vertex];
+        if (edges.size() != 2) return !edges.empty();
+        return glm::dot(leaving(edges[0], vertex), leaving(edges[1], vertex)) > -straight;
+    }
+};
+
+void add_piece(std::vector<Sample>& out, const Vec3& a, const Vec3& b, const SharpEdge& edge) {
+    Sample sample;
+    sample.at = 0.5 * (a + b);
+    sample.half = 0.5 * (b - a);
+    sample.half_length = glm::length(sample.half);
+    sample.triangle = edge.triangle;
+    sample.inward = {Vec3(edge.inward[0]), Vec3(edge.inward[1])};
+    out.push_back(sample);
+}
+
+// One edge in equal pieces, or several short ones of a chain in one.
+void follow(Ridges& ridges, std::uint32_t edge, std::uint32_t from, double longest,
+            std::vector<Sample>& out) {
+    const ContactMesh& mesh = ridges.mesh;
+    Vec3 begin(mesh.vertices[from]);
+    Vec3 end = begin;
+    std::uint32_t longest_edge = edge;
+    double longest_part = 0.0;
+    const auto flush = [&] {
+        const double length = glm::length(end - begin);
+        if (length <= 0.0) return;
+        const int pieces = std::max(1, static_cast<int>(std::ceil(length / longest)));
+        for (int i = 0; i < pieces; ++i)
+            add_piece(out, glm::mix(begin, end, double(i) / pieces),
+                      glm::mix(begin, end, double(i + 1) / pieces), mesh.sharp_edges[longest_edge]);
+        begin = end;
+        longest_part = 0.0;
+    };
+    for (;;) {
+        ridges.done[edge] = true;
+        const std::uint32_t to = ridges.other_end(edge, from);
+        const Vec3 next(mesh.vertices[to]);
+        const double length = glm::length(next - end);
+        const bool bends =
+            end != begin && glm::dot(glm::normalize(end - begin), glm::normalize(next - end)) < straight;
+        if (bends || glm::length(next - begin) > longest) flush();
+        end = next;
+        if (length > longest_part) {
+            longest_part = length;
+            longest_edge = edge;
+        }
+        from = to;
+        if (ridges.is_corner(to)) break;
+        const auto& edges = ridges.at_vertex[to];
+        const std::uint32_t following = edges[0] == edge ? edges[1] : edges[0];
+        if (ridges.done[following]) break;
+        edge = following;
+    }
+    flush();
+}
+
+std::vector<Sample> edges_and_corners(const Solid& solid, double longest) {
+    Ridges ridges(solid);
+    std::vector<Sample> out;
+    for (std::uint32_t v = 0; v < solid.mesh.vertices.size(); ++v) {
+        if (!ridges.is_corner(v)) continue;
+        out.push_back({.at = Vec3(solid.mesh.vertices[v]),
+                       .triangle = solid.mesh.sharp_edges[ridges.at_vertex[v][0]].triangle});
+        for (const std::uint32_t e : ridges.at_vertex[v])
+            if (!ridges.done[e]) follow(ridges, e, v, longest, out);
+    }
+    for (const std::uint32_t e : solid.ridges)  // what is left goes round without a corner
+        if (!ridges.done[e]) follow(ridges, e, solid.mesh.sharp_edges[e].vertices[0], longest, out);
+    return out;
+}
+
+// Points that keep their distance from each other: of many random ones each is taken that is not within
+// `spacing` of one taken before, and spacing shrinks until there are enough.
+class Spreading {
+  public:
+    Spreading(const ContactMesh& mesh, std::size_t count) {
+        std::vector<double> sums;
+        double area = 0.0;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const auto [a, b, c] = corners(mesh, t);
+            sums.push_back(area += 0.5 * glm::length(glm::cross(b - a, c - a)));
+        }
+        Random random(1);
+        for (std::size_t i = 0; i < 12 * count; ++i) {
+            const auto above = std::upper_bound(sums.begin(), sums.end(), random.uniform() * area);
+            const auto t =
+                std::min(mesh.triangles.size() - 1, static_cast<std::size_t>(above - sums.begin()));
+            const auto [a, b, c] = corners(mesh, t);
+            const double u = std::sqrt(random.uniform());
+            const double v = random.uniform();
+            offered_.push_back({.at = a * (1.0 - u) + b * (u * (1.0 - v)) + c * (u * v),
+                                .triangle = static_cast<std::uint32_t>(t)});
+        }
+        for (double spacing = std::sqrt(area / static_cast<double>(count)); taken_.size() < count;
+             spacing *= 0.9)
+            take(spacing, count);
+    }
+    [[nodiscard]] const std::vector<Sample>& taken() const { return taken_; }
+
+  private:
+    using Cell = std::array<std::int64_t, 3>;
+    struct CellHash {
+        std::size_t operator()(const Cell& c) const {
+            return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+        }
+    };
+    static Cell cell(const Vec3& p, double size) {
+        return {std::llround(p.x / size), std::llround(p.y / size), std::llround(p.z / size)};
+    }
+
+    void take(double spacing, std::size_t count) {
+        std::unordered_map<Cell, std::vector<Vec3>, CellHash> grid;
+        for (const Sample& s : taken_) grid[cell(s.at, spacing)].push_back(s.at);
+        for (const Sample& s : offered_) {
+            if (taken_.size() == count) return;
+            if (crowded(grid, s.at, spacing)) continue;
+            taken_.push_back(s);
+            grid[cell(s.at, spacing)].push_back(s.at);
+        }
+    }
+    template <class Grid>
+    static bool crowded(const Grid& grid, const Vec3& p, double spacing) {
+        const Cell middle = cell(p, spacing);
+        for (int i = 0; i < 27; ++i) {
+            const auto found =
+                grid.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});
+            if (found == grid.end()) continue;
+            for (const Vec3& other : found->second)
+                if (glm::dot(p - other, p - other) < spacing * spacing) return true;
+        }
+        return false;
+    }
+
+    std::vector<Sample> offered_, taken_;
+};
+
+// Halves along the longest side of their box, at a whole number of clusters, until one is left.
+void cluster(std::vector<Sample>& samples, std::size_t begin, std::size_t end, std::vector<Cluster>& out) {
+    if (begin == end) return;
+    Vec3 low(std::numeric_limits<double>::infinity());
+    Vec3 high = -low;
+    for (std::size_t i = begin; i < end; ++i) {
+        low = glm::min(low, samples[i].at - glm::abs(samples[i].half));
+        high = glm::max(high, samples[i].at + glm::abs(samples[i].half));
+    }
+    if (end - begin <= cluster_size) {
+        Cluster made{0.5 * (low + high), 0.0, 0.0, static_cast<std::uint32_t>(begin),
+                     static_cast<std::uint32_t>(end)};
+        for (std::size_t i = begin; i < end; ++i)
+            for (const Vec3& p : {samples[i].at - samples[i].half, samples[i].at + samples[i].half}) {
+                made.radius = std::max(made.radius, glm::length(p - made.middle));
+                made.reach = std::max(made.reach, glm::length(p));
+            }
+        out.push_back(made);
+        return;
+    }
+    const Vec3 size = high - low;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t clusters = (end - begin + cluster_size - 1) / cluster_size;
+    const std::size_t middle = begin + clusters / 2 * cluster_size;
+    std::stable_sort(samples.begin() + static_cast<std::ptrdiff_t>(begin),
+                     samples.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](const Sample& a, const Sample& b) { return a.at[axis] < b.at[axis]; });
+    cluster(samples, begin, middle, out);
+    cluster(samples, middle, end, out);
+}
+
+}  // namespace
+
+Samples make_samples(const Solid& solid, double longest_piece, std::size_t count) {
+    Samples made;
+    made.samples = edges_and_corners(solid, longest_piece);
+    if (made.samples.size() < count) {
+        const Spreading points(solid.mesh, count - made.samples.size());
+        made.samples.insert(made.samples.end(), points.taken().begin(), points.taken().end());
+    }
+    cluster(made.samples, 0, made.samples.size(), made.clusters);
+    return made;
+}
+
+}  // namespace bolt::contact

@@ -1,0 +1,95 @@
+// A contact mesh that can be asked, in its own frame: what of it is near a point or an edge, and what a line
+// meets. Embree finds the candidates in float, with a margin; every answer is computed in double. Asking
+// allocates nothing, and the answer does not depend on the order in which Embree comes along.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "haptics/contact/mesh.hpp"
+
+struct RTCSceneTy;
+
+namespace bolt::contact {
+
+struct SceneRelease {
+    void operator()(RTCSceneTy* scene) const;
+};
+using SceneHandle = std::unique_ptr<RTCSceneTy, SceneRelease>;
+
+struct Box {
+    Vec3 low{0.0}, high{0.0};
+};
+
+struct Solid {
+    ContactMesh mesh;
+    // Of every triangle: which of the closed surfaces that it was joined from.
+    std::vector<std::uint16_t> part;
+    // Indices of the sharp edges that are convex, in the order of `edge_scene`.
+    std::vector<std::uint32_t> ridges;
+    SceneHandle scene, edge_scene;
+    Box box;
+    Vec3 middle{0.0};     // of the box
+    double radius = 0.0;  // of the sphere about `middle` that holds all vertices
+    double reach = 0.0;   // the same about the origin
+};
+
+// Parts are joined in their order; they may touch, but not overlap: deep in one, the surface of another that
+// is inside too would be the nearest.
+Result<Solid> make_solid(std::span<const ContactMesh> parts);
+
+// A side of a solid near a point: a plane that keeps the point out.
+struct Side {
+    double distance = 0.0;  // m, signed: below 0 the point is inside
+    Vec3 point{0.0};        // on the surface
+    Vec3 normal{0.0};       // unit, outward
+    std::uint32_t triangle = 0;
+};
+
+inline constexpr double nothing_near = std::numeric_limits<double>::infinity();
+
+struct Near {
+    double distance = nothing_near;  // signed, of the nearest surface within the radius asked
+    std::size_t sides = 0;           // written
+    // No surface within the band is closer than this without being in one of the sides written; the band
+    // itself when there was room for all.
+    double complete = 0.0;
+};
+
+// What rises less than this above a side already written, within the band, gets no side of its own.
+inline constexpr double side_tolerance = 20e-6;
+inline constexpr std::size_t most_sides = 8;
+
+// The surface within `radius` of `point` (infinite: wherever it is), and the sides within `band` <= radius,
+// the nearest first. A point whose nearest surface is further than `radius` is told to be outside.
+Near near_point(const Solid& solid, const Vec3& point, double radius, double band, std::span<Side> sides);
+
+// A straight piece of a convex edge of another solid, in this solid's frame.
+struct EdgePiece {
+    Vec3 middle{0.0}, half{0.0};   // from middle - half to middle + half
+    std::array<Vec3, 2> inward{};  // as SharpEdge has them
+};
+
+struct Crossing {
+    double distance = 0.0;  // m, signed: below 0 the edges have passed through each other
+    Vec3 on_piece{0.0}, on_edge{0.0};
+    Vec3 normal{0.0};        // unit, away from the solid
+    std::uint32_t edge = 0;  // of the solid's mesh.sharp_edges
+};
+
+struct Crossings {
+    std::size_t count = 0;
+    double complete = 0.0;  // as in Near
+};
+
+// The convex edges that face the piece, edge to edge, within `band`; those nearest first, `crossings` full at
+// most.
+Crossings near_edges(const Solid& solid, const EdgePiece& piece, double band, std::span<Crossing> crossings);
+
+// Whether a surface lies between two points.
+bool blocked(const Solid& solid, const Vec3& from, const Vec3& to);
+
+}  // namespace bolt::contact

@@ -1,0 +1,23 @@
+// The tool as contact sees it: a solid in the tool's own frame, and where its surface touches first.
+#pragma once
+
+#include "haptics/contact/samples.hpp"
+
+namespace bolt::contact {
+
+struct ToolOptions {
+    std::size_t samples = 8000;   // at least; edges and corners come first and are all taken
+    double longest_piece = 3e-3;  // m, of an edge
+};
+
+struct ToolShape {
+    Solid solid;
+    Samples samples;
+    [[nodiscard]] double reach() const { return solid.reach; }  // m, of its furthest point from its origin
+};
+
+// `parts` lie in the tool's frame. An error: a part that is not watertight, for whether something is in the
+// tool must be known.
+Result<ToolShape> make_tool(std::span<const ContactMesh> parts, const ToolOptions& options = {});
+
+}  // namespace bolt::contact
