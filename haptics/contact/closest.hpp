@@ -55,19 +55,24 @@ struct OnSegments {
     bool inner = false;
 };
 
-inline OnSegments closest_inside(const Vec3& middle_a, const Vec3& half_a, const Vec3& middle_b,
-                                 const Vec3& half_b) {
+inline OnSegments closest_on_segments(const Vec3& middle_a, const Vec3& half_a, const Vec3& middle_b,
+                                      const Vec3& half_b) {
     const double aa = glm::dot(half_a, half_a);
     const double bb = glm::dot(half_b, half_b);
     const double ab = glm::dot(half_a, half_b);
     const double determinant = aa * bb - ab * ab;  // aa * bb * sin^2 of the angle between them
-    if (!(determinant > 1e-6 * aa * bb)) return {};
     const Vec3 between = middle_b - middle_a;
     const double a = glm::dot(half_a, between);
     const double b = glm::dot(half_b, between);
-    const double s = (a * bb - b * ab) / determinant;
-    const double t = (a * ab - b * aa) / determinant;
-    return {s, t, std::abs(s) <= 1.0 && std::abs(t) <= 1.0};
+    const bool crossed = determinant > 1e-6 * aa * bb;
+    const double s = crossed ? (a * bb - b * ab) / determinant : 0.0;
+    const double t = crossed ? (a * ab - b * aa) / determinant : 2.0;
+    if (std::abs(s) <= 1.0 && std::abs(t) <= 1.0) return {s, t, true};
+    // On the way to the other line's nearest, and back.
+    double on_a = std::clamp(s, -1.0, 1.0);
+    const double on_b = std::clamp((ab * on_a - b) / bb, -1.0, 1.0);
+    on_a = std::clamp((ab * on_b + a) / aa, -1.0, 1.0);
+    return {on_a, on_b, false};
 }
 
 }  // namespace bolt::contact

@@ -10,26 +10,21 @@ namespace {
 
 // A bound is proven this far beyond what is needed now, so that it lasts some ticks: further costs more to
 // ask.
-constexpr double cluster_lookahead = 4e-3;
-constexpr double sample_lookahead = 0.5e-3;
+constexpr double cluster_lookahead = 6e-3;
+constexpr double sample_lookahead = 2.5e-3;
+constexpr double edge_lookahead = 1.5e-3;
+// So many spent samples of a cluster are asked one by one, more only if the cluster as a whole is near.
+constexpr std::size_t few = 4;
 // More than the rounding of poses and distances.
 constexpr double rounding = 1e-9;
 constexpr double nothing_proven = -1e9;
 
 constexpr std::uint32_t of_obstacle = 0x80000000U;
 
-void make_bounds(Bounds& bounds, const Samples& samples) {
+void reset(Bounds& bounds, const Samples& samples) {
+    bounds.groups.assign(samples.groups.size(), nothing_proven);
     bounds.clusters.assign(samples.clusters.size(), nothing_proven);
-    bounds.samples.assign(samples.samples.size(), nothing_proven);
-}
-
-void forget(PairBounds& pair) {
-    pair.fresh = true;
-    pair.moved = pair.turned = 0.0;
-    for (Bounds* bounds : {&pair.of_tool, &pair.of_body}) {
-        std::fill(bounds->clusters.begin(), bounds->clusters.end(), nothing_proven);
-        std::fill(bounds->samples.begin(), bounds->samples.end(), nothing_proven);
-    }
+    bounds.samples.assign(samples.samples.size(), {nothing_proven, nothing_proven, nothing_near});
 }
 
 // Any point at r from the tool's origin has moved by no more than moved + turned × |r|.
@@ -69,94 +64,167 @@ struct Collected {
 };
 
 // Samples of one side against the surface of the other.
-struct Sweep {
-    const World& world;
-    const Body& body;
-    const Samples& samples;
-    const Solid& surface;
-    const Pose& to_surface;   // from the samples' frame
-    const Pose& to_assembly;  // from the surface's frame
-    bool of_tool;             // whose samples these are
-    double band;
-    Collected& collected;
+class Sweep {
+  public:
+    Sweep(const World& world, const Body& body, const Samples& samples, const Solid& surface,
+          const DistanceGrid& grid, const Pose& to_surface, const Pose& to_assembly, bool of_tool,
+          double band, Collected& collected)
+        : world_(world),
+          body_(body),
+          samples_(samples),
+          surface_(surface),
+          grid_(grid),
+          to_surface_(to_surface),
+          to_assembly_(to_assembly),
+          of_tool_(of_tool),
+          band_(band),
+          collected_(collected) {}
 
-    void face_contacts(std::uint32_t index, const Vec3& at, std::span<const Side> sides) const {
-        for (const Side& side : sides) {
-            Contact contact;
-            const Vec3 on_surface = to_assembly * side.point;
-            const Vec3 on_sample = to_assembly * at;
-            const Vec3 normal = to_assembly.orientation * side.normal;
-            contact.on_tool = of_tool ? on_sample : on_surface;
-            contact.on_obstacle = of_tool ? on_surface : on_sample;
-            contact.normal = of_tool ? normal : -normal;
-            contact.distance = side.distance;
-            contact.body = of_tool ? obstacle_of(world, body, side.triangle) : obstacle_of_sample(index);
-            contact.feature = of_tool ? index : index | of_obstacle;
-            collected.add(contact);
+    // `reach`: of the tool, for what belongs to an obstacle sees all of the tool move.
+    void run(Bounds& bounds, const PairBounds& way, double reach) const {
+        for (std::size_t g = 0; g < samples_.groups.size(); ++g) {
+            const Cluster& group = samples_.groups[g];
+            const double spent = way.moved + way.turned * (of_tool_ ? group.reach : reach);
+            if (bounds.groups[g] - spent > band_) continue;
+            double least = nothing_near;
+            for (std::uint32_t c = group.begin; c < group.end; ++c)
+                least = std::min(least, bounds.clusters[c]);
+            // Clusters reach no further than their group, so `spent` is enough for them.
+            if (least - spent <= band_) {
+                const double all = far(group, bounds.groups[g] - spent);
+                if (all > band_) {
+                    bounds.groups[g] = all + spent;
+                    continue;
+                }
+                least = nothing_near;
+                for (std::uint32_t c = group.begin; c < group.end; ++c) {
+                    const double of_cluster =
+                        way.moved + way.turned * (of_tool_ ? samples_.clusters[c].reach : reach);
+                    if (bounds.clusters[c] - of_cluster <= band_) open(bounds, c, of_cluster);
+                    least = std::min(least, bounds.clusters[c] - of_cluster + spent);
+                }
+            }
+            bounds.groups[g] = least;
         }
     }
-    [[nodiscard]] std::int32_t obstacle_of_sample(std::uint32_t index) const {
-        return obstacle_of(world, body, samples.samples[index].triangle);
+
+  private:
+    // A lower bound of the distance of all of a cluster or group without asking the surface.
+    [[nodiscard]] double far(const Cluster& all, double proven) const {
+        const Vec3 middle = to_surface_ * all.middle;
+        const double lower = std::max(beside_box(middle), distance_bounds(grid_, middle).lower);
+        return std::max(proven, lower - all.radius - rounding);
     }
-    void edge_contacts(std::uint32_t index, const Vec3& at) const {
-        const Sample& sample = samples.samples[index];
-        const EdgePiece piece{
-            at,
-            to_surface.orientation * sample.half,
-            {to_surface.orientation * sample.inward[0], to_surface.orientation * sample.inward[1]}};
+    [[nodiscard]] double beside_box(const Vec3& p) const {
+        const double beside =
+            glm::length(glm::max(glm::max(surface_.box.low - p, p - surface_.box.high), Vec3(0.0)));
+        return beside > 0.0 ? beside : nothing_proven;
+    }
+
+    // A cluster whose bound is spent.
+    void open(Bounds& bounds, std::uint32_t c, double spent) const {
+        const Cluster& cluster = samples_.clusters[c];
+        std::size_t asked = 0;
+        for (std::uint32_t i = cluster.begin; i < cluster.end; ++i) {
+            const SampleBounds& b = bounds.samples[i];
+            if (std::min(b.point, b.edge) - spent <= band_) ++asked;
+        }
+        double all = nothing_proven;
+        if (asked > few) {
+            all = ask_all(cluster, bounds.clusters[c] - spent);
+            if (all > band_) {
+                bounds.clusters[c] = all + spent;
+                return;
+            }
+        }
+        double least = nothing_near;
+        for (std::uint32_t i = cluster.begin; i < cluster.end; ++i) {
+            SampleBounds& b = bounds.samples[i];
+            b.point = std::max(b.point, all + spent);
+            b.edge = std::max(b.edge, all + spent);
+            if (std::min(b.point, b.edge) - spent <= band_) ask(i, b, spent);
+            least = std::min({least, b.point, b.edge});
+        }
+        bounds.clusters[c] = least;
+    }
+
+    [[nodiscard]] double ask_all(const Cluster& cluster, double proven) const {
+        const double all = far(cluster, proven);
+        if (!grid_.nodes.empty() || all > band_ + cluster_lookahead) return all;
+        const double radius = all > 0.0 ? cluster.radius + band_ + cluster_lookahead : nothing_near;
+        const double distance = near_point(surface_, to_surface_ * cluster.middle, radius, 0.0, {}).distance;
+        return std::max(all, std::min(distance, radius) - cluster.radius - rounding);
+    }
+
+    // A sample whose bound is spent.
+    void ask(std::uint32_t index, SampleBounds& b, double spent) const {
+        const Sample& sample = samples_.samples[index];
+        const Vec3 at = to_surface_ * sample.at;
+        if (b.point - spent <= band_) ask_point(index, at, b, spent);
+        if (!of_tool_ || sample.half_length == 0.0) {
+            b.edge = nothing_near;
+            return;
+        }
+        b.edge = std::max(b.edge, b.point - sample.half_length);
+        if (b.edge - spent <= band_) ask_edge(index, at, b, spent);
+    }
+
+    void ask_point(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent) const {
+        const DistanceBounds known = distance_bounds(grid_, at);
+        b.point = std::max(b.point, known.lower + spent);
+        if (b.point - spent > band_) return;
+        double radius = b.point - spent > 0.0 ? band_ + sample_lookahead : nothing_near;
+        radius = std::min(radius, std::max(band_, std::min(known.upper, b.upper + spent) + rounding));
+        std::array<Side, most_sides> sides;
+        const Near near = near_point(surface_, at, radius, band_, sides);
+        collected_.complete = std::min(collected_.complete, near.complete);
+        b.point = std::min(near.distance, radius) - rounding + spent;
+        if (std::abs(near.distance) < nothing_near) b.upper = std::abs(near.distance) - spent;
+        for (std::size_t i = 0; i < near.sides; ++i) add_side(index, at, sides[i]);
+    }
+    void add_side(std::uint32_t index, const Vec3& at, const Side& side) const {
+        const Vec3 on_surface = to_assembly_ * side.point;
+        const Vec3 on_sample = to_assembly_ * at;
+        const Vec3 normal = to_assembly_.orientation * side.normal;
+        const std::uint32_t triangle = of_tool_ ? side.triangle : samples_.samples[index].triangle;
+        collected_.add({.on_tool = of_tool_ ? on_sample : on_surface,
+                        .on_obstacle = of_tool_ ? on_surface : on_sample,
+                        .normal = of_tool_ ? normal : -normal,
+                        .distance = side.distance,
+                        .body = obstacle_of(world_, body_, triangle),
+                        .feature = of_tool_ ? index : index | of_obstacle});
+    }
+
+    void ask_edge(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent) const {
+        const Sample& sample = samples_.samples[index];
+        const Quat& turn = to_surface_.orientation;
+        const EdgePiece piece{at, turn * sample.half, {turn * sample.inward[0], turn * sample.inward[1]}};
         std::array<Crossing, most_sides> crossings;
-        const Crossings found = near_edges(surface, piece, band, crossings);
-        collected.complete = std::min(collected.complete, found.complete);
+        const Crossings found = near_edges(surface_, piece, band_ + edge_lookahead, band_, crossings);
+        collected_.complete = std::min(collected_.complete, found.complete);
+        b.edge = found.nearest - rounding + spent;
         for (std::size_t i = 0; i < found.count; ++i) {
             const Crossing& crossing = crossings[i];
-            Contact contact;
-            contact.on_tool = to_assembly * crossing.on_piece;
-            contact.on_obstacle = to_assembly * crossing.on_edge;
-            contact.normal = to_assembly.orientation * crossing.normal;
-            contact.distance = crossing.distance;
-            contact.body = obstacle_of(world, body, surface.mesh.sharp_edges[crossing.edge].triangle);
-            contact.feature = index;
-            collected.add(contact);
+            const std::uint32_t triangle = surface_.mesh.sharp_edges[crossing.edge].triangle;
+            collected_.add({.on_tool = to_assembly_ * crossing.on_piece,
+                            .on_obstacle = to_assembly_ * crossing.on_edge,
+                            .normal = to_assembly_.orientation * crossing.normal,
+                            .distance = crossing.distance,
+                            .body = obstacle_of(world_, body_, triangle),
+                            .feature = index});
         }
     }
 
-    // A new lower bound of the sample's distance, of an edge piece's all along. `outside`: it is known to be.
-    [[nodiscard]] double ask(std::uint32_t index, bool outside) const {
-        const Sample& sample = samples.samples[index];
-        const double half = of_tool ? sample.half_length : 0.0;
-        const Vec3 at = to_surface * sample.at;
-        const double radius = outside ? band + half + sample_lookahead : nothing_near;
-        std::array<Side, most_sides> sides;
-        const Near near = near_point(surface, at, radius, band, sides);
-        collected.complete = std::min(collected.complete, near.complete);
-        face_contacts(index, at, std::span(sides).first(near.sides));
-        if (half > 0.0 && near.distance <= half + band) edge_contacts(index, at);
-        return std::min(near.distance, radius) - half - rounding;
-    }
-
-    void run(Bounds& bounds, const PairBounds& way, double reach) const {
-        for (std::size_t c = 0; c < samples.clusters.size(); ++c) {
-            const Cluster& cluster = samples.clusters[c];
-            // The samples of an obstacle see the tool move, all of it.
-            const double spent = way.moved + way.turned * (of_tool ? cluster.reach : reach);
-            const double proven = bounds.clusters[c] - spent;
-            if (proven > band) continue;
-            const Vec3 middle = to_surface * cluster.middle;
-            const double radius = proven > 0.0 ? cluster.radius + band + cluster_lookahead : nothing_near;
-            const double distance = std::min(near_point(surface, middle, radius, 0.0, {}).distance, radius) -
-                                    cluster.radius - rounding;
-            bounds.clusters[c] = std::max(proven, distance) + spent;
-            if (distance > band) continue;
-            double least = nothing_near;
-            for (std::uint32_t i = cluster.begin; i < cluster.end; ++i) {
-                const double sample_proven = std::max(bounds.samples[i] - spent, distance);
-                bounds.samples[i] =
-                    (sample_proven <= band ? ask(i, sample_proven > 0.0) : sample_proven) + spent;
-                least = std::min(least, bounds.samples[i] - spent);
-            }
-            bounds.clusters[c] = std::max(bounds.clusters[c], least + spent);
-        }
-    }
+    const World& world_;
+    const Body& body_;
+    const Samples& samples_;
+    const Solid& surface_;
+    const DistanceGrid& grid_;  // of the surface; may be none
+    const Pose& to_surface_;    // from the samples' frame
+    const Pose& to_assembly_;   // from the surface's frame
+    bool of_tool_;              // whose samples these are
+    double band_;
+    Collected& collected_;
 };
 
 // Whether the tool is so far from the body that there is no contact within the band.
@@ -172,15 +240,21 @@ ProximityState make_proximity(const World& world, const ToolShape& tool) {
     ProximityState state;
     for (const Body& body : world.bodies) {
         PairBounds& pair = state.pairs.emplace_back();
-        make_bounds(pair.of_tool, tool.samples);
-        make_bounds(pair.of_body, world.shapes[body.shape].samples);
+        reset(pair.of_tool, tool.samples);
+        reset(pair.of_body, world.shapes[body.shape].samples);
     }
     state.near.resize(4096);
     return state;
 }
 
-void forget(ProximityState& state) {
-    for (PairBounds& pair : state.pairs) forget(pair);
+void forget(ProximityState& state, const World& world, const ToolShape& tool) {
+    for (std::size_t i = 0; i < state.pairs.size(); ++i) {
+        PairBounds& pair = state.pairs[i];
+        pair.fresh = true;
+        pair.moved = pair.turned = 0.0;
+        reset(pair.of_tool, tool.samples);
+        reset(pair.of_body, world.shapes[world.bodies[i].shape].samples);
+    }
 }
 
 Found find_contacts(const World& world, const ToolShape& tool, const Pose& pose, double band,
@@ -195,10 +269,11 @@ Found find_contacts(const World& world, const ToolShape& tool, const Pose& pose,
         PairBounds& pair = state.pairs[i];
         spend(pair, to_body);
         const Pose to_tool = inverse(to_body);
-        const Sweep of_tool{world,     body, tool.samples, shape.solid, to_body,
-                            body.pose, true, band,         collected};
+        const Sweep of_tool{world,   body,      tool.samples, shape.solid, shape.grid,
+                            to_body, body.pose, true,         band,        collected};
         of_tool.run(pair.of_tool, pair, tool.reach());
-        const Sweep of_body{world, body, shape.samples, tool.solid, to_tool, pose, false, band, collected};
+        const Sweep of_body(world, body, shape.samples, tool.solid, tool.grid, to_tool, pose, false, band,
+                            collected);
         of_body.run(pair.of_body, pair, tool.reach());
     }
     return reduce(std::span(state.near).first(collected.count), collected.complete, out);

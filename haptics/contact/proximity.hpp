@@ -14,10 +14,17 @@
 
 namespace bolt::contact {
 
-// Bounds that held when they were proven, plus the way made until then: less the way made by now, they hold
-// now.
+// What is proven of one sample. Lower bounds held when they were proven, and stand here plus the way that the
+// sample had made by then: less the way made by now, they hold now. The upper bound stands less the way made
+// by then.
+struct SampleBounds {
+    double point, edge;  // signed distance of its point to the surface; distance of its edge to convex edges
+    double upper;        // of the point's unsigned distance
+};
+
 struct Bounds {
-    std::vector<double> clusters, samples;
+    std::vector<double> groups, clusters;  // lower bounds of all that is in them
+    std::vector<SampleBounds> samples;
 };
 
 // Of the tool and one body.
@@ -37,7 +44,7 @@ struct ProximityState {
 ProximityState make_proximity(const World& world, const ToolShape& tool);
 
 // Everything proven is forgotten: the next answer is the same, and takes longer.
-void forget(ProximityState& state);
+void forget(ProximityState& state, const World& world, const ToolShape& tool);
 
 // Contacts up to `band` (m) between the tool at `pose` and what is on in the world; deeper than the surface
 // there is no limit. Their distances are those of the meshes, in double (`Contact` holds to 1e-9 m).

@@ -195,12 +195,37 @@ void cluster(std::vector<Sample>& samples, std::size_t begin, std::size_t end, s
     const Vec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t clusters = (end - begin + cluster_size - 1) / cluster_size;
-    const std::size_t middle = begin + clusters / 2 * cluster_size;
+    // Whole groups as long as there are several.
+    const std::size_t unit = clusters > cluster_size ? cluster_size * cluster_size : cluster_size;
+    const std::size_t units = (end - begin + unit - 1) / unit;
+    const std::size_t middle = begin + units / 2 * unit;
     std::stable_sort(samples.begin() + static_cast<std::ptrdiff_t>(begin),
                      samples.begin() + static_cast<std::ptrdiff_t>(end),
                      [&](const Sample& a, const Sample& b) { return a.at[axis] < b.at[axis]; });
     cluster(samples, begin, middle, out);
     cluster(samples, middle, end, out);
+}
+
+std::vector<Cluster> group(const std::vector<Cluster>& clusters) {
+    std::vector<Cluster> groups;
+    for (std::size_t begin = 0; begin < clusters.size(); begin += cluster_size) {
+        const std::size_t end = std::min(clusters.size(), begin + cluster_size);
+        Vec3 low(std::numeric_limits<double>::infinity());
+        Vec3 high = -low;
+        for (std::size_t i = begin; i < end; ++i) {
+            low = glm::min(low, clusters[i].middle - clusters[i].radius);
+            high = glm::max(high, clusters[i].middle + clusters[i].radius);
+        }
+        Cluster made{0.5 * (low + high), 0.0, 0.0, static_cast<std::uint32_t>(begin),
+                     static_cast<std::uint32_t>(end)};
+        for (std::size_t i = begin; i < end; ++i) {
+            made.radius =
+                std::max(made.radius, glm::length(clusters[i].middle - made.middle) + clusters[i].radius);
+            made.reach = std::max(made.reach, clusters[i].reach);
+        }
+        groups.push_back(made);
+    }
+    return groups;
 }
 
 }  // namespace
@@ -213,6 +238,7 @@ Samples make_samples(const Solid& solid, double longest_piece, std::size_t count
         made.samples.insert(made.samples.end(), points.taken().begin(), points.taken().end());
     }
     cluster(made.samples, 0, made.samples.size(), made.clusters);
+    made.groups = group(made.clusters);
     return made;
 }
 

@@ -17,19 +17,20 @@ struct Sample {
     std::array<Vec3, 2> inward{};  // of an edge piece, as SharpEdge has them
 };
 
+// A sphere about some samples, edge pieces with their ends.
 struct Cluster {
     Vec3 middle{0.0};
-    double radius =
-        0.0;  // of the sphere about `middle` that holds all its samples, edge pieces with their ends
-    double reach = 0.0;                // the same about the origin of the frame
-    std::uint32_t begin = 0, end = 0;  // its samples
+    double radius = 0.0;
+    double reach = 0.0;                // of its samples from the origin of the frame
+    std::uint32_t begin = 0, end = 0;  // its samples; of a group: its clusters
 };
 
 inline constexpr std::size_t cluster_size = 16;
 
 struct Samples {
-    std::vector<Sample> samples;  // cluster after cluster
-    std::vector<Cluster> clusters;
+    std::vector<Sample> samples;    // cluster after cluster
+    std::vector<Cluster> clusters;  // group after group, each with the samples that follow
+    std::vector<Cluster> groups;    // of clusters
 };
 
 // Corners, and edges in pieces no longer than `longest_piece` (pieces that follow each other nearly straight

@@ -149,6 +149,7 @@ struct EdgeGathering {
     double band;
     std::span<Crossing> crossings;
     std::size_t count = 0;
+    double nearest = std::numeric_limits<double>::infinity();
     double dropped = std::numeric_limits<double>::infinity();
 };
 
@@ -164,11 +165,12 @@ bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
     const Vec3 b(g.solid->mesh.vertices[edge.vertices[1]]);
     const Vec3 middle = 0.5 * (a + b);
     const Vec3 half = 0.5 * (b - a);
-    const OnSegments at = closest_inside(g.piece->middle, g.piece->half, middle, half);
-    if (!at.inner) return false;
+    const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
     Crossing crossing;
     crossing.on_piece = g.piece->middle + at.s * g.piece->half;
     crossing.on_edge = middle + at.t * half;
+    g.nearest = std::min(g.nearest, glm::length(crossing.on_piece - crossing.on_edge));
+    if (!at.inner) return false;
     crossing.normal = glm::normalize(glm::cross(g.piece->half, half));
     if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)
         crossing.normal = -crossing.normal;
@@ -318,15 +320,18 @@ Near near_point(const Solid& solid, const Vec3& point, double radius, double ban
     return near;
 }
 
-Crossings near_edges(const Solid& solid, const EdgePiece& piece, double band, std::span<Crossing> crossings) {
-    if (!solid.edge_scene) return {0, band};
+Crossings near_edges(const Solid& solid, const EdgePiece& piece, double radius, double band,
+                     std::span<Crossing> crossings) {
+    if (!solid.edge_scene) return {0, band, nothing_near};
     EdgeGathering g{&solid, &piece, band, crossings};
-    RTCPointQuery query = make_query(piece.middle, glm::length(piece.half) + band);
+    RTCPointQuery query = make_query(piece.middle, glm::length(piece.half) + radius);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
     std::sort(crossings.begin(), crossings.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
-    return {g.count, std::min(band, g.dropped)};
+    // Nearly parallel edges are compared at the piece's middle only: off by their angle at most.
+    const double slack = 1e-3 * glm::length(piece.half);
+    return {g.count, std::min(band, g.dropped), std::min(g.nearest - slack, radius)};
 }
 
 bool blocked(const Solid& solid, const Vec3& from, const Vec3& to) {

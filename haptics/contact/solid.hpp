@@ -83,11 +83,13 @@ struct Crossing {
 struct Crossings {
     std::size_t count = 0;
     double complete = 0.0;  // as in Near
+    double nearest = 0.0;   // m, unsigned: no convex edge is nearer to the piece; at most the radius asked
 };
 
-// The convex edges that face the piece, edge to edge, within `band`; those nearest first, `crossings` full at
-// most.
-Crossings near_edges(const Solid& solid, const EdgePiece& piece, double band, std::span<Crossing> crossings);
+// The convex edges within `radius`, and of them those within `band` <= radius that face the piece, edge to
+// edge; if there is no room for all, the nearest.
+Crossings near_edges(const Solid& solid, const EdgePiece& piece, double radius, double band,
+                     std::span<Crossing> crossings);
 
 // Whether a surface lies between two points.
 bool blocked(const Solid& solid, const Vec3& from, const Vec3& to);

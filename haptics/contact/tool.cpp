@@ -15,7 +15,8 @@ Result<ToolShape> make_tool(std::span<const ContactMesh> parts, const ToolOption
                         "a closed surface");
     Result<Solid> solid = make_solid(parts);
     if (!solid) return fail(solid.error());
-    ToolShape tool{std::move(*solid), {}};
+    ToolShape tool{std::move(*solid), {}, {}};
+    tool.grid = make_distance_grid(tool.solid, options.cell);
     tool.samples = make_samples(tool.solid, options.longest_piece, options.samples);
     return tool;
 }

@@ -1,6 +1,7 @@
 // The tool as contact sees it: a solid in the tool's own frame, and where its surface touches first.
 #pragma once
 
+#include "haptics/contact/distance_grid.hpp"
 #include "haptics/contact/samples.hpp"
 
 namespace bolt::contact {
@@ -8,10 +9,12 @@ namespace bolt::contact {
 struct ToolOptions {
     std::size_t samples = 8000;   // at least; edges and corners come first and are all taken
     double longest_piece = 3e-3;  // m, of an edge
+    double cell = 1.5e-3;         // m, of the tool's distance grid; 0: none
 };
 
 struct ToolShape {
     Solid solid;
+    DistanceGrid grid;
     Samples samples;
     [[nodiscard]] double reach() const { return solid.reach; }  // m, of its furthest point from its origin
 };

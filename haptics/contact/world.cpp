@@ -12,8 +12,9 @@ Status add_shape(World& world, std::span<const ContactMesh> parts, std::vector<s
                  const WorldOptions& options) {
     Result<Solid> solid = make_solid(parts);
     if (!solid) return fail(solid.error());
-    world.shapes.push_back({std::move(*solid), {}, std::move(ids)});
+    world.shapes.push_back({std::move(*solid), {}, {}, std::move(ids)});
     Shape& shape = world.shapes.back();
+    if (!shape.part_ids.empty()) shape.grid = make_distance_grid(shape.solid, options.cell);
     shape.samples = make_samples(shape.solid, options.longest_piece, 0);
     return {};
 }

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "haptics/contact/distance_grid.hpp"
 #include "haptics/contact/samples.hpp"
 
 namespace bolt::contact {
@@ -17,11 +18,13 @@ struct Obstacle {
 
 struct WorldOptions {
     double longest_piece = 3e-3;  // m, between the points that are tested on an obstacle's edges
+    double cell = 3e-3;           // m, of the still obstacles' distance grid; 0: they get none
 };
 
 // A solid of the world and the samples that are tested against the tool.
 struct Shape {
     Solid solid;
+    DistanceGrid grid;  // of the still obstacles
     Samples samples;
     std::vector<std::int32_t> part_ids;  // of the still obstacles; empty for a body's shape
 };

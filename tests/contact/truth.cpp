@@ -150,7 +150,7 @@ TEST_CASE("what is proven from before never changes the answer") {
                     std::array<Contact, 24> b;
                     const double band = 0.3 * mm * (1 + leg % 4);
                     const Found warm_found = find_contacts(world, tool, pose, band, warm, a);
-                    forget(cold);
+                    forget(cold, world, tool);
                     const Found cold_found = find_contacts(world, tool, pose, band, cold, b);
                     REQUIRE(warm_found.count == cold_found.count);
                     REQUIRE(warm_found.clearance == cold_found.clearance);

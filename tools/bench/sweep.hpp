@@ -1,0 +1,30 @@
+// What contact is measured with: a casing of as many triangles as wanted, the shipped wrench, and a way of
+// the wrench near and into the casing.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "engine/base/pose.hpp"
+#include "engine/base/result.hpp"
+#include "haptics/contact/tool.hpp"
+#include "haptics/contact/world.hpp"
+
+namespace bolt::bench {
+
+// The meshes of a glTF file where their nodes are, one a node; of those nodes only whose name begins with one
+// of `prefixes`, if there are any.
+Result<std::vector<contact::ContactMesh>> load_contact(const std::filesystem::path& path,
+                                                       const std::vector<std::string>& prefixes = {});
+
+// Every edge longer than `longest` halved until there is none, new vertices displaced along their normals by
+// up to 20 µm of seeded noise, so that nothing stays flat.
+contact::ContactMesh refined(const contact::ContactMesh& mesh, double longest);
+
+// A pose a millisecond: the tool comes to a place on the casing with a point of its own, 5 mm before it to
+// `deepest` behind it, with minimum jerk at up to 0.3 m/s, moves on along it, and goes on to the next, turned
+// anyhow. Nowhere is it (but between its samples) deeper than `deepest`.
+std::vector<Pose> make_sweep(const contact::World& world, const contact::Solid& casing,
+                             const contact::ToolShape& tool, double deepest, double seconds);
+
+}  // namespace bolt::bench
