@@ -12,7 +12,7 @@ namespace {
 // ask.
 constexpr double cluster_lookahead = 6e-3;
 constexpr double sample_lookahead = 2.5e-3;
-constexpr double edge_lookahead = 1.5e-3;
+constexpr double edge_lookahead = 4e-3;
 // So many spent samples of a cluster are asked one by one, more only if the cluster as a whole is near.
 constexpr std::size_t few = 4;
 // More than the rounding of poses and distances.
@@ -160,13 +160,14 @@ class Sweep {
     void ask(std::uint32_t index, SampleBounds& b, double spent) const {
         const Sample& sample = samples_.samples[index];
         const Vec3 at = to_surface_ * sample.at;
-        if (b.point - spent <= band_) ask_point(index, at, b, spent);
-        if (!of_tool_ || sample.half_length == 0.0) {
+        if (sample.half_length == 0.0) {
             b.edge = nothing_near;
-            return;
+            ask_point(index, at, b, spent);
+        } else {
+            b.point = nothing_near;
+            b.edge = std::max(b.edge, distance_bounds(grid_, at).lower - sample.half_length + spent);
+            if (b.edge - spent <= band_) ask_edge(index, at, b, spent);
         }
-        b.edge = std::max(b.edge, b.point - sample.half_length);
-        if (b.edge - spent <= band_) ask_edge(index, at, b, spent);
     }
 
     void ask_point(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent) const {

@@ -92,19 +92,110 @@ void follow(Ridges& ridges, std::uint32_t edge, std::uint32_t from, double longe
     flush();
 }
 
-std::vector<Sample> edges_and_corners(const Solid& solid, double longest) {
+void add_edges(const Solid& solid, double longest, std::vector<Sample>& out) {
     Ridges ridges(solid);
-    std::vector<Sample> out;
-    for (std::uint32_t v = 0; v < solid.mesh.vertices.size(); ++v) {
-        if (!ridges.is_corner(v)) continue;
-        out.push_back({.at = Vec3(solid.mesh.vertices[v]),
-                       .triangle = solid.mesh.sharp_edges[ridges.at_vertex[v][0]].triangle});
-        for (const std::uint32_t e : ridges.at_vertex[v])
-            if (!ridges.done[e]) follow(ridges, e, v, longest, out);
-    }
+    for (std::uint32_t v = 0; v < solid.mesh.vertices.size(); ++v)
+        if (ridges.is_corner(v))
+            for (const std::uint32_t e : ridges.at_vertex[v])
+                if (!ridges.done[e]) follow(ridges, e, v, longest, out);
     for (const std::uint32_t e : solid.ridges)  // what is left goes round without a corner
         if (!ridges.done[e]) follow(ridges, e, solid.mesh.sharp_edges[e].vertices[0], longest, out);
-    return out;
+}
+
+// Points in cells, to tell whether one is near.
+class Cells {
+  public:
+    explicit Cells(double size) : size_(size) {}
+
+    void add(const Vec3& p) { cells_[cell(p)].push_back(p); }
+    [[nodiscard]] bool has_near(const Vec3& p) const {  // within `size`
+        const Cell middle = cell(p);
+        for (int i = 0; i < 27; ++i) {
+            const auto found =
+                cells_.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});
+            if (found == cells_.end()) continue;
+            for (const Vec3& other : found->second)
+                if (glm::dot(p - other, p - other) < size_ * size_) return true;
+        }
+        return false;
+    }
+
+  private:
+    using Cell = std::array<std::int64_t, 3>;
+    struct Hash {
+        std::size_t operator()(const Cell& c) const {
+            return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+        }
+    };
+    [[nodiscard]] Cell cell(const Vec3& p) const {
+        return {std::llround(p.x / size_), std::llround(p.y / size_), std::llround(p.z / size_)};
+    }
+    double size_;
+    std::unordered_map<Cell, std::vector<Vec3>, Hash> cells_;
+};
+
+// How far apart points may be at each vertex so that the surface rises by `sample_rise` between them; 0: the
+// vertex is a corner, infinite: it needs none.
+std::vector<double> spacings(const Solid& solid) {
+    const ContactMesh& mesh = solid.mesh;
+    const auto sagitta = [](double curvature) { return std::sqrt(8.0 * sample_rise / curvature); };
+    std::vector<double> curvature(mesh.vertices.size(), 0.0);
+    for (const auto& t : mesh.triangles)
+        for (std::size_t i = 0; i < 6; ++i) {
+            const std::uint32_t v = t[i % 3];
+            const Vec3 to(Vec3(mesh.vertices[t[(i + 1 + i / 3) % 3]]) - Vec3(mesh.vertices[v]));
+            const double below = -glm::dot(glm::normalize(Vec3(mesh.vertex_normals[v])), to);
+            if (below > 1e-6) curvature[v] = std::max(curvature[v], 2.0 * below / glm::dot(to, to));
+        }
+    std::vector<double> spacing(mesh.vertices.size());
+    for (std::size_t v = 0; v < spacing.size(); ++v)
+        spacing[v] = curvature[v] < least_curvature ? nothing_near : sagitta(curvature[v]);
+    // On an edge counts only how the edge itself turns.
+    const Ridges ridges(solid);
+    for (std::uint32_t v = 0; v < spacing.size(); ++v) {
+        const auto& edges = ridges.at_vertex[v];
+        if (edges.empty()) continue;
+        if (edges.size() != 2) {
+            spacing[v] = 0.0;
+            continue;
+        }
+        const double turn = std::acos(
+            std::clamp(-glm::dot(ridges.leaving(edges[0], v), ridges.leaving(edges[1], v)), -1.0, 1.0));
+        const Vec3 from(mesh.vertices[ridges.other_end(edges[0], v)]);
+        const Vec3 to(mesh.vertices[ridges.other_end(edges[1], v)]);
+        const double bend =
+            2.0 * turn /
+            (glm::length(from - Vec3(mesh.vertices[v])) + glm::length(to - Vec3(mesh.vertices[v])));
+        spacing[v] = turn > to_radians(20.0) ? 0.0 : bend < least_curvature ? nothing_near : sagitta(bend);
+    }
+    return spacing;
+}
+
+void add_points(const Solid& solid, std::vector<Sample>& out) {
+    const ContactMesh& mesh = solid.mesh;
+    const std::vector<double> spacing = spacings(solid);
+    std::vector<std::uint32_t> triangle(mesh.vertices.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        for (const std::uint32_t v : mesh.triangles[t]) triangle[v] = t;
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t v = 0; v < spacing.size(); ++v)
+        if (spacing[v] < nothing_near) order.push_back(v);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return spacing[a] < spacing[b]; });
+    // The closest first; a vertex is left out where there is one within its own spacing, to the next power of
+    // two below. Each spacing looks in cells of its size.
+    constexpr int levels = 16;
+    std::vector<Cells> cells;
+    for (int i = 0; i < levels; ++i) cells.emplace_back(std::ldexp(8e-3, -i));
+    for (const std::uint32_t v : order) {
+        const Vec3 at(mesh.vertices[v]);
+        const int level = std::max(0, static_cast<int>(std::ceil(std::log2(8e-3 / spacing[v]))));
+        if (spacing[v] > 0.0 && level < levels && cells[static_cast<std::size_t>(level)].has_near(at))
+            continue;
+        for (Cells& c : cells)
+            if (!c.has_near(at)) c.add(at);
+        out.push_back({.at = at, .triangle = triangle[v]});
+    }
 }
 
 // Points that keep their distance from each other: of many random ones each is taken that is not within
@@ -136,37 +227,15 @@ class Spreading {
     [[nodiscard]] const std::vector<Sample>& taken() const { return taken_; }
 
   private:
-    using Cell = std::array<std::int64_t, 3>;
-    struct CellHash {
-        std::size_t operator()(const Cell& c) const {
-            return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
-        }
-    };
-    static Cell cell(const Vec3& p, double size) {
-        return {std::llround(p.x / size), std::llround(p.y / size), std::llround(p.z / size)};
-    }
-
     void take(double spacing, std::size_t count) {
-        std::unordered_map<Cell, std::vector<Vec3>, CellHash> grid;
-        for (const Sample& s : taken_) grid[cell(s.at, spacing)].push_back(s.at);
+        Cells cells(spacing);
+        for (const Sample& s : taken_) cells.add(s.at);
         for (const Sample& s : offered_) {
             if (taken_.size() == count) return;
-            if (crowded(grid, s.at, spacing)) continue;
+            if (cells.has_near(s.at)) continue;
             taken_.push_back(s);
-            grid[cell(s.at, spacing)].push_back(s.at);
+            cells.add(s.at);
         }
-    }
-    template <class Grid>
-    static bool crowded(const Grid& grid, const Vec3& p, double spacing) {
-        const Cell middle = cell(p, spacing);
-        for (int i = 0; i < 27; ++i) {
-            const auto found =
-                grid.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});
-            if (found == grid.end()) continue;
-            for (const Vec3& other : found->second)
-                if (glm::dot(p - other, p - other) < spacing * spacing) return true;
-        }
-        return false;
     }
 
     std::vector<Sample> offered_, taken_;
@@ -230,13 +299,14 @@ std::vector<Cluster> group(const std::vector<Cluster>& clusters) {
 
 }  // namespace
 
-Samples make_samples(const Solid& solid, double longest_piece, std::size_t count) {
+Samples make_samples(const Solid& solid, const SampleOptions& options) {
     Samples made;
-    made.samples = edges_and_corners(solid, longest_piece);
-    if (made.samples.size() < count) {
-        const Spreading points(solid.mesh, count - made.samples.size());
+    add_points(solid, made.samples);
+    if (options.on_faces > 0) {
+        const Spreading points(solid.mesh, options.on_faces);
         made.samples.insert(made.samples.end(), points.taken().begin(), points.taken().end());
     }
+    if (options.edges) add_edges(solid, options.longest_piece, made.samples);
     cluster(made.samples, 0, made.samples.size(), made.clusters);
     made.groups = group(made.clusters);
     return made;

@@ -1,5 +1,8 @@
-// Where a surface is touched first: points on its corners, pieces of its convex edges, points spread evenly
-// over its faces; in clusters of neighbours, so that most of them are done with at once.
+// Where a surface is touched first, in clusters of neighbours so that most of it is done with at once.
+//
+// Two solids touch where one of them at least curves outward: at a corner, on an edge (there edge to edge, or
+// at its end), on a round face. Flat and hollow places need no points of their own, for what they touch has
+// them.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +12,7 @@
 
 namespace bolt::contact {
 
+// A point, or a piece of a convex edge.
 struct Sample {
     Vec3 at{0.0};                  // m; of an edge piece the middle
     Vec3 half{0.0};                // m; of an edge piece from `at` to its end, else 0
@@ -33,9 +37,18 @@ struct Samples {
     std::vector<Cluster> groups;    // of clusters
 };
 
-// Corners, and edges in pieces no longer than `longest_piece` (pieces that follow each other nearly straight
-// become one). Then as many points on faces as there is room for up to `count`, evenly spread, the same for
-// the same mesh.
-Samples make_samples(const Solid& solid, double longest_piece, std::size_t count);
+struct SampleOptions {
+    double longest_piece = 3e-3;  // m, of an edge; pieces that follow each other nearly straight become one
+    bool edges = true;            // pieces of edges too, not only points
+    std::size_t on_faces = 0;  // points spread evenly over everything, for round faces that curve too little
+};
+
+// Between neighbouring points a round surface rises by no more than this.
+inline constexpr double sample_rise = 50e-6;
+// Surfaces that are less round (1/m) get no points for it.
+inline constexpr double least_curvature = 10.0;
+
+// The same for the same mesh.
+Samples make_samples(const Solid& solid, const SampleOptions& options);
 
 }  // namespace bolt::contact

@@ -50,9 +50,10 @@ bool nearer(const Candidate& a, const Candidate& b) {
 // nearest ones by distance and triangle.
 struct Gathering {
     static constexpr std::size_t room = 64;
-    const ContactMesh* mesh;
+    const std::array<glm::vec3, 3>* corners;
     Vec3 p;
-    double band2, radius;
+    double band2, radius2;
+    double asked2;  // the square of the radius that is looked within now
     Candidate nearest{std::numeric_limits<double>::infinity(), 0xffffffffU, 6, {}};
     std::array<Candidate, room> kept;
     std::size_t count = 0;
@@ -83,13 +84,14 @@ struct Gathering {
 
 bool gather(RTCPointQueryFunctionArguments* arguments) {
     auto& g = *static_cast<Gathering*>(arguments->userPtr);
-    const auto [point, region] = closest_on_triangle(g.p, corners(*g.mesh, arguments->primID));
+    const auto& t = g.corners[arguments->primID];
+    const auto [point, region] = closest_on_triangle(g.p, {Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
     const Vec3 between = g.p - point;
     g.add({glm::dot(between, between), arguments->primID, region, point});
-    const double needed = std::sqrt(std::max(g.limit2(), std::min(g.nearest.squared, square(g.radius))));
-    const float radius = with_margin(needed, g.p);
-    if (!(radius < arguments->query->radius)) return false;
-    arguments->query->radius = radius;
+    const double needed2 = std::max(g.limit2(), std::min(g.nearest.squared, g.radius2));
+    if (!(needed2 < g.asked2)) return false;
+    g.asked2 = needed2;
+    arguments->query->radius = std::min(arguments->query->radius, with_margin(std::sqrt(needed2), g.p));
     return true;
 }
 
@@ -262,6 +264,9 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
     if (solid.mesh.triangles.empty()) return fail(ErrorCode::bad_content, "a solid without a triangle");
     for (std::uint32_t i = 0; i < solid.mesh.sharp_edges.size(); ++i)
         if (solid.mesh.sharp_edges[i].convex) solid.ridges.push_back(i);
+    for (const auto& t : solid.mesh.triangles)
+        solid.corners.push_back(
+            {solid.mesh.vertices[t[0]], solid.mesh.vertices[t[1]], solid.mesh.vertices[t[2]]});
     solid.box = {Vec3(solid.mesh.vertices[0]), Vec3(solid.mesh.vertices[0])};
     for (const glm::vec3& v : solid.mesh.vertices) {
         solid.box.low = glm::min(solid.box.low, Vec3(v));
@@ -278,18 +283,19 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
 
 Near near_point(const Solid& solid, const Vec3& point, double radius, double band, std::span<Side> sides) {
     Gathering g;
-    g.mesh = &solid.mesh;
+    g.corners = solid.corners.data();
     g.p = point;
     g.band2 = band * band;
-    g.radius = std::max(radius, band);
-    RTCPointQuery query = make_query(point, g.radius);
+    const double within = std::max(radius, band);
+    g.radius2 = g.asked2 = within * within;
+    RTCPointQuery query = make_query(point, within);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(solid.scene.get(), &query, &context, gather, &g);
 
     Near near;
     near.complete = band;
-    if (!(g.nearest.squared <= square(g.radius))) return near;
+    if (!(g.nearest.squared <= g.radius2)) return near;
     if (g.overflown) near.complete = std::sqrt(g.kept[g.furthest].squared);
     std::sort(g.kept.begin(), g.kept.begin() + static_cast<std::ptrdiff_t>(g.count), nearer);
     const Side first = nearest_side(solid, g);

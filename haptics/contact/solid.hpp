@@ -26,6 +26,8 @@ struct Box {
 
 struct Solid {
     ContactMesh mesh;
+    // Of every triangle its corners, for it is read in one go.
+    std::vector<std::array<glm::vec3, 3>> corners;
     // Of every triangle: which of the closed surfaces that it was joined from.
     std::vector<std::uint16_t> part;
     // Indices of the sharp edges that are convex, in the order of `edge_scene`.

@@ -5,9 +5,9 @@
 namespace bolt::contact {
 
 Result<ToolShape> make_tool(std::span<const ContactMesh> parts, const ToolOptions& options) {
-    if (!(options.longest_piece > 0.0) || options.samples > 1'000'000)
+    if (!(options.samples.longest_piece > 0.0) || options.samples.on_faces > 1'000'000)
         return fail(ErrorCode::bad_content,
-                    "a tool's edge pieces need a length, and it has a million samples at most");
+                    "a tool's edge pieces need a length, and a million points on its faces are enough");
     for (const ContactMesh& part : parts)
         if (part.open_edges > 0)
             return fail(ErrorCode::bad_content,
@@ -17,7 +17,7 @@ Result<ToolShape> make_tool(std::span<const ContactMesh> parts, const ToolOption
     if (!solid) return fail(solid.error());
     ToolShape tool{std::move(*solid), {}, {}};
     tool.grid = make_distance_grid(tool.solid, options.cell);
-    tool.samples = make_samples(tool.solid, options.longest_piece, options.samples);
+    tool.samples = make_samples(tool.solid, options.samples);
     return tool;
 }
 

@@ -7,9 +7,8 @@
 namespace bolt::contact {
 
 struct ToolOptions {
-    std::size_t samples = 8000;   // at least; edges and corners come first and are all taken
-    double longest_piece = 3e-3;  // m, of an edge
-    double cell = 1.5e-3;         // m, of the tool's distance grid; 0: none
+    SampleOptions samples{.on_faces = 1000};
+    double cell = 1.5e-3;  // m, of the tool's distance grid; 0: none
 };
 
 struct ToolShape {

@@ -15,15 +15,13 @@ Status add_shape(World& world, std::span<const ContactMesh> parts, std::vector<s
     world.shapes.push_back({std::move(*solid), {}, {}, std::move(ids)});
     Shape& shape = world.shapes.back();
     if (!shape.part_ids.empty()) shape.grid = make_distance_grid(shape.solid, options.cell);
-    shape.samples = make_samples(shape.solid, options.longest_piece, 0);
+    shape.samples = make_samples(shape.solid, {.edges = false});
     return {};
 }
 
 }  // namespace
 
 Result<World> make_world(std::span<const Obstacle> obstacles, const WorldOptions& options) {
-    if (!(options.longest_piece > 0.0))
-        return fail(ErrorCode::bad_content, "the edge pieces of obstacles need a length");
     World world;
     std::vector<ContactMesh> still;
     std::vector<std::int32_t> ids;

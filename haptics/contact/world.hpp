@@ -17,8 +17,7 @@ struct Obstacle {
 };
 
 struct WorldOptions {
-    double longest_piece = 3e-3;  // m, between the points that are tested on an obstacle's edges
-    double cell = 3e-3;           // m, of the still obstacles' distance grid; 0: they get none
+    double cell = 3e-3;  // m, of the still obstacles' distance grid; 0: they get none
 };
 
 // A solid of the world and the samples that are tested against the tool.

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/topology.hpp"
 #include "engine/base/random.hpp"
+#include "haptics/contact/proximity.hpp"
 
 namespace bolt::bench {
 namespace {
@@ -131,22 +133,37 @@ std::vector<Pose> make_sweep(const contact::World& world, const contact::Solid& 
     Random random(7);
     const std::vector<double> casing_sums = area_sums(casing.mesh);
     const std::vector<double> tool_sums = area_sums(tool.solid.mesh);
-    const auto is_allowed = [&](const Pose& pose) {
-        const auto& samples = tool.samples.samples;
-        for (std::size_t i = 0; i < samples.size(); i += 40)
-            if (signed_distance(world, pose * samples[i].at) < -deepest) return false;
-        return true;
+    contact::ProximityState state = contact::make_proximity(world, tool);
+    // Pushed out along the deepest contact, again and again, and let back slowly: nearly what a god-object
+    // does.
+    Vec3 shift(0.0);
+    const auto put = [&](Pose pose) -> std::optional<Pose> {
+        shift *= 0.98;
+        pose.position += shift;
+        for (int i = 0; i < 60; ++i) {
+            std::array<contact::Contact, 32> contacts;
+            const contact::Found found = find_contacts(world, tool, pose, 1e-4, state, contacts);
+            if (found.count == 0 || contacts[0].distance >= -deepest) return pose;
+            const Vec3 out = (-contacts[0].distance - 0.5 * deepest) * contacts[0].normal;
+            shift += out;
+            pose.position += out;
+            if (glm::length(shift) > 12e-3) break;
+        }
+        return std::nullopt;
     };
     const auto leg = [&](const Pose& from, const Pose& to) {
         std::vector<Pose> poses;
-        const double length = glm::length(to.position - from.position);
+        // No point of the tool is faster than 0.3 m/s.
+        const double turn = glm::length(rotation_vector(glm::conjugate(from.orientation) * to.orientation));
+        const double length = glm::length(to.position - from.position) + tool.reach() * turn;
         const int steps = 1 + static_cast<int>(1e3 * std::max(0.2, 1.875 * length / 0.3));
         for (int i = 0; i < steps; ++i) {
             const double t = static_cast<double>(i) / steps;
             const double s = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
-            poses.push_back(
+            const std::optional<Pose> placed = put(
                 {glm::mix(from.position, to.position, s), glm::slerp(from.orientation, to.orientation, s)});
-            if (i % 25 == 0 && !is_allowed(poses.back())) return std::vector<Pose>{};
+            if (!placed) return std::vector<Pose>{};
+            poses.push_back(*placed);
         }
         return poses;
     };
@@ -157,14 +174,14 @@ std::vector<Pose> make_sweep(const contact::World& world, const contact::Solid& 
         Vec3 tool_normal(0.0);
         const Vec3 at = random_point(random, casing.mesh, casing_sums, normal);
         const Vec3 on_tool = random_point(random, tool.solid.mesh, tool_sums, tool_normal);
-        Pose there{at + random.uniform(-deepest, 5e-3) * normal, random_turn(random)};
+        Pose there{at + random.uniform(-8e-3, 4e-3) * normal, random_turn(random)};
         there.position -= there.orientation * on_tool;
-        if (!is_allowed(there)) continue;
         // There along the normal, a bit along the surface, and back.
         const Pose before{there.position + 25e-3 * normal, there.orientation};
         const Vec3 along = glm::normalize(glm::cross(normal, Vec3(random.normal(), random.normal(), 0.3)));
         const Pose after{there.position + 15e-3 * along, rotation(0.2 * normal) * there.orientation};
         std::vector<Pose> way;
+        shift = Vec3(0.0);
         bool allowed = true;
         for (const auto& [a, b] :
              {std::pair(from, before), std::pair(before, there), std::pair(there, after)}) {

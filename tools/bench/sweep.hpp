@@ -21,9 +21,10 @@ Result<std::vector<contact::ContactMesh>> load_contact(const std::filesystem::pa
 // up to 20 µm of seeded noise, so that nothing stays flat.
 contact::ContactMesh refined(const contact::ContactMesh& mesh, double longest);
 
-// A pose a millisecond: the tool comes to a place on the casing with a point of its own, 5 mm before it to
-// `deepest` behind it, with minimum jerk at up to 0.3 m/s, moves on along it, and goes on to the next, turned
-// anyhow. Nowhere is it (but between its samples) deeper than `deepest`.
+// A pose a millisecond: the tool comes to a place on the casing with a point of its own, goes 4 mm before it
+// to 8 mm behind it, moves on along it, and goes on to the next, turned anyhow; minimum jerk, no point of it
+// faster than 0.3 m/s. Where that leads into the casing it is pushed out again but for `deepest`, as a
+// god-object would.
 std::vector<Pose> make_sweep(const contact::World& world, const contact::Solid& casing,
                              const contact::ToolShape& tool, double deepest, double seconds);
 
