@@ -1,0 +1,68 @@
+// The tool as contacts hold it: its pose follows the device's as far as obstacles allow and never goes into
+// them. What is felt is the coupling between the two poses (haptics/force/coupling.hpp), so no contact has a
+// spring of its own and nothing jumps when one comes or goes.
+//
+// Ruspini, Kolarov and Khatib, SIGGRAPH 1997 (the proxy); Ortega, Redon and Coquillart, IEEE TVCG 13(3), 2007
+// (six degrees of freedom, least constraint). The metric of the constraint is the coupling's stiffness: the
+// god-object rests where spring and contacts balance, and the spring's force is the contacts' force.
+#pragma once
+
+#include "engine/base/function_ref.hpp"
+#include "haptics/contact/contact.hpp"
+#include "haptics/contact/twist.hpp"
+#include "haptics/force/coupling.hpp"
+
+namespace bolt::contact {
+
+// Contacts of the tool at a pose, up to `band` away; see contact.hpp for what an answer promises.
+using Finder = FunctionRef<Found(const Pose&, double band, std::span<Contact>)>;
+
+inline constexpr std::size_t most_contacts = 32;  // asked of the finder
+
+// How fast the felt force may change because of what the god-object does (falls off an edge, slips), in a
+// millisecond, beyond what the hand's own motion changes. A step of 7 % is noticed.
+struct Quiet {
+    double of_present = 0.05;    // of the force that is felt
+    double of_greatest = 0.005;  // of the greatest force, when little is felt
+    double at_most = 0.08;       // of the greatest force, the hand's own motion included
+};
+
+struct GodObjectParameters {
+    force::Coupling coupling;
+    Quiet quiet;
+    double radius = 0.3;     // m: no point of the tool is farther from its origin
+    double friction = 0.15;  // coefficient
+    double skin = 50e-6;     // m kept between tool and obstacles
+    double stride = 0.5e-3;  // m that a point may move between two queries where nothing certifies more
+    double reach = 5e-3;     // m, the widest band asked for
+    double recovery = 0.25;  // m/s, at which it is pushed out when an obstacle moves into it
+    int queries = 10;        // of the finder, a tick; when they are spent the god-object stays behind
+};
+
+struct GodObjectState {
+    Pose tool;
+    Pose device;           // of the last tick
+    force::Offset offset;  // of the last tick
+    force::OutputCommand felt;
+};
+
+// What a step did.
+struct GodObjectStep {
+    double nearest = 0.0;      // m, least distance found at the pose that was last looked at; a lower bound
+    std::size_t contacts = 0;  // within the band, there
+    int queries = 0;
+    int solves = 0;
+    bool spent = false;    // the queries were not enough to get where the contacts allow
+    bool settled = false;  // held back so that the force does not leap
+};
+
+// The tool must be free where it starts.
+GodObjectState start_god_object(const Pose& pose);
+
+// One tick of dt. A motion is only carried out if the finder certified it beforehand (no point of the tool
+// travels farther than the nearest obstacle) or finds no penetration after it, at strides of at most
+// `stride`. A pose that is not finite is ignored: the god-object keeps everything as it is. No allocation.
+GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
+                              const Pose& device, Finder finder, double dt);
+
+}  // namespace bolt::contact
