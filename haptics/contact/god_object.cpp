@@ -11,6 +11,7 @@ namespace bolt::contact {
 namespace {
 
 constexpr double still = 1e-7;       // m: less motion than this is none
+constexpr double fine = 50e-6;       // m: what is left after so short a motion can wait for the next tick
 constexpr double least_share = 0.2;  // of the skin: nearer than this is a penetration to be
 constexpr int attempts = 4;          // motions tried from a pose
 constexpr int halvings = 24;
@@ -64,10 +65,9 @@ class Stepper {
             return std::min(p_.quiet.at_most * greatest * ms, event * ms + hand);
         };
         const force::Coupling& c = p_.coupling;
-        force_limit_ = limit(glm::length(before.felt.force), c.force,
-                             (c.stiffness + c.damping / dt) * glm::length(own.linear));
-        torque_limit_ = limit(glm::length(before.felt.torque), c.torque,
-                              (c.torsion + c.torsion_damping / dt) * glm::length(own.angular));
+        force_limit_ = limit(glm::length(before.felt.force), c.force, c.stiffness * glm::length(own.linear));
+        torque_limit_ =
+            limit(glm::length(before.felt.torque), c.torque, c.torsion * glm::length(own.angular));
     }
 
     GodObjectStep run() {
@@ -197,7 +197,8 @@ class Stepper {
             if (seen.nearest >= std::min(least_share * p_.skin, here_.nearest)) {
                 arrive(there);
                 here_ = seen;
-                return held ? Advance::held : with_device ? Advance::nowhere : Advance::moved;
+                const bool close = quiet == 1.0 && length < fine;
+                return held ? Advance::held : with_device || close ? Advance::nowhere : Advance::moved;
             }
             cut(seen, there, rows);
             longest *= 0.5;

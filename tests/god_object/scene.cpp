@@ -53,6 +53,7 @@ Contact against_pin(const Box& part, const Pose& pose, const Ball& pin) {
     contact.on_obstacle = pin.centre - pin.radius * c.normal;
     contact.normal = -c.normal;
     contact.distance = c.distance - pin.radius;
+    contact.body = pin.body;
     return contact;
 }
 

@@ -20,6 +20,7 @@ struct HalfSpace {
 struct Ball {
     Vec3 centre{0.0};
     double radius = 0.0;
+    std::int32_t body = 0;
 };
 struct Box {
     Pose pose;
