@@ -39,7 +39,7 @@ Scene random_scene(std::uint64_t seed, const Pose& start) {
                 placed(where, 3.0 * any_direction(random)),
                 Vec3(random.uniform(0.0005, 0.02), random.uniform(0.005, 0.03), random.uniform(0.01, 0.05))};
             scene.obstacles.push_back(box);
-            add_edges_as_pins(scene, box, 0.002);
+            add_edges_as_pins(scene, box, 0.005);
         } else if (kind < 0.85) {
             const Vec3 along = random.uniform(0.01, 0.04) * any_direction(random);
             const Rod rod{where - along, where + along, random.uniform(0.003, 0.012)};
@@ -97,9 +97,9 @@ Tally wander(const Scene& scene, const GodObjectParameters& p, std::uint64_t see
 TEST_CASE("random scenes: never inside, never a leap, within the budget of queries") {
     const GodObjectParameters p = for_wrench();
     Tally sum;
-    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 18; ++seed) {
         const Scene scene = random_scene(seed, Pose{});
-        const Tally tally = wander(scene, p, seed, seed % 3 == 0 ? 1.0 : 0.25, 1500);
+        const Tally tally = wander(scene, p, seed, seed % 3 == 0 ? 1.0 : 0.25, 1000);
         CAPTURE(seed);
         CHECK(tally.deepest <= 0.0);
         CHECK(tally.most_queries <= p.queries);
@@ -111,7 +111,7 @@ TEST_CASE("random scenes: never inside, never a leap, within the budget of queri
         sum.spent += tally.spent;
         sum.settled += tally.settled;
     }
-    MESSAGE("in contact " << sum.in_contact << " of 36000 ticks; queries up to " << sum.most_queries
+    MESSAGE("in contact " << sum.in_contact << " of 18000 ticks; queries up to " << sum.most_queries
                           << ", solves up to " << sum.most_solves << "; spent " << sum.spent << ", settled "
                           << sum.settled << "; farthest in a tick " << 1e3 * sum.fastest << " mm; deepest "
                           << 1e6 * sum.deepest << " um");
@@ -180,14 +180,14 @@ TEST_CASE("the tip of a tool in a gap of 1 mm stays in it, however it is pulled 
     const Box right{placed(Vec3(0, -5.5e-3, 0)), Vec3(0.05, 5e-3, 0.05)};
     for (const Box& block : {left, right}) {
         scene.obstacles.push_back(block);
-        add_edges_as_pins(scene, block, 0.002);
+        add_edges_as_pins(scene, block, 0.005);
     }
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         Random random(seed, 3);
         const Wandering hand(random, Vec3(0.0), 0.015, 0.5, seed % 2 == 0 ? 0.1 : 1.0);
         GodObjectState state = start_god_object(Pose{});
         double deepest = 0.0, aside = 0.0, along = 0.0;
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < 1200; ++i) {
             Pose device = hand(i * dt);
             const double ease = std::min(1.0, i / 200.0);
             device.position *= ease;
@@ -235,15 +235,15 @@ TEST_CASE("without friction a wall pushes along its normal and nowhere else, and
 TEST_CASE("a round trip against obstacles gives the hand no work, beyond what a sampled spring does") {
     GodObjectParameters p = for_wrench();
     p.coupling.damping = p.coupling.torsion_damping = 0.0;
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         const Scene scene = random_scene(seed, Pose{});
         Random random(seed, 9);
         const Wandering hand(random, Vec3(0.0), 0.06, 0.8, 0.2);
         GodObjectState state = start_god_object(Pose{});
         double work = 0.0, sampled = 0.0, done = 0.0;
         Pose last = state.device;
-        for (int i = 0; i < 4000; ++i) {
-            const double ease = std::min({1.0, i / 300.0, (4000 - i) / 300.0});
+        for (int i = 0; i < 2500; ++i) {
+            const double ease = std::min({1.0, i / 300.0, (2500 - i) / 300.0});
             Pose device = hand(i * dt);
             device.position *= ease;
             device.orientation = rotation(ease * rotation_vector(device.orientation));

@@ -9,9 +9,9 @@ inline Pose placed(const Vec3& position, const Vec3& turn = Vec3(0.0)) { return 
 
 // Handle and two prongs, 20 mm apart, of boxes; the origin between the prongs, the handle along x.
 inline void add_wrench(Scene& scene) {
-    add_box(scene, {placed(Vec3(0.09, 0, 0)), Vec3(0.07, 0.008, 0.004)}, 0.007);
-    add_box(scene, {placed(Vec3(0.0, 0.014, 0)), Vec3(0.016, 0.004, 0.005)}, 0.004);
-    add_box(scene, {placed(Vec3(0.0, -0.014, 0)), Vec3(0.016, 0.004, 0.005)}, 0.004);
+    add_box(scene, {placed(Vec3(0.09, 0, 0)), Vec3(0.07, 0.008, 0.004)}, 0.015);
+    add_box(scene, {placed(Vec3(0.0, 0.014, 0)), Vec3(0.016, 0.004, 0.005)}, 0.009);
+    add_box(scene, {placed(Vec3(0.0, -0.014, 0)), Vec3(0.016, 0.004, 0.005)}, 0.009);
 }
 
 // A smooth seeded motion about a centre: sums of sines, so that speeds are bounded and nothing repeats.

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
-#include <limits>
+#include <span>
 
 #include "game/report/plot.hpp"
 #include "game/report/style.hpp"
@@ -34,11 +35,11 @@ struct Result {
     Shock god_object, every_point, deepest;
 };
 
-std::vector<Result> run_all(double dt) {
+std::vector<Result> run_all(double dt, std::span<const double> at) {
     const GodObjectParameters p = for_device(dt);
     std::vector<Result> results;
     for (const Script& s : collisions())
-        for (const double v : speeds)
+        for (const double v : at)
             results.push_back(
                 {s.name, v, shock_of(with_god_object(p, s, v, dt), p.coupling, dt),
                  shock_of(with_penalty(p.coupling, s, v, dt, Penalty::every_point), p.coupling, dt),
@@ -134,7 +135,7 @@ std::string figure(const std::vector<Result>& results, const Script& script, dou
 TEST_CASE(
     "collisions at 0.05 to 0.5 m/s: never a tenth of the greatest force in a millisecond, never a step to be "
     "noticed") {
-    const std::vector<Result> results = run_all(1e-3);
+    const std::vector<Result> results = run_all(1e-3, speeds);
     Shock worst, worst_every, worst_deepest;
     for (const Result& r : results) {
         CAPTURE(r.name);
@@ -169,7 +170,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the same at 4 kHz, per millisecond") {
-    for (const Result& r : run_all(0.25e-3)) {
+    for (const Result& r : run_all(0.25e-3, std::array{0.1, 0.5})) {
         CAPTURE(r.name);
         CAPTURE(r.speed);
         CHECK(r.god_object.step <= 0.1);
