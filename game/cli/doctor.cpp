@@ -1,8 +1,9 @@
-// boltwright doctor: what this machine has, and what of it would be used.
+// boltwright doctor: what this machine has, what of it would be used, and whether it keeps the servo's time.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 
 #include "engine/base/console.hpp"
 #include "engine/gpu/device.hpp"
@@ -10,6 +11,7 @@
 #include "engine/platform/pace.hpp"
 #include "engine/platform/window.hpp"
 #include "game/cli/commands.hpp"
+#include "game/cli/servo_host.hpp"
 
 namespace bolt::cli {
 
@@ -69,11 +71,23 @@ Status examine() {
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
-    app.add_subcommand("doctor", "Say what this machine has for drawing, and what would be used")
-        ->callback([&exit_code] {
-            const Status done = examine();
-            exit_code = done ? 0 : complain(done.error());
-        });
+    auto seconds = std::make_shared<double>(2.0);
+    CLI::App* doctor = app.add_subcommand(
+        "doctor",
+        "Say what this machine has for drawing, what would be used, and how it keeps the servo's time");
+    doctor->add_option("--seconds", *seconds, "how long the servo is timed at each rate; 0: not at all")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+    doctor->callback([&exit_code, seconds] {
+        const Status drawing = examine();
+        Status servo;
+        if (*seconds > 0.0) {
+            const Result<std::string> text = examine_servo(*seconds);
+            servo =
+                say("Servo:\n" + (text ? *text : fmt::format("  not timed: {}\n", text.error().message())));
+        }
+        exit_code = !drawing ? complain(drawing.error()) : !servo ? complain(servo.error()) : 0;
+    });
 }
 
 }  // namespace bolt::cli

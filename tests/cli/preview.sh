@@ -92,8 +92,8 @@ expect 3 'nowhere.glb' "$bin/bolt-author" preview nowhere.glb
 expect 4 'not the one asked for' "$bin/bolt-author" preview cover-m8 --gpu voodoo
 check "nothing was drawn where something was wrong" test ! -e never.png
 
-expect 0 'sRGB' "$bin/boltwright" doctor
-expect 0 'images, of at least' "$bin/boltwright" doctor
+expect 0 'sRGB' "$bin/boltwright" doctor --seconds 0
+expect 0 'images, of at least' "$bin/boltwright" doctor --seconds 0
 
 # Look around.
 start cover-m8 --size 320x200

@@ -1,0 +1,72 @@
+#include "game/cli/servo_host.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "content/format/load.hpp"
+#include "game/play/servo_setup.hpp"
+#include "haptics/servo/thread.hpp"
+
+namespace bolt::cli {
+
+namespace {
+
+// A hand that turns the first nut down with its fingers: joint law, group and output stage are all at work.
+servo::Input turning(const servo::Setup& setup, const servo::State& state) {
+    const servo::NutPlace& nut = setup.nuts.front();
+    const double turned = static_cast<double>(state.tick) * setup.dt;  // rad: one a second
+    const Vec3 at = servo::nut_centre(nut, state.joints.front().nut.angle);
+    const Vec3 x = std::cos(turned) * nut.e1 - std::sin(turned) * nut.e2;
+    const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(nut.axis, x), nut.axis)));
+    servo::Input input;
+    for (int i = 0; i < 3; ++i) input.device.position[i] = static_cast<float>(at[i]);
+    input.device.orientation[0] = static_cast<float>(q.w);
+    input.device.orientation[1] = static_cast<float>(q.x);
+    input.device.orientation[2] = static_cast<float>(q.y);
+    input.device.orientation[3] = static_cast<float>(q.z);
+    input.grip = servo::Grip::fingers;
+    input.enabled = true;
+    return input;
+}
+
+std::string describe(const servo::Granted& granted) {
+    std::string text;
+    if (granted.priority > 0) text += fmt::format("  real-time priority {} (SCHED_FIFO)\n", granted.priority);
+    if (granted.memory_locked) text += "  memory is locked\n";
+    for (const std::string& refused : granted.refused) text += "  " + refused + "\n";
+    return text;
+}
+
+}  // namespace
+
+Result<std::string> examine_servo(double seconds) {
+    const content::Loaded loaded = content::load_assembly("zq350");
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    std::string text;
+    for (const double rate : {1000.0, 4000.0}) {
+        const servo::Setup setup =
+            play::make_setup(loaded.assembly, loaded.assembly.law, force::OutputLimits{}, 0, 1.0 / rate);
+        servo::State state = servo::initial_state(setup);
+        servo::ThreadOptions options;
+        options.rate = rate;
+        Result<servo::Thread> thread = servo::Thread::start(options, [&](const servo::Beat&) {
+            servo::tick(setup, state, turning(setup, state));
+            return true;
+        });
+        if (!thread) return fail(thread.error());
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        thread->stop();
+        if (text.empty()) text = describe(thread->granted());
+        const servo::Verdict verdict = servo::judge_host(thread->timing(), rate);
+        text += fmt::format("  at {:.0f} ticks a second this machine is {}\n", rate,
+                            verdict.good ? "good enough" : "NOT good enough");
+        for (const std::string& reason : verdict.reasons) text += "    " + reason + "\n";
+        text += servo::describe(thread->timing());
+    }
+    return text;
+}
+
+}  // namespace bolt::cli
