@@ -8,8 +8,6 @@ namespace bolt::contact {
 namespace {
 
 constexpr int levels = 4;
-// More than what a float distance is off by, at a metre.
-constexpr double rounding = 1e-6;
 const double half_diagonal = 0.5 * std::sqrt(3.0);  // of a cell of size 1
 
 class Builder {
@@ -28,7 +26,7 @@ class Builder {
         for (std::uint32_t i = 0; i < 8; ++i) {
             const Vec3 child = middle + quarter * Vec3(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1);
             fill(first + i, child, 0.5 * size, level + 1,
-                 std::abs(distance) + glm::length(child - middle) + rounding);
+                 std::abs(distance) + glm::length(child - middle) + grid_.rounding);
         }
     }
 
@@ -44,7 +42,9 @@ DistanceGrid make_distance_grid(const Solid& solid, double cell) {
     if (!(cell > 0.0)) return grid;
     grid.root = cell * (1 << levels);
     grid.low = solid.box.low - grid.root;
+    grid.per_root = static_cast<float>(1.0 / grid.root);
     const Vec3 size = (solid.box.high - solid.box.low) / grid.root;
+    grid.rounding = 1e-6 * (1.0 + glm::length(solid.box.high - solid.box.low) + 8.0 * grid.root);
     std::size_t count = 1;
     for (std::size_t k = 0; k < 3; ++k) {
         grid.roots[k] = static_cast<int>(std::ceil(size[static_cast<int>(k)])) + 2;
@@ -63,29 +63,26 @@ DistanceGrid make_distance_grid(const Solid& solid, double cell) {
 
 DistanceBounds distance_bounds(const DistanceGrid& grid, const Vec3& point) {
     if (grid.nodes.empty()) return {};
-    const Vec3 at = (point - grid.low) / grid.root;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double x = at[static_cast<int>(k)];
-        if (!(x >= 0.0 && x < grid.roots[k])) return {};
-    }
-    const int x = static_cast<int>(at.x);
-    const int y = static_cast<int>(at.y);
-    const int z = static_cast<int>(at.z);
+    const glm::vec3 from_low(point - grid.low);
+    const glm::vec3 at = from_low * grid.per_root;
+    for (int k = 0; k < 3; ++k)
+        if (!(at[k] >= 0.0F && at[k] < static_cast<float>(grid.roots[static_cast<std::size_t>(k)])))
+            return {};
+    const glm::ivec3 cell(at);
+    const auto size = static_cast<float>(grid.root);
+    glm::vec3 off = from_low - size * (glm::vec3(cell) + 0.5F);
     const DistanceGrid::Node* node =
-        &grid.nodes[static_cast<std::size_t>((z * grid.roots[1] + y) * grid.roots[0] + x)];
-    Vec3 from_middle = point - (grid.low + grid.root * (Vec3(x, y, z) + 0.5));
-    double quarter = 0.25 * grid.root;
-    while (node->children != 0) {
-        const bool right = from_middle.x >= 0.0;
-        const bool up = from_middle.y >= 0.0;
-        const bool front = from_middle.z >= 0.0;
-        node = &grid.nodes[node->children + (right ? 1U : 0U) + (up ? 2U : 0U) + (front ? 4U : 0U)];
-        from_middle -= quarter * Vec3(right ? 1 : -1, up ? 1 : -1, front ? 1 : -1);
-        quarter *= 0.5;
+        &grid.nodes[static_cast<std::size_t>((cell.z * grid.roots[1] + cell.y) * grid.roots[0] + cell.x)];
+    for (float quarter = 0.25F * size; node->children != 0; quarter *= 0.5F) {
+        const bool x = off.x >= 0.0F;
+        const bool y = off.y >= 0.0F;
+        const bool z = off.z >= 0.0F;
+        node = &grid.nodes[node->children + (x ? 1U : 0U) + (y ? 2U : 0U) + (z ? 4U : 0U)];
+        off -= glm::vec3(x ? quarter : -quarter, y ? quarter : -quarter, z ? quarter : -quarter);
     }
-    const double off = glm::length(from_middle) + rounding;
+    const double way = static_cast<double>(glm::length(off)) + grid.rounding;
     const auto distance = static_cast<double>(node->distance);
-    return {distance - off, std::abs(distance) + off};
+    return {distance - way, std::abs(distance) + way};
 }
 
 }  // namespace bolt::contact

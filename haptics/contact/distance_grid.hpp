@@ -18,6 +18,8 @@ struct DistanceGrid {
     };
     Vec3 low{0.0};               // m, of the first root cell
     double root = 0.0;           // m, the size of a root cell
+    float per_root = 0.0F;       // 1 / root
+    double rounding = 0.0;       // m: more than what points and distances in float are off by
     std::array<int, 3> roots{};  // along each axis; 0: no grid
     std::vector<Node> nodes;     // root cells first, x fastest
 };

@@ -184,7 +184,7 @@ void add_points(const Solid& solid, std::vector<Sample>& out) {
                      [&](std::uint32_t a, std::uint32_t b) { return spacing[a] < spacing[b]; });
     // The closest first; a vertex is left out where there is one within its own spacing, to the next power of
     // two below. Each spacing looks in cells of its size.
-    constexpr int levels = 16;
+    constexpr int levels = 8;
     std::vector<Cells> cells;
     for (int i = 0; i < levels; ++i) cells.emplace_back(std::ldexp(8e-3, -i));
     for (const std::uint32_t v : order) {

@@ -19,11 +19,14 @@ struct GeometryRelease {
     void operator()(RTCGeometryTy* geometry) const { rtcReleaseGeometry(geometry); }
 };
 
+// Surfaces that are no further apart are in one place (m).
+constexpr double one_place = 1e-7;
+
 // Embree looks in float: a radius that what is within `radius` in double is surely found with.
 float with_margin(double radius, const Vec3& p) {
     if (!(radius < 1e30)) return FLT_MAX;
     const double size = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + radius;
-    return static_cast<float>(radius + 1e-6 * size + 1e-9);
+    return static_cast<float>(radius + 1e-6 * size + 2.0 * one_place);
 }
 
 RTCPointQuery make_query(const Vec3& p, double radius) {
@@ -46,15 +49,31 @@ bool nearer(const Candidate& a, const Candidate& b) {
     return a.squared != b.squared ? a.squared < b.squared : a.triangle < b.triangle;
 }
 
+Vec3 pseudonormal(const ContactMesh& mesh, const Candidate& c) {
+    if (c.region < 3) return Vec3(mesh.vertex_normals[mesh.triangles[c.triangle][c.region]]);
+    if (c.region < 6) return Vec3(mesh.edge_normals[c.triangle][c.region - 3U]);
+    const auto [a, b, d] = corners(mesh, c.triangle);
+    return glm::cross(b - a, d - a);
+}
+
+bool is_behind_surface(const ContactMesh& mesh, const Vec3& p, const Candidate& c) {
+    return glm::dot(p - c.point, pseudonormal(mesh, c)) < 0.0;
+}
+
 // What one point query has found so far. The set kept does not depend on the order of arrival: it is the
 // nearest ones by distance and triangle.
 struct Gathering {
     static constexpr std::size_t room = 64;
+    const ContactMesh* mesh;
     const std::array<glm::vec3, 3>* corners;
     Vec3 p;
     double band2, radius2;
     double asked2;  // the square of the radius that is looked within now
+    glm::vec3 rounded;
+    float asked_in_float;  // the square of Embree's radius
     Candidate nearest{std::numeric_limits<double>::infinity(), 0xffffffffU, 6, {}};
+    // The nearest that the point is inside of, as long as it is no further than the nearest of all.
+    Candidate inside = nearest;
     std::array<Candidate, room> kept;
     std::size_t count = 0;
     std::size_t furthest = 0;  // of the kept, once they fill the room
@@ -68,6 +87,9 @@ struct Gathering {
             if (nearer(kept[furthest], kept[i])) furthest = i;
     }
     void add(const Candidate& found) {
+        if (found.squared <= square(std::sqrt(nearest.squared) + one_place) && nearer(found, inside) &&
+            is_behind_surface(*mesh, p, found))
+            inside = found;
         if (nearer(found, nearest)) nearest = found;
         if (found.squared > band2) return;
         if (count < room) {
@@ -85,21 +107,21 @@ struct Gathering {
 bool gather(RTCPointQueryFunctionArguments* arguments) {
     auto& g = *static_cast<Gathering*>(arguments->userPtr);
     const auto& t = g.corners[arguments->primID];
+    // Embree asks for all triangles of a leaf; most are set aside by their box.
+    const glm::vec3 low = glm::min(glm::min(t[0], t[1]), t[2]);
+    const glm::vec3 high = glm::max(glm::max(t[0], t[1]), t[2]);
+    const glm::vec3 beside = glm::max(glm::max(low - g.rounded, g.rounded - high), glm::vec3(0.0F));
+    if (glm::dot(beside, beside) > g.asked_in_float) return false;
     const auto [point, region] = closest_on_triangle(g.p, {Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
     const Vec3 between = g.p - point;
     g.add({glm::dot(between, between), arguments->primID, region, point});
     const double needed2 = std::max(g.limit2(), std::min(g.nearest.squared, g.radius2));
     if (!(needed2 < g.asked2)) return false;
     g.asked2 = needed2;
-    arguments->query->radius = std::min(arguments->query->radius, with_margin(std::sqrt(needed2), g.p));
+    const float radius = std::min(arguments->query->radius, with_margin(std::sqrt(needed2), g.p));
+    arguments->query->radius = radius;
+    g.asked_in_float = radius * radius;
     return true;
-}
-
-Vec3 pseudonormal(const ContactMesh& mesh, const Candidate& c) {
-    if (c.region < 3) return Vec3(mesh.vertex_normals[mesh.triangles[c.triangle][c.region]]);
-    if (c.region < 6) return Vec3(mesh.edge_normals[c.triangle][c.region - 3U]);
-    const auto [a, b, d] = corners(mesh, c.triangle);
-    return glm::cross(b - a, d - a);
 }
 
 Side make_side(const ContactMesh& mesh, const Vec3& p, const Candidate& c) {
@@ -116,18 +138,9 @@ Side make_side(const ContactMesh& mesh, const Vec3& p, const Candidate& c) {
 
 // Of several surfaces in one place the one that the point is inside of counts: where parts touch, a point in
 // one of them is on the other's surface too, from outside.
-Side nearest_side(const Solid& solid, const Gathering& g) {
-    const Side first = make_side(solid.mesh, g.p, g.nearest);
-    if (first.distance < 0.0) return first;
-    const double same_place = square(first.distance + 1e-7);
-    std::uint16_t part = solid.part[g.nearest.triangle];
-    for (std::size_t i = 0; i < g.count && g.kept[i].squared <= same_place; ++i) {
-        if (solid.part[g.kept[i].triangle] == part) continue;
-        part = solid.part[g.kept[i].triangle];
-        const Side other = make_side(solid.mesh, g.p, g.kept[i]);
-        if (other.distance < 0.0) return other;
-    }
-    return first;
+Side nearest_side(const Gathering& g) {
+    const bool inside = g.inside.squared <= square(std::sqrt(g.nearest.squared) + one_place);
+    return make_side(*g.mesh, g.p, inside ? g.inside : g.nearest);
 }
 
 // Whether all of the triangle that is within the band lies behind the side's plane, but for the tolerance.
@@ -211,6 +224,7 @@ Result<SceneHandle> commit(RTCDevice device, RTCGeometry geometry) {
     rtcCommitGeometry(geometry);
     SceneHandle scene(rtcNewScene(device));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+
     rtcAttachGeometry(scene.get(), geometry);
     rtcCommitScene(scene.get());
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
@@ -283,12 +297,15 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
 
 Near near_point(const Solid& solid, const Vec3& point, double radius, double band, std::span<Side> sides) {
     Gathering g;
+    g.mesh = &solid.mesh;
     g.corners = solid.corners.data();
     g.p = point;
     g.band2 = band * band;
     const double within = std::max(radius, band);
     g.radius2 = g.asked2 = within * within;
     RTCPointQuery query = make_query(point, within);
+    g.rounded = glm::vec3(point);
+    g.asked_in_float = query.radius < 1e18F ? query.radius * query.radius : FLT_MAX;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(solid.scene.get(), &query, &context, gather, &g);
@@ -298,7 +315,7 @@ Near near_point(const Solid& solid, const Vec3& point, double radius, double ban
     if (!(g.nearest.squared <= g.radius2)) return near;
     if (g.overflown) near.complete = std::sqrt(g.kept[g.furthest].squared);
     std::sort(g.kept.begin(), g.kept.begin() + static_cast<std::ptrdiff_t>(g.count), nearer);
-    const Side first = nearest_side(solid, g);
+    const Side first = nearest_side(g);
     near.distance = first.distance;
     if (first.distance > band) return near;
     if (sides.empty()) {

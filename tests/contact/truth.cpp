@@ -49,7 +49,7 @@ std::optional<Pose> push_in(const Soup& still, const ContactMesh& tool, const Po
                             double deeper) {
     double free = -1.0;
     double in = 0.0;
-    for (double s = 0.0; s < 0.08; s += 0.5 * mm) {
+    for (double s = 0.0; s < 0.08; s += 0.8 * mm) {
         if (brute_crossing(still, soup(tool, {start.position + s * way, start.orientation}))) {
             if (free < 0.0) return std::nullopt;
             in = s;
@@ -184,7 +184,7 @@ TEST_CASE("what truly meets by more than 0.1 mm is not missed; points alone miss
         const Soup still = soup(c.mesh);
         ProximityState state = make_proximity(world, tool);
         int here = 0;
-        for (int i = 0; i < 150; ++i) {
+        for (int i = 0; i < 60; ++i) {
             const Vec3 way = random_direction(random);
             const Pose start{c.middle + c.size * random_offset(random) - 0.05 * way, random_turn(random)};
             const auto pose = push_in(still, parts[0], start, way, random.uniform(0.1, 0.4) * mm);
@@ -200,7 +200,7 @@ TEST_CASE("what truly meets by more than 0.1 mm is not missed; points alone miss
                 points = std::min(points, signed_distance(world, *pose * s.at));
             missed_by_points += points > 0.0 ? 1 : 0;
         }
-        CHECK(here > 20);
+        CHECK(here > 15);
         met += here;
     }
     MESSAGE(met << " meet, points of the tool alone miss " << missed_by_points);

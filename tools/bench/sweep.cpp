@@ -73,7 +73,6 @@ ContactMesh refined(const ContactMesh& mesh, double longest) {
     std::vector<glm::vec3> vertices = mesh.vertices;
     std::vector<glm::vec3> normals = mesh.vertex_normals;
     auto triangles = mesh.triangles;
-    Random random(5);
     for (bool again = true; again;) {
         again = false;
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> halves;
@@ -83,8 +82,7 @@ ContactMesh refined(const ContactMesh& mesh, double longest) {
                 halves.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(vertices.size()));
             if (is_new) {
                 const glm::vec3 normal = glm::normalize(normals[a] + normals[b] + glm::vec3(1e-12F));
-                const auto shift = static_cast<float>(random.uniform(-20e-6, 20e-6));
-                vertices.push_back(0.5F * (vertices[a] + vertices[b]) + shift * normal);
+                vertices.push_back(0.5F * (vertices[a] + vertices[b]));
                 normals.push_back(normal);
             }
             return at->second;
@@ -122,6 +120,11 @@ ContactMesh refined(const ContactMesh& mesh, double longest) {
             }
         }
         triangles = std::move(finer);
+    }
+    for (std::size_t v = mesh.vertices.size(); v < vertices.size(); ++v) {
+        const Vec3 waves = Vec3(vertices[v]) * (2.0 * pi / 20e-3);
+        const double shift = 20e-6 * std::sin(waves.x) * std::sin(waves.y + 1.0) * std::sin(waves.z + 2.0);
+        vertices[v] += static_cast<float>(shift) * normals[v];
     }
     std::vector<std::uint32_t> indices;
     for (const auto& t : triangles) indices.insert(indices.end(), t.begin(), t.end());

@@ -17,8 +17,8 @@ namespace bolt::bench {
 Result<std::vector<contact::ContactMesh>> load_contact(const std::filesystem::path& path,
                                                        const std::vector<std::string>& prefixes = {});
 
-// Every edge longer than `longest` halved until there is none, new vertices displaced along their normals by
-// up to 20 µm of seeded noise, so that nothing stays flat.
+// Every edge longer than `longest` halved until there is none; new vertices lie on waves of 20 µm, so that
+// nothing stays flat.
 contact::ContactMesh refined(const contact::ContactMesh& mesh, double longest);
 
 // A pose a millisecond: the tool comes to a place on the casing with a point of its own, goes 4 mm before it
