@@ -93,7 +93,7 @@ ContactMesh refined(const ContactMesh& mesh, double longest) {
             std::size_t count = 0;
             for (std::size_t i = 0; i < 3; ++i) {
                 m[i] = half(t[i], t[(i + 1) % 3]);
-                count += m[i] != 0xffffffffU ? 1 : 0;
+                count += m[i] != 0xffffffffU ? 1U : 0U;
             }
             if (count == 0) {
                 finer.push_back(t);

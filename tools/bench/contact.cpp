@@ -1,0 +1,162 @@
+// Proximity, tick by tick along one way of the wrench near and along the casing: a benchmark is the whole
+// way, what counts are the counters, in microseconds of this thread's own work. `slow_*`: of the slowest
+// ticks; `touching_*`: of those that found contacts alone.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+#include <map>
+#include <memory>
+
+#include "haptics/contact/proximity.hpp"
+#include "tools/bench/contact_peers.hpp"
+#include "tools/bench/need.hpp"
+#include "tools/bench/sweep.hpp"
+
+namespace {
+
+using namespace bolt;
+using bench::guarded;
+using bench::need;
+
+std::string content() {
+    const char* set = std::getenv("BOLTWRIGHT_CONTENT");
+    return set != nullptr ? set : "content";
+}
+
+constexpr double band = 0.6e-3;
+constexpr double longest_of_a_million = 8.5e-3;  // m: edges of the casing of about a million triangles
+
+// Of casings: as shipped (about 60,000 triangles: both halves and the wheels) and refined (0, 1).
+struct Ground {
+    std::array<std::vector<contact::ContactMesh>, 2> casings;
+    std::vector<contact::ContactMesh> wrench;
+    std::vector<Pose> sweep;
+
+    static const Ground& get() {
+        static const Ground ground;
+        return ground;
+    }
+    [[nodiscard]] contact::World world(std::size_t casing, double cell = contact::WorldOptions{}.cell) const {
+        std::vector<contact::Obstacle> obstacles;
+        for (const contact::ContactMesh& part : casings[casing])
+            obstacles.push_back({static_cast<std::int32_t>(obstacles.size()), &part, {}, false});
+        return need(contact::make_world(obstacles, {cell}));
+    }
+
+  private:
+    Ground() {
+        casings[0] = need(
+            bench::load_contact(content() + "/assemblies/zq350/zq350.contact.glb", {"casing_", "wheel_"}));
+        for (const contact::ContactMesh& part : casings[0])
+            casings[1].push_back(bench::refined(part, longest_of_a_million));
+        wrench = need(bench::load_contact(content() + "/tools/wrench-24.contact.glb"));
+        const contact::World shipped = world(0);
+        sweep = bench::make_sweep(shipped, shipped.shapes[0].solid, need(contact::make_tool(wrench)), 0.1e-3,
+                                  90.0);
+    }
+};
+
+double microseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+class Ticks {
+  public:
+    void add(double took, bool touches, bool follows) {
+        if (!follows) return first_.push_back(took);
+        all_.push_back(took);
+        if (touches) touching_.push_back(took);
+    }
+    void tell(benchmark::State& state) {
+        const auto share = [](std::vector<double>& v, double quantile) {
+            if (v.empty()) return 0.0;
+            std::sort(v.begin(), v.end());
+            return v[std::min(v.size() - 1,
+                              static_cast<std::size_t>(quantile * static_cast<double>(v.size())))];
+        };
+        state.counters["p50"] = share(all_, 0.5);
+        state.counters["p99"] = share(all_, 0.99);
+        state.counters["p99.9"] = share(all_, 0.999);
+        state.counters["touching_p50"] = share(touching_, 0.5);
+        state.counters["touching_p99"] = share(touching_, 0.99);
+        state.counters["touching_p99.9"] = share(touching_, 0.999);
+        state.counters["touching"] = static_cast<double>(touching_.size()) / static_cast<double>(all_.size());
+        state.counters["first_max"] = share(first_, 1.0);
+    }
+
+  private:
+    std::vector<double> all_, touching_, first_;  // microseconds
+};
+
+// `step(pose)`: whether the tool touches. Every `every`-th pose.
+template <class Step>
+void along(benchmark::State& state, std::size_t every, const Step& step) {
+    const std::vector<Pose>& sweep = Ground::get().sweep;
+    for (auto _ : state) {
+        Ticks ticks;
+        for (std::size_t i = 0; i < sweep.size(); i += every) {
+            // Between two places the tool is put down anew.
+            const bool follows = i > 0 && glm::length(sweep[i].position - sweep[i - 1].position) < 2e-3;
+            const double start = microseconds();
+            const bool touches = step(sweep[i]);
+            ticks.add(microseconds() - start, touches, follows);
+        }
+        ticks.tell(state);
+    }
+}
+
+std::string triangles(std::size_t casing) {
+    std::size_t count = 0;
+    for (const contact::ContactMesh& part : Ground::get().casings[casing]) count += part.triangles.size();
+    return std::to_string(count) + " triangles";
+}
+
+void proximity(benchmark::State& state, double cell, bool forgetful) {
+    guarded(state, [&] {
+        const auto casing = static_cast<std::size_t>(state.range(0));
+        const contact::World world = Ground::get().world(casing, cell);
+        const contact::ToolShape tool = need(contact::make_tool(Ground::get().wrench));
+        contact::ProximityState known = contact::make_proximity(world, tool);
+        std::array<contact::Contact, 32> contacts;
+        along(state, forgetful ? 50 : 1, [&](const Pose& pose) {
+            if (forgetful) contact::forget(known, world, tool);
+            return find_contacts(world, tool, pose, band, known, contacts).count > 0;
+        });
+        state.SetLabel(triangles(casing) + ", " + std::to_string(tool.samples.samples.size()) + " samples");
+    });
+}
+void contact_proximity(benchmark::State& state) { proximity(state, contact::WorldOptions{}.cell, false); }
+BENCHMARK(contact_proximity)->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+// Baselines of our own: nothing known from the tick before, and no grid.
+void contact_proximity_forgetful(benchmark::State& state) {
+    proximity(state, contact::WorldOptions{}.cell, true);
+}
+BENCHMARK(contact_proximity_forgetful)->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
+void contact_proximity_without_grid(benchmark::State& state) { proximity(state, 0.0, false); }
+BENCHMARK(contact_proximity_without_grid)->Arg(0)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+// Peers: whatever of them was there when this was built.
+void contact_peer(benchmark::State& state, bench::MakePeer make) {
+    guarded(state, [&] {
+        const auto casing = static_cast<std::size_t>(state.range(0));
+        const std::unique_ptr<bench::Peer> peer = make(Ground::get().casings[casing], Ground::get().wrench);
+        along(state, 10, [&](const Pose& pose) { return peer->touches(pose); });
+        state.SetLabel(triangles(casing));
+    });
+}
+const bool registered = [] {
+    for (const auto& [name, make] : bench::peers())
+        benchmark::RegisterBenchmark(("contact_" + name).c_str(), contact_peer, make)
+            ->Arg(0)
+            ->Arg(1)
+            ->Iterations(1)
+            ->Unit(benchmark::kMillisecond);
+    return true;
+}();
+
+}  // namespace
