@@ -187,12 +187,12 @@ Triangles casing() {
     return out;
 }
 
-std::vector<ContactMesh> load_parts(const std::filesystem::path& path) {
+std::vector<ContactMesh> load_parts(const std::filesystem::path& path, const std::string& prefix) {
     const assets::Model model = assets::read_gltf(path).value();
     const std::vector<glm::mat4> world = assets::world_transforms(model);
     std::vector<ContactMesh> parts;
     for (std::size_t n = 0; n < model.nodes.size(); ++n) {
-        if (model.nodes[n].mesh < 0) continue;
+        if (model.nodes[n].mesh < 0 || !model.nodes[n].name.starts_with(prefix)) continue;
         Triangles out;
         for (const assets::Primitive& primitive :
              model.meshes[static_cast<std::size_t>(model.nodes[n].mesh)].primitives) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "engine/assets/model.hpp"
@@ -31,8 +32,8 @@ Triangles wrench();
 // matters.
 Triangles casing();
 
-// All meshes of a glTF file, one a node, where the nodes are.
-std::vector<ContactMesh> load_parts(const std::filesystem::path& path);
+// All meshes of a glTF file, one a node, where the nodes are; of nodes whose name begins with `prefix`.
+std::vector<ContactMesh> load_parts(const std::filesystem::path& path, const std::string& prefix = {});
 
 // A turn that is uniform over all turns.
 bolt::Quat random_turn(bolt::Random& random);

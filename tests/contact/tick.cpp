@@ -1,0 +1,121 @@
+// What the servo's tick asks of the finder, on the shipped reducer with the shipped wrench.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+
+#include "haptics/contact/proximity.hpp"
+#include "tests/contact/support.hpp"
+#include "tests/support/forbidden.hpp"
+
+using namespace bolt;
+using namespace bolt::contact;
+using namespace contact_test;
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+struct Reducer {
+    std::vector<ContactMesh> casing = load_parts(content() / "assemblies/zq350/zq350.contact.glb", "casing_");
+    std::vector<ContactMesh> wrench = load_parts(content() / "tools/wrench-24.contact.glb");
+    ToolShape tool = make_tool(wrench).value();
+    World world;
+
+    Reducer() {
+        REQUIRE(casing.size() == 2);
+        std::vector<Obstacle> obstacles;
+        for (const ContactMesh& part : casing)
+            obstacles.push_back({static_cast<std::int32_t>(obstacles.size()), &part, {}, false});
+        world = make_world(obstacles).value();
+    }
+
+    static std::filesystem::path content() {
+        const char* set = std::getenv("BOLTWRIGHT_CONTENT");
+        REQUIRE(set != nullptr);
+        return set;
+    }
+
+    // Somewhere at the casing with some point of the wrench.
+    [[nodiscard]] Pose at_the_surface(Random& random) const {
+        const Solid& solid = world.shapes[0].solid;
+        const std::size_t t = random.bits() % solid.mesh.triangles.size();
+        const auto [a, b, c] = corners(solid.mesh, t);
+        const Vec3 on_tool = tool.samples.samples[random.bits() % tool.samples.samples.size()].at;
+        Pose pose{(a + b + c) / 3.0 + random.uniform(-0.1, 2.0) * mm * Vec3(solid.mesh.face_normals[t]),
+                  random_turn(random)};
+        pose.position -= pose.orientation * on_tool;
+        return pose;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("distances to the reducer's casing are those of brute force") {
+    const Reducer reducer;
+    std::vector<Soup> soups;
+    for (const ContactMesh& part : reducer.casing) soups.push_back(soup(part));
+    Random random(41);
+    double worst = 0.0;
+    for (int i = 0; i < 300; ++i) {
+        const Soup& triangles = soups[i % 2 == 0 ? 0 : 1];
+        const auto& t = triangles[random.bits() % triangles.size()];
+        const Vec3 p = (t[0] + t[1] + t[2]) / 3.0 + random.uniform(0.0, 5.0) * mm * random_direction(random);
+        const double truth = std::min(brute_signed_distance(soups[0], p), brute_signed_distance(soups[1], p));
+        worst = std::max(worst, std::abs(signed_distance(reducer.world, p) - truth));
+    }
+    CHECK(worst <= 1e-6);
+}
+
+TEST_CASE("at the reducer, too, nothing depends on what was before") {
+    const Reducer reducer;
+    Random random(42);
+    ProximityState warm = make_proximity(reducer.world, reducer.tool);
+    ProximityState cold = make_proximity(reducer.world, reducer.tool);
+    std::size_t touching = 0;
+    for (int place = 0; place < 8; ++place) {
+        const Pose start = reducer.at_the_surface(random);
+        const Vec3 way = 0.2 * mm * random_direction(random);
+        const Vec3 turn = 1e-3 * random_direction(random);
+        Pose pose = start;
+        for (int i = 0; i < 40; ++i) {
+            pose = {pose.position + way, rotation(turn) * pose.orientation};
+            std::array<Contact, 32> a;
+            std::array<Contact, 32> b;
+            const Found x = find_contacts(reducer.world, reducer.tool, pose, 0.6 * mm, warm, a);
+            forget(cold, reducer.world, reducer.tool);
+            const Found y = find_contacts(reducer.world, reducer.tool, pose, 0.6 * mm, cold, b);
+            REQUIRE(x.count == y.count);
+            REQUIRE(x.clearance == y.clearance);
+            for (std::size_t k = 0; k < x.count; ++k) {
+                REQUIRE(a[k].distance == b[k].distance);
+                REQUIRE(a[k].on_tool == b[k].on_tool);
+                REQUIRE(a[k].normal == b[k].normal);
+                REQUIRE(a[k].feature == b[k].feature);
+            }
+            touching += x.count > 0 ? 1 : 0;
+        }
+    }
+    CHECK(touching > 100);
+}
+
+TEST_CASE("finding contacts allocates nothing, locks nothing, reads no clock") {
+    const Reducer reducer;
+    Random random(43);
+    ProximityState state = make_proximity(reducer.world, reducer.tool);
+    std::vector<Pose> poses;
+    for (int i = 0; i < 20; ++i) poses.push_back(reducer.at_the_surface(random));
+    std::array<Contact, 32> contacts;
+    std::size_t found = 0;
+    const test::Forbidden seen = test::forbidden_in([&] {
+        for (const Pose& pose : poses)
+            found += find_contacts(reducer.world, reducer.tool, pose, 0.6 * mm, state, contacts).count;
+        found += occluded(reducer.world, poses[0].position, poses[1].position) ? 1U : 0U;
+    });
+    CHECK(found > 20);
+    CHECK(seen.all() == 0);
+    // The counter counts.
+    CHECK(test::forbidden_in([&] { (void)make_proximity(reducer.world, reducer.tool); }).allocations > 0);
+}
