@@ -18,35 +18,40 @@ namespace bolt::contact {
 
 namespace {
 
-constexpr double penalty = 1e3;   // of a contact's violation, against 1 for the deviation
+// Of a contact's violation, against 1 for the deviation: it grows tenfold a round, as the way to the answer
+// is shorter where the cost is smooth.
+constexpr double first_penalty = 10.0, most_penalty = 1e3;
 constexpr int rounds = 8;         // multiplier and slip are renewed this often at most
 constexpr int newton_steps = 16;  // in a round at most
 constexpr int searches = 8;       // along a Newton direction at most
-constexpr double enough = 1e-10;  // m
+constexpr double enough = 1e-9;   // m
+constexpr double nearly = 1e-6;   // m, while the penalty grows
 
 using Six = std::array<double, 6>;
 
 struct Row {
-    Vec3 arm{0.0};
+    Vec3 arm{0.0};  // in lengths of the metric
     Vec3 normal{0.0};
     double slack = 0.0;
     double friction = 0.0;
     double rise = 0.0;  // m of slack for slipping
     Vec3 force{0.0};    // the multiplier
-    Vec3 pull{0.0};     // force + penalty × violation at the current motion, before it is projected
+    Vec3 pull{0.0};     // force - penalty × room at the current motion
+    Vec3 borne{0.0};    // of the pull, what the contact can bear
     Vec3 pull_rate{0.0};
+    Vec3 borne_ahead{0.0};  // at the end of the Newton direction
 };
 
 struct Problem {
     std::array<Row, most_constraints> rows;
     std::size_t count = 0;
-    double length = 0.1;  // m
+    double penalty = first_penalty;
     Six wanted{};
     Six motion{};
 };
 
-Vec3 point_motion(const Problem& p, const Row& row, const Six& y) {
-    return Vec3(y[0], y[1], y[2]) + glm::cross(Vec3(y[3], y[4], y[5]), row.arm) / p.length;
+Vec3 point_motion(const Row& row, const Six& y) {
+    return Vec3(y[0], y[1], y[2]) + glm::cross(Vec3(y[3], y[4], y[5]), row.arm);
 }
 
 // Onto the cone of the forces that a contact can bear: |tangential| ≤ friction × normal.
@@ -62,7 +67,7 @@ Vec3 bearable(const Row& row, const Vec3& pull) {
 }
 
 // Adds the derivative of what a contact bears to the Hessian.
-void add_stiffness(const Problem& p, const Row& row, double hessian[6][6]) {
+void add_stiffness(double penalty, const Row& row, double hessian[6][6]) {
     const double a = glm::dot(row.pull, row.normal);
     const Vec3 tangential = row.pull - a * row.normal;
     const double b = glm::length(tangential);
@@ -93,14 +98,16 @@ void add_stiffness(const Problem& p, const Row& row, double hessian[6][6]) {
                                   across * (unit - row.normal[i] * row.normal[j] - t[i] * t[j]);
             P[i][j] *= penalty;
         }
-    const Vec3 r = row.arm / p.length;
-    const double G[3][6] = {{1, 0, 0, 0, r.z, -r.y}, {0, 1, 0, -r.z, 0, r.x}, {0, 0, 1, r.y, -r.x, 0}};
-    double PG[3][6];
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 6; ++j) PG[i][j] = P[i][0] * G[0][j] + P[i][1] * G[1][j] + P[i][2] * G[2][j];
-    for (int i = 0; i < 6; ++i)
-        for (int j = 0; j <= i; ++j)
-            hessian[i][j] += G[0][i] * PG[0][j] + G[1][i] * PG[1][j] + G[2][i] * PG[2][j];
+    // Of the point's motion v + w × r: the blocks P, [r] P and [r] P [r]ᵀ, column by column.
+    const Vec3 r = row.arm;
+    Vec3 turning[3];
+    for (int j = 0; j < 3; ++j) turning[j] = glm::cross(r, Vec3(P[0][j], P[1][j], P[2][j]));
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) hessian[i][j] += P[i][j];
+        for (int j = 0; j < 3; ++j) hessian[i + 3][j] += turning[j][i];
+        const Vec3 both = glm::cross(r, Vec3(turning[0][i], turning[1][i], turning[2][i]));
+        for (int j = 0; j <= i; ++j) hessian[i + 3][j + 3] += both[j];
+    }
 }
 
 // Cholesky on the lower triangle, in place; the right side becomes the solution. Pivots are ≥ 1 but for
@@ -133,47 +140,46 @@ double dot(const Six& a, const Six& b) {
 void pull_at_motion(Problem& p) {
     for (std::size_t k = 0; k < p.count; ++k) {
         Row& row = p.rows[k];
-        const Vec3 gap = point_motion(p, row, p.motion) + (row.slack + row.rise) * row.normal;
-        row.pull = row.force - penalty * gap;
+        const Vec3 room = point_motion(row, p.motion) + (row.slack + row.rise) * row.normal;
+        row.pull = row.force - p.penalty * room;
+        row.borne = bearable(row, row.pull);
     }
 }
 
 // Downhill from the current motion: minus the gradient.
 Six descent(const Problem& p) {
-    Six side;
-    for (std::size_t i = 0; i < 6; ++i) side[i] = p.wanted[i] - p.motion[i];
+    Vec3 force(0.0), moment(0.0);
     for (std::size_t k = 0; k < p.count; ++k) {
-        const Vec3 force = bearable(p.rows[k], p.rows[k].pull);
-        const Vec3 moment = glm::cross(p.rows[k].arm, force) / p.length;
-        for (int i = 0; i < 3; ++i) {
-            side[static_cast<std::size_t>(i)] += force[i];
-            side[static_cast<std::size_t>(i) + 3] += moment[i];
-        }
+        force += p.rows[k].borne;
+        moment += glm::cross(p.rows[k].arm, p.rows[k].borne);
     }
+    Six side{force.x, force.y, force.z, moment.x, moment.y, moment.z};
+    for (std::size_t i = 0; i < 6; ++i) side[i] += p.wanted[i] - p.motion[i];
     return side;
 }
 
-// The slope of the cost along a direction, t of the way.
-double slope(const Problem& p, double start, double bend, double t) {
+// The slope of the cost, t of the way along a direction; `start` and `bend` are of its part without contacts.
+double slope(Problem& p, double start, double bend, double t) {
     double sum = start + bend * t;
     for (std::size_t k = 0; k < p.count; ++k) {
-        const Row& row = p.rows[k];
-        sum += glm::dot(bearable(row, row.pull + t * row.pull_rate), row.pull_rate) / penalty;
+        Row& row = p.rows[k];
+        row.borne_ahead = bearable(row, row.pull + t * row.pull_rate);
+        sum += glm::dot(row.borne_ahead, row.pull_rate) / p.penalty;
     }
     return sum;
 }
 
 // How far to go along a Newton direction: where the slope has (nearly) vanished, by false position
-// (Illinois) on the convex cost. 1 unless the direction overshoots.
-double search(Problem& p, const Six& direction) {
+// (Illinois) on the convex cost. 1 unless the direction overshoots. `at_start` is the slope there.
+double search(Problem& p, const Six& direction, double at_start) {
     for (std::size_t k = 0; k < p.count; ++k)
-        p.rows[k].pull_rate = -penalty * point_motion(p, p.rows[k], direction);
+        p.rows[k].pull_rate = -p.penalty * point_motion(p.rows[k], direction);
     Six off;
     for (std::size_t i = 0; i < 6; ++i) off[i] = p.motion[i] - p.wanted[i];
     const double start = dot(off, direction), bend = dot(direction, direction);
-    double low = 0.0, at_low = slope(p, start, bend, 0.0);
+    double low = 0.0, at_low = at_start;
     double high = 1.0, at_high = slope(p, start, bend, 1.0);
-    const double small = 0.01 * std::abs(at_low);
+    const double small = 0.1 * std::abs(at_low);
     if (at_high <= small) return 1.0;
     double t = 1.0;
     for (int i = 0; i < searches; ++i) {
@@ -193,20 +199,26 @@ double search(Problem& p, const Six& direction) {
     return t;
 }
 
-// Minimises the augmented cost; returns the steps taken.
-int descend(Problem& p) {
+// Minimises the augmented cost until its gradient is less than `to`; returns the steps taken.
+int descend(Problem& p, double to) {
+    pull_at_motion(p);
     for (int step = 0; step < newton_steps; ++step) {
-        pull_at_motion(p);
-        Six direction = descent(p);
+        const Six down = descent(p);
         double largest = 0.0;
-        for (const double x : direction) largest = std::max(largest, std::abs(x));
-        if (largest <= enough) return step;
+        for (const double x : down) largest = std::max(largest, std::abs(x));
+        if (largest <= to) return step;
         double hessian[6][6] = {};
         for (int i = 0; i < 6; ++i) hessian[i][i] = 1.0;
-        for (std::size_t k = 0; k < p.count; ++k) add_stiffness(p, p.rows[k], hessian);
+        for (std::size_t k = 0; k < p.count; ++k) add_stiffness(p.penalty, p.rows[k], hessian);
+        Six direction = down;
         solve(hessian, direction);
-        const double t = search(p, direction);
+        const double t = search(p, direction, -dot(down, direction));
         for (std::size_t i = 0; i < 6; ++i) p.motion[i] += t * direction[i];
+        for (std::size_t k = 0; k < p.count; ++k) {
+            Row& row = p.rows[k];
+            row.pull += t * row.pull_rate;
+            row.borne = row.borne_ahead;
+        }
     }
     return newton_steps;
 }
@@ -215,42 +227,45 @@ int descend(Problem& p) {
 
 ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
                             std::span<const Constraint> constraints, std::span<Vec3> forces) {
+    const double length = std::sqrt(metric.angular / metric.linear);
     Problem p;
-    p.length = std::sqrt(metric.angular / metric.linear);
     p.count = std::min(constraints.size(), most_constraints);
     for (std::size_t k = 0; k < p.count; ++k) {
         const Constraint& c = constraints[k];
-        p.rows[k] = {c.arm, c.normal, c.slack, c.friction, 0.0, Vec3(0.0), Vec3(0.0), Vec3(0.0)};
+        Row& row = p.rows[k];
+        row.arm = c.arm / length;
+        row.normal = c.normal;
+        row.slack = c.slack;
+        row.friction = c.friction;
     }
-    const Vec3 turn = wanted.angular * p.length;
+    const Vec3 turn = wanted.angular * length;
     p.wanted = {wanted.linear.x, wanted.linear.y, wanted.linear.z, turn.x, turn.y, turn.z};
     p.motion = p.wanted;
 
     ConstrainedMotion result;
     for (int round = 0; round < rounds; ++round) {
-        result.factorisations += descend(p);
-        pull_at_motion(p);
+        result.factorisations += descend(p, p.penalty < most_penalty ? nearly : enough);
         double change = 0.0;
         for (std::size_t k = 0; k < p.count; ++k) {
             Row& row = p.rows[k];
-            const Vec3 force = bearable(row, row.pull);
-            change = std::max(change, glm::length(force - row.force) / penalty);
-            row.force = force;
+            change = std::max(change, glm::length(row.borne - row.force) / p.penalty);
+            row.force = row.borne;
             if (row.friction <= 0.0) continue;
-            const Vec3 u = point_motion(p, row, p.motion);
+            const Vec3 u = point_motion(row, p.motion);
             const double rise = row.friction * glm::length(u - glm::dot(u, row.normal) * row.normal);
             change = std::max(change, std::abs(rise - row.rise));
             row.rise = rise;
         }
-        if (change <= 10.0 * enough) break;
+        if (p.penalty >= most_penalty && change <= enough) break;
+        p.penalty = std::min(most_penalty, 10.0 * p.penalty);
     }
     for (std::size_t k = 0; k < p.count; ++k) {
-        const double normal = glm::dot(point_motion(p, p.rows[k], p.motion), p.rows[k].normal);
+        const double normal = glm::dot(point_motion(p.rows[k], p.motion), p.rows[k].normal);
         result.violation = std::max(result.violation, -normal - p.rows[k].slack);
         if (k < forces.size()) forces[k] = p.rows[k].force * metric.linear;
     }
     result.motion.linear = {p.motion[0], p.motion[1], p.motion[2]};
-    result.motion.angular = Vec3(p.motion[3], p.motion[4], p.motion[5]) / p.length;
+    result.motion.angular = Vec3(p.motion[3], p.motion[4], p.motion[5]) / length;
     return result;
 }
 

@@ -59,6 +59,8 @@ class Stepper {
           pose_(before.tool),
           recovery_left_(parameters.recovery * dt) {
         const Twist own = twist_between(before.device, device);
+        // As far as the device came in this tick: where nothing is near, one query does. Wide bands are dear.
+        band_ = std::clamp(travel(own, p_.radius), p_.stride, p_.reach) + 2.0 * p_.skin;
         const double ms = dt / 1e-3;
         const auto limit = [&](double present, double greatest, double hand) {
             const double event = std::max(p_.quiet.of_present * present, p_.quiet.of_greatest * greatest);
@@ -94,8 +96,7 @@ class Stepper {
 
     Look ask(const Pose& pose) {
         ++step_.queries;
-        const double ahead = travel(twist_between(pose, device_), p_.radius) + 2.0 * p_.skin;
-        return look(finder_, pose, std::clamp(ahead, p_.stride + 2.0 * p_.skin, p_.reach));
+        return look(finder_, pose, band_);
     }
 
     [[nodiscard]] bool may_ask() const { return step_.queries < p_.queries; }
@@ -211,6 +212,7 @@ class Stepper {
     const Pose& device_;
     Finder finder_;
     double dt_;
+    double band_ = 0.0;
     double force_limit_ = 0.0;
     double torque_limit_ = 0.0;
     Pose pose_;

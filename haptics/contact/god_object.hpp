@@ -36,13 +36,14 @@ struct GodObjectParameters {
     double stride = 0.5e-3;  // m that a point may move between two queries where nothing certifies more
     double reach = 5e-3;     // m, the widest band asked for
     double recovery = 0.25;  // m/s, at which it is pushed out when an obstacle moves into it
-    int queries = 10;        // of the finder, a tick; when they are spent the god-object stays behind
+    int queries = 5;         // of the finder, a tick; when they are spent the god-object stays behind
 };
 
 struct GodObjectState {
     Pose tool;
-    Pose device;           // of the last tick
-    force::Offset offset;  // of the last tick
+    // Of the last tick.
+    Pose device;
+    force::Offset offset;
     force::OutputCommand felt;
 };
 
