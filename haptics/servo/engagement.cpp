@@ -57,11 +57,12 @@ ToolPose pose_of(const DeviceSample& sample) {
     const double norm = std::sqrt(glm::dot(q, q));
     tool.valid = tool.valid && norm > 0.5 && norm < 2.0;
     if (!tool.valid) return {Vec3(0.0), Quat(1, 0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), false};
-    const Quat unit = q / norm;
-    tool.orientation = unit;
-    tool.handle = unit * Vec3(1, 0, 0);
-    tool.normal = unit * Vec3(0, 0, 1);
-    return tool;
+    return at_pose({tool.position, q / norm});
+}
+
+ToolPose at_pose(const Pose& pose) {
+    return {pose.position, pose.orientation, pose.orientation * Vec3(1, 0, 0),
+            pose.orientation * Vec3(0, 0, 1), true};
 }
 
 Vec3 nut_centre(const NutPlace& nut, double nut_angle) {

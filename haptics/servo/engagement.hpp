@@ -17,6 +17,7 @@ struct ToolPose {
 };
 
 ToolPose pose_of(const DeviceSample& sample);
+ToolPose at_pose(const Pose& pose);
 
 struct Engagement {
     int joint = -1;  // −1: nothing held

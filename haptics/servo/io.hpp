@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "engine/base/math.hpp"
+#include "engine/base/pose.hpp"
 #include "haptics/joint/stage.hpp"
 
 namespace bolt::servo {
@@ -29,6 +29,10 @@ struct Output {
     // To the device, after scaling and the limits of the output stage: N and N·m at the tool's origin.
     Vec3 force{0.0};
     Vec3 torque{0.0};
+
+    // The tool where obstacles let it be, to the assembly, and how many hold or nearly hold it.
+    Pose tool;
+    std::uint16_t contacts = 0;
 
     // True values, unscaled.
     std::int16_t joint = -1;  // engaged joint; −1: none

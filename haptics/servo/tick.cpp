@@ -42,15 +42,20 @@ force::Wanted held(const Setup& setup, State& state, const ToolPose& tool, bool 
     const Vec3 target = nut_centre(nut, state.joints[i].nut.angle) + state.engagement.held_at;
     force::Wanted wanted;
     wanted.command = force::render_torque(setup.torque, torque, nut.axis, tool.handle);
-    wanted.command.force += setup.hold_stiffness * (target - tool.position);
+    Vec3 off = target - tool.position;
+    // Along the axis a jaw slides; how far down is the obstacles' to say, where there are any.
+    const bool slides = state.touch && state.engagement.grip == Grip::wrench;
+    if (slides) off -= nut.axis * glm::dot(nut.axis, off);
+    wanted.command.force += setup.hold_stiffness * off;
     const double stiffness =
         state.engagement.grip == Grip::wrench ? setup.wrench.stiffness : setup.finger_stiffness;
     wanted.stored = force::stored_torque(setup.torque, torque, stiffness, setup.wrench.handle_length);
-    const double hold = spring_energy(setup.hold_stiffness, target - tool.position);
+    const double hold = spring_energy(setup.hold_stiffness, off);
     wanted.stored += hold;
     // The place that it is held at moves with the nut, and to its middle: that is no work of the hand.
-    wanted.granted =
-        hold - spring_energy(setup.hold_stiffness, (held_before ? state.drawn_to : target) - tool.position);
+    Vec3 moved = target - (held_before ? state.drawn_to : target);
+    if (slides) moved -= nut.axis * glm::dot(nut.axis, moved);
+    wanted.granted = hold - spring_energy(setup.hold_stiffness, off - moved);
     state.drawn_to = target;
     if (state.engagement.grip == Grip::wrench && setup.limits.torque > 0.0) {
         const Vec3 square_to = glm::dot(tool.normal, nut.axis) < 0.0 ? -nut.axis : nut.axis;
@@ -94,13 +99,22 @@ State initial_state(const Setup& setup) {
 }
 
 Output tick(const Setup& setup, State& state, const Input& input) {
-    return tick(setup, state, input, [](const Vec3&, const Vec3&) { return true; });
+    return tick(setup, state, input, [&](const Vec3& from, const Vec3& to) {
+        return !state.touch || !hidden(*state.touch, from, to, input.guide);
+    });
 }
 
 Output tick(const Setup& setup, State& state, const Input& input, force::Free free) {
     const FlushDenormals flush;
-    const ToolPose tool = pose_of(input.device);
+    const ToolPose hand = pose_of(input.device);
     const Grip grip = input.enabled ? input.grip : Grip::none;
+    force::Wanted bumps;
+    ToolPose tool = hand;
+    if (state.touch && hand.valid) {
+        bumps = step_touch(setup, *state.touch, state.joints, {hand.position, hand.orientation},
+                           grip == Grip::wrench, state.engagement.joint);
+        if (grip == Grip::wrench) tool = at_pose(state.touch->god_object.tool);
+    }
     const int engaged_before = state.engagement.joint;
     update_engagement(setup, state.joints, tool, grip, state.engagement);
 
@@ -123,19 +137,22 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
         output.nut_angle = joint.nut.angle;
         output.clamp = joint.clamp;
     }
-    if (tool.valid) {
-        wanted.command.force += help.command.force;
-        wanted.command.torque += help.command.torque;
-        wanted.stored += help.stored;
-        wanted.granted += help.granted;
-    }
+    if (tool.valid)
+        for (const force::Wanted& more : {help, bumps}) {
+            wanted.command.force += more.command.force;
+            wanted.command.torque += more.command.torque;
+            wanted.stored += more.stored;
+            wanted.granted += more.granted;
+        }
     force::PortInput port;
     // A device without torque has its force at the grip.
     const double grip_at = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
-    port.pose = {tool.position + grip_at * tool.handle, tool.orientation};
-    port.valid = tool.valid;
+    port.pose = {hand.position + grip_at * hand.handle, hand.orientation};
+    port.valid = hand.valid;
     port.enabled = input.enabled;
     const force::OutputCommand limited = force::render(setup.limits, state.output, port, wanted, setup.dt);
+    output.tool = {tool.position, tool.orientation};
+    output.contacts = state.touch ? static_cast<std::uint16_t>(state.touch->last.contacts) : std::uint16_t{0};
     output.force = limited.force;
     output.torque = limited.torque;
     ++state.tick;

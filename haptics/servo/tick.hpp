@@ -1,10 +1,11 @@
 // The servo tick: a pure step of fixed dt. No clock, lock, allocation or I/O; the same inputs give the same
 // bits.
 //
-//   1 hand pose → which nut is held        engagement.hpp
-//   2 nut and joint: angle, stage, torque   joint/group.hpp
-//   3 what the nut does to the hand, or the guiding force on its way there   force/guide.hpp
-//   4 output stage: watchdog, passivity, limits                              force/output_stage.hpp
+//   1 hand pose → wrench pose, as far as obstacles allow   touch.hpp
+//   2 which nut is held                                    engagement.hpp
+//   3 nut and joint: angle, stage, torque                  joint/group.hpp
+//   4 what the nut does to the hand, or the guiding force on its way there   force/guide.hpp
+//   5 output stage: watchdog, passivity, limits                              force/output_stage.hpp
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include "haptics/servo/engagement.hpp"
 #include "haptics/servo/io.hpp"
 #include "haptics/servo/setup.hpp"
+#include "haptics/servo/touch.hpp"
 
 namespace bolt::servo {
 
@@ -25,6 +27,7 @@ struct State {
     Vec3 drawn_to{0.0};  // where an engaged tool is held, m
     force::GuideState guide;
     force::OutputStage output;
+    std::optional<Touch> touch;  // none: nothing is bumped into
 };
 
 State initial_state(const Setup& setup);

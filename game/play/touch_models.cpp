@@ -1,0 +1,166 @@
+#include "game/play/touch_models.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+#include <filesystem>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/assets/gltf.hpp"
+
+namespace bolt::play {
+
+namespace {
+
+struct Piece {
+    std::string node;
+    std::vector<glm::dvec3> points;  // three a triangle, in the model's frame
+};
+
+Error bad(const std::filesystem::path& file, std::string what) {
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.what = std::move(what);
+    error.file = file.string();
+    return error;
+}
+
+Result<std::vector<Piece>> read_pieces(const std::filesystem::path& file) {
+    Result<assets::Model> model = assets::read_gltf(file);
+    if (!model) return fail(model.error());
+    std::vector<Piece> pieces;
+    const std::function<Status(int, const glm::dmat4&)> visit = [&](int index,
+                                                                    const glm::dmat4& above) -> Status {
+        const assets::Node& node = model->nodes[static_cast<std::size_t>(index)];
+        const glm::dmat4 world = above * glm::translate(glm::dmat4(1.0), Vec3(node.translation)) *
+                                 glm::mat4_cast(Quat(node.rotation)) *
+                                 glm::scale(glm::dmat4(1.0), Vec3(node.scale));
+        if (node.mesh >= 0) {
+            Piece piece{node.name, {}};
+            for (const assets::Primitive& p : model->meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+                if (p.topology != assets::Topology::triangles || p.indices.empty())
+                    return fail(
+                        bad(file, fmt::format("node \"{}\" is not made of indexed triangles", node.name)));
+                for (const std::uint32_t i : p.indices)
+                    piece.points.emplace_back(world * glm::dvec4(Vec3(p.positions[i]), 1.0));
+            }
+            pieces.push_back(std::move(piece));
+        }
+        for (const int child : node.children)
+            if (Status s = visit(child, world); !s) return s;
+        return {};
+    };
+    for (const int root : model->roots)
+        if (Status s = visit(root, glm::dmat4(1.0)); !s) return fail(s.error());
+    return pieces;
+}
+
+Result<contact::ContactMesh> mesh_of(const Piece& piece, const std::filesystem::path& file,
+                                     const std::function<Vec3(const Vec3&)>& move) {
+    std::vector<glm::vec3> vertices;
+    std::vector<std::uint32_t> indices;
+    for (const Vec3& p : piece.points) {
+        indices.push_back(static_cast<std::uint32_t>(vertices.size()));
+        vertices.emplace_back(move(p));
+    }
+    Result<contact::ContactMesh> mesh = contact::make_contact_mesh(vertices, indices);
+    if (!mesh) return fail(bad(file, fmt::format("node \"{}\": {}", piece.node, mesh.error().what)));
+    return mesh;
+}
+
+// From the assembly to a nut's own frame (servo::TouchDescription). Which way the hexagon lies is read off
+// the mesh: its corners are what is furthest out, six times around.
+std::function<Vec3(const Vec3&)> to_nut(const servo::NutPlace& nut, const Piece& piece) {
+    const auto local = [nut](const Vec3& p) {
+        const Vec3 d = p - nut.seat;
+        return Vec3(glm::dot(d, nut.e1), glm::dot(d, nut.e2), glm::dot(d, nut.axis));
+    };
+    std::complex<double> sixfold = 0.0;
+    double low = 1e9;
+    for (const Vec3& p : piece.points) {
+        const Vec3 q = local(p);
+        low = std::min(low, q.z);
+        const double out = std::hypot(q.x, q.y) / nut.across_flats;
+        sixfold += std::pow(out, 24.0) * std::polar(1.0, 6.0 * std::atan2(q.y, q.x));
+    }
+    const Quat straighten = glm::angleAxis(-std::arg(sixfold) / 6.0, Vec3(0, 0, 1));
+    return [=](const Vec3& p) { return straighten * (local(p) - Vec3(0, 0, low)); };
+}
+
+// How far into the jaw's mouth one can look, to that side: the least distance to the wrench on the way out.
+double mouth(const contact::Solid& wrench, double head_angle, double jaw) {
+    double least = jaw;
+    for (int i = 0; i <= 20; ++i) {
+        const double r = jaw * static_cast<double>(i) / 20.0;
+        const Vec3 p(-r * std::cos(head_angle), -r * std::sin(head_angle), 0.0);
+        contact::Side side;
+        least = std::min(least, contact::near_point(wrench, p, jaw, 0.0, {&side, 1}).distance);
+    }
+    return least;
+}
+
+Result<std::vector<contact::ContactMesh>> read_wrench(const content::WrenchDesign& design) {
+    std::filesystem::path file = design.model;
+    std::filesystem::path own = file;
+    own.replace_extension(".contact.glb");
+    if (std::filesystem::exists(own)) file = own;
+    const Result<std::vector<Piece>> pieces = read_pieces(file);
+    if (!pieces) return fail(pieces.error());
+    glm::dvec3 low(1e9), high(-1e9);
+    for (const Piece& piece : *pieces)
+        for (const glm::dvec3& p : piece.points) low = glm::min(low, p), high = glm::max(high, p);
+    // A model may lie flat, as import-step turns it, or stand; and its head may point to either side of the
+    // handle.
+    const bool lies = high.y - low.y < high.z - low.z;
+    for (const double side : {1.0, -1.0}) {
+        std::vector<contact::ContactMesh> meshes;
+        for (const Piece& piece : *pieces) {
+            Result<contact::ContactMesh> mesh = mesh_of(piece, file, [&](const Vec3& p) {
+                const Vec3 q = lies ? Vec3(p.x, -p.z, p.y) : p;
+                return Vec3(q.x, side * q.y, side * q.z);
+            });
+            if (!mesh) return fail(mesh.error());
+            meshes.push_back(std::move(*mesh));
+        }
+        const Result<contact::Solid> solid = contact::make_solid(meshes);
+        if (!solid) return fail(bad(file, solid.error().what));
+        if (side < 0.0 ||
+            mouth(*solid, design.head_angle, design.jaw) >= mouth(*solid, -design.head_angle, design.jaw))
+            return meshes;
+    }
+    return fail(bad(file, "the wrench has no triangles"));
+}
+
+}  // namespace
+
+Result<std::optional<servo::Touch>> load_touch(const content::Assembly& assembly, const servo::Setup& setup) {
+    if (assembly.models.contact.empty() || assembly.wrench.model.empty()) return std::nullopt;
+    const std::filesystem::path file = assembly.models.contact;
+    const Result<std::vector<Piece>> pieces = read_pieces(file);
+    if (!pieces) return fail(pieces.error());
+    const Result<std::vector<contact::ContactMesh>> wrench = read_wrench(assembly.wrench);
+    if (!wrench) return fail(wrench.error());
+    std::vector<contact::ContactMesh> still, nuts(setup.nuts.size());
+    for (const Piece& piece : *pieces) {
+        std::size_t joint = 0;
+        while (joint < assembly.joints.size() && piece.node != assembly.joints[joint].design.id + "_nut")
+            ++joint;
+        const bool is_nut = joint < setup.nuts.size() && joint < assembly.joints.size();
+        Result<contact::ContactMesh> mesh =
+            mesh_of(piece, file,
+                    is_nut ? to_nut(setup.nuts[joint], piece)
+                           : std::function<Vec3(const Vec3&)>([](const Vec3& p) { return p; }));
+        if (!mesh) return fail(mesh.error());
+        if (is_nut)
+            nuts[joint] = std::move(*mesh);
+        else
+            still.push_back(std::move(*mesh));
+    }
+    Result<servo::Touch> touch = servo::make_touch(setup, {still, nuts, *wrench});
+    if (!touch) return fail(bad(file, touch.error().what));
+    return std::optional<servo::Touch>(std::move(*touch));
+}
+
+}  // namespace bolt::play

@@ -1,0 +1,52 @@
+// The wrench in the hand among what it can bump into: casing, bolts and the nuts themselves, which turn and
+// come down as their joints do. The wrench that is worked with is the one that contact lets through
+// (contact/god_object.hpp); what is felt of the contact is the coupling between that one and the hand.
+#pragma once
+
+#include <optional>
+
+#include "engine/base/result.hpp"
+#include "haptics/contact/god_object.hpp"
+#include "haptics/contact/proximity.hpp"
+#include "haptics/force/passivity.hpp"
+#include "haptics/servo/setup.hpp"
+
+namespace bolt::servo {
+
+// What is touched. Still obstacles lie in the assembly's frame. A nut lies in its own: origin on its bearing
+// face, +Z along the bolt away from the members, a corner of the hexagon along +X; nuts without a mesh are
+// not touched.
+struct TouchDescription {
+    std::span<const contact::ContactMesh> still;
+    std::span<const contact::ContactMesh> nuts;    // by joint; a mesh without triangles: none
+    std::span<const contact::ContactMesh> wrench;  // in the tool's frame
+    double friction = 0.15;                        // steel on painted iron, oiled by use
+};
+
+struct Touch {
+    contact::World world;
+    contact::ToolShape wrench;
+    contact::ProximityState proximity;
+    contact::GodObjectParameters parameters;
+    contact::GodObjectState god_object;
+    std::vector<std::optional<std::size_t>> nuts;  // by joint: index of its body
+    contact::GodObjectStep last;                   // what the last tick did
+    bool in_hand = false;                          // the wrench was held in the last tick
+};
+
+// All that allocates. An error: a mesh that is not closed (contact/tool.hpp, contact/world.hpp).
+Result<Touch> make_touch(const Setup& setup, const TouchDescription& description);
+
+// A nut's mesh to the assembly.
+Pose nut_pose(const NutPlace& nut, double nut_angle);
+
+// One tick: nuts go where their joints are, the wrench follows the hand as far as it may. `on_nut`: the joint
+// whose nut the jaw is on, which holds the jaw by itself (tick.hpp), so its nut is no obstacle; −1: none. Not
+// held, the wrench is where the hand is, and nothing is felt.
+force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint::JointState> joints,
+                         const Pose& hand, bool held, int on_nut);
+
+// Whether an obstacle other than this joint's nut lies between two points.
+bool hidden(const Touch& touch, const Vec3& from, const Vec3& to, int joint);
+
+}  // namespace bolt::servo

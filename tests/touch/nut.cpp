@@ -1,0 +1,146 @@
+// Jaw and hexagon as geometry: what slides on, what stands on top, what comes off. On the M8 cover with the
+// wrench that its lesson uses.
+#include <algorithm>
+
+#include "tests/support/forbidden.hpp"
+#include "tests/touch/support.hpp"
+
+using namespace bolt;
+using namespace bolt::servo;
+
+namespace {
+
+// A step of the force that no tick may make: a tenth of the greatest.
+constexpr double shock = 0.1;
+
+struct Felt {
+    double greatest = 0.0, step = 0.0;  // N
+    int engaged_at = -1;                // ms
+    Output last;
+    int ticks = 0;
+
+    void operator()(const Output& output) {
+        greatest = std::max(greatest, glm::length(output.force));
+        if (ticks > 0) step = std::max(step, glm::length(output.force - last.force));
+        if (output.joint >= 0 && engaged_at < 0) engaged_at = ticks;
+        last = output;
+        ++ticks;
+    }
+};
+
+// From above down over the nut of joint 0, and on it for a while.
+Felt lowered(test::Workbench& bench, double misfit_deg, double beside) {
+    const Pose high = bench.wrench(0, 0.03, to_radians(misfit_deg), {beside, 0, 0});
+    const Pose low = bench.wrench(0, 0.0, to_radians(misfit_deg), {beside, 0, 0});
+    for (int i = 0; i < 50; ++i) bench.step(high, Grip::none);
+    for (int i = 0; i < 600; ++i) bench.step(high);
+    Felt felt;
+    test::sweep(bench, high, low, 0.6, felt);
+    for (int i = 0; i < 100; ++i) felt(bench.step(low));
+    return felt;
+}
+
+double height(const test::Workbench& bench, const Output& output) {
+    const NutPlace& nut = bench.setup.nuts[0];
+    return glm::dot(output.tool.position - nut_centre(nut, bench.state.joints[0].nut.angle), nut.axis);
+}
+
+}  // namespace
+
+TEST_CASE("a jaw that is put on straight slides on, and nothing is felt") {
+    test::Workbench bench("cover-m8");
+    const Felt felt = lowered(bench, 0.0, 0.0);
+    CHECK(felt.last.joint == 0);
+    CHECK(felt.greatest < 0.05);
+    CHECK(height(bench, felt.last) == doctest::Approx(0.0).epsilon(1e-4));
+}
+
+TEST_CASE("one that is a little off is led by the chamfer and slides on; the hand feels it, and no shock") {
+    test::Workbench bench("cover-m8");
+    for (const double beside : {0.0, 0.5e-3}) {
+        CAPTURE(beside);
+        const Felt felt = lowered(bench, 1.0, beside);
+        CHECK(felt.last.joint == 0);
+        CHECK(felt.greatest > 1.0);
+        CHECK(felt.step < shock * bench.setup.limits.force);
+    }
+}
+
+TEST_CASE("one that is turned too far stands on the nut, and slides on when it is lifted and turned home") {
+    test::Workbench bench("cover-m8");
+    const Felt standing = lowered(bench, 8.0, 0.0);
+    CHECK(standing.last.joint == -1);
+    CHECK(standing.last.contacts > 0);
+    CHECK(height(bench, standing.last) > 0.5 * bench.setup.nuts[0].height);
+    // Down through the nut with the hand, not with the wrench.
+    CHECK(standing.greatest > 0.5 * bench.setup.limits.force);
+    // As a hand does it: a little up, round, down again.
+    Felt turning;
+    test::sweep(bench, bench.wrench(0, 0.0, to_radians(8.0)), bench.wrench(0, 0.012, to_radians(8.0)), 0.3,
+                turning);
+    test::sweep(bench, bench.wrench(0, 0.012, to_radians(8.0)), bench.wrench(0, 0.0), 0.5, turning);
+    for (int i = 0; i < 100; ++i) turning(bench.step(bench.wrench(0, 0.0)));
+    CHECK(turning.last.joint == 0);
+    CHECK(turning.step < shock * bench.setup.limits.force);
+}
+
+TEST_CASE("it comes off along the bolt without a pull, and then the nut is solid again") {
+    test::Workbench bench("cover-m8");
+    lowered(bench, 0.0, 0.0);
+    const Pose low = bench.wrench(0, 0.0), high = bench.wrench(0, 0.03);
+    Felt off;
+    test::sweep(bench, low, high, 0.4, off);
+    CHECK(off.last.joint == -1);
+    CHECK(off.greatest < 0.5);
+    Felt aside;  // turned by half a flat, down again
+    test::sweep(bench, high, bench.wrench(0, 0.03, to_radians(30.0)), 0.2, aside);
+    test::sweep(bench, bench.wrench(0, 0.03, to_radians(30.0)), bench.wrench(0, 0.0, to_radians(30.0)), 0.5,
+                aside);
+    CHECK(aside.last.joint == -1);
+    CHECK(height(bench, aside.last) > 0.5 * bench.setup.nuts[0].height);
+}
+
+TEST_CASE("the wrench stops where the cover is, however far the hand goes, and comes back with it") {
+    test::Workbench bench("cover-m8");
+    const Pose high = bench.wrench(0, 0.03);
+    Pose through = high;  // beside the nut, into the plate
+    through.position += bench.setup.nuts[0].axis * -0.06 + bench.setup.nuts[0].e1 * 0.03;
+    for (int i = 0; i < 600; ++i) bench.step(high);
+    Felt in;
+    double deepest = 1.0;
+    test::sweep(bench, high, through, 0.5, [&](const Output& output) {
+        in(output);
+        if (output.contacts > 0) deepest = std::min(deepest, bench.state.touch->last.nearest);
+    });
+    CHECK(deepest > -0.1e-3);
+    CHECK(in.greatest > 0.5 * bench.setup.limits.force);
+    CHECK(in.step < shock * bench.setup.limits.force);
+    CHECK(glm::distance(in.last.tool.position, through.position) > 5e-3);
+    Felt back;
+    test::sweep(bench, through, high, 0.5, back);
+    for (int i = 0; i < 100; ++i) back(bench.step(high));
+    CHECK(glm::distance(back.last.tool.position, high.position) < 1e-4);
+    CHECK(glm::length(back.last.force) < 0.01);
+}
+
+TEST_CASE("the same hand feels the same bits, and a tick in contact does nothing that it must not") {
+    test::Workbench first("cover-m8"), second("cover-m8");
+    const Pose high = first.wrench(0, 0.03, to_radians(5.0)), low = first.wrench(0, 0.0, to_radians(5.0));
+    bool same = true;
+    std::vector<Output> outputs;
+    outputs.reserve(1000);
+    test::sweep(first, high, low, 0.4, [&](const Output& output) { outputs.push_back(output); });
+    std::size_t i = 0;
+    test::sweep(second, high, low, 0.4, [&](const Output& output) {
+        const Output& other = outputs[i++];
+        same = same && output.force == other.force && output.torque == other.torque &&
+               output.tool.position == other.tool.position;
+    });
+    CHECK(same);
+    CHECK(i == outputs.size());
+    CHECK(outputs.back().contacts > 0);
+    const test::Forbidden in_contact = test::forbidden_in([&] {
+        for (int k = 0; k < 50; ++k) second.step(low);
+    });
+    CHECK(in_contact.all() == 0);
+}
