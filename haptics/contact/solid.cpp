@@ -66,13 +66,15 @@ struct Gathering {
     static constexpr std::size_t room = 64;
     const ContactMesh* mesh;
     const std::array<glm::vec3, 3>* corners;
+    const std::uint16_t* part;
     Vec3 p;
     double band2, radius2;
     double asked2;  // the square of the radius that is looked within now
     glm::vec3 rounded;
     float asked_in_float;  // the square of Embree's radius
-    Candidate nearest{std::numeric_limits<double>::infinity(), 0xffffffffU, 6, {}};
-    // The nearest that the point is inside of, as long as it is no further than the nearest of all.
+    static constexpr double limit = std::numeric_limits<double>::infinity();
+    Candidate nearest{limit, 0xffffffffU, 6, {}};
+    // Where surfaces of several parts are in one place: the nearest that the point is inside of.
     Candidate inside = nearest;
     std::array<Candidate, room> kept;
     std::size_t count = 0;
@@ -81,15 +83,20 @@ struct Gathering {
 
     [[nodiscard]] double limit2() const { return count < room ? band2 : kept[furthest].squared; }
 
+    void consider_inside(const Candidate& c) {
+        if (nearer(c, inside) && is_behind_surface(*mesh, p, c)) inside = c;
+    }
     void find_furthest() {
         furthest = 0;
         for (std::size_t i = 1; i < count; ++i)
             if (nearer(kept[furthest], kept[i])) furthest = i;
     }
     void add(const Candidate& found) {
-        if (found.squared <= square(std::sqrt(nearest.squared) + one_place) && nearer(found, inside) &&
-            is_behind_surface(*mesh, p, found))
-            inside = found;
+        if (nearest.squared < limit && part[found.triangle] != part[nearest.triangle] &&
+            std::sqrt(found.squared) <= std::sqrt(nearest.squared) + one_place) {
+            consider_inside(found);
+            consider_inside(nearest);
+        }
         if (nearer(found, nearest)) nearest = found;
         if (found.squared > band2) return;
         if (count < room) {
@@ -139,7 +146,8 @@ Side make_side(const ContactMesh& mesh, const Vec3& p, const Candidate& c) {
 // Of several surfaces in one place the one that the point is inside of counts: where parts touch, a point in
 // one of them is on the other's surface too, from outside.
 Side nearest_side(const Gathering& g) {
-    const bool inside = g.inside.squared <= square(std::sqrt(g.nearest.squared) + one_place);
+    const bool inside = g.inside.squared < Gathering::limit &&
+                        std::sqrt(g.inside.squared) <= std::sqrt(g.nearest.squared) + one_place;
     return make_side(*g.mesh, g.p, inside ? g.inside : g.nearest);
 }
 
@@ -329,6 +337,7 @@ Near near_point(const Solid& solid, const Vec3& point, double radius, double ban
     Gathering g;
     g.mesh = &solid.mesh;
     g.corners = solid.corners.data();
+    g.part = solid.part.data();
     g.p = point;
     g.band2 = band * band;
     const double within = std::max(radius, band);

@@ -150,8 +150,8 @@ void contact_peer(benchmark::State& state, bench::MakePeer make, std::size_t eve
     });
 }
 const bool registered = [] {
-    for (const auto& [name, make] : bench::peers())
-        benchmark::RegisterBenchmark(("contact_" + name).c_str(), contact_peer, make)
+    for (const bench::PeerEntry& peer : bench::peers())
+        benchmark::RegisterBenchmark(("contact_" + peer.name).c_str(), contact_peer, peer.make, peer.every)
             ->Arg(0)
             ->Arg(1)
             ->Iterations(1)

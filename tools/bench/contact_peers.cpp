@@ -2,13 +2,13 @@
 
 namespace bolt::bench {
 
-std::vector<std::pair<std::string, MakePeer>> peers() {
+std::vector<PeerEntry> peers() {
     return {
 #ifdef BOLT_FCL
-        {"fcl", make_fcl},
+        {"fcl", make_fcl, 10},
 #endif
 #ifdef BOLT_BULLET
-        {"bullet", make_bullet},
+        {"bullet", make_bullet, 200},
 #endif
     };
 }

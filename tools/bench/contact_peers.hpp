@@ -4,7 +4,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/base/pose.hpp"
@@ -27,7 +26,13 @@ using MakePeer = std::unique_ptr<Peer> (*)(Parts casing, Parts tool);
 std::unique_ptr<Peer> make_fcl(Parts casing, Parts tool);
 std::unique_ptr<Peer> make_bullet(Parts casing, Parts tool);
 
-// Those that were found when this was built, by name.
-std::vector<std::pair<std::string, MakePeer>> peers();
+struct PeerEntry {
+    std::string name;
+    MakePeer make;
+    std::size_t every;  // of how many poses one is asked, for it takes long
+};
+
+// Those that were found when this was built.
+std::vector<PeerEntry> peers();
 
 }  // namespace bolt::bench
