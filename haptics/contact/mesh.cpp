@@ -60,10 +60,34 @@ SharpEdge make_edge(const ContactMesh& mesh, const HalfEdge& a, const HalfEdge& 
     const auto& t = mesh.triangles[a.triangle];
     edge.vertices = {t[a.corner], t[(a.corner + 1U) % 3]};
     edge.triangle = a.triangle;
+    edge.angle = static_cast<float>(
+        std::atan2(glm::length(glm::cross(normal_a, normal_b)), glm::dot(normal_a, normal_b)));
     edge.normals = {glm::vec3(normal_a), glm::vec3(normal_b)};
     edge.inward = {glm::vec3(in_face(face_a, a.corner, normal_a)), glm::vec3(inward_b)};
     edge.convex = glm::dot(normal_a, inward_b) < 0.0;
     return edge;
+}
+
+double height_over(const std::array<Vec3, 3>& face, std::size_t edge) {
+    const Vec3 along = face[(edge + 1) % 3] - face[edge];
+    return glm::length(glm::cross(along, face[(edge + 2) % 3] - face[edge])) / glm::length(along);
+}
+
+// Of two faces: a sharp edge, a round one that needs points, or neither.
+void add_edge(ContactMesh& mesh, const HalfEdge& a, const HalfEdge& b) {
+    const SharpEdge edge = make_edge(mesh, a, b);
+    const double width = std::min(height_over(corners(mesh, a.triangle), a.corner),
+                                  height_over(corners(mesh, b.triangle), b.corner));
+    const auto angle = static_cast<double>(edge.angle);
+    if (0.5 * angle * width > edge_rise || angle > to_radians(20.0)) {
+        mesh.sharp_edges.push_back(edge);
+        return;
+    }
+    const double curvature = angle / width;
+    if (!edge.convex || curvature < least_curvature) return;
+    const double spacing = spacing_on_round(curvature);
+    if (glm::length(Vec3(mesh.vertices[edge.vertices[1]]) - Vec3(mesh.vertices[edge.vertices[0]])) > spacing)
+        mesh.round_edges.push_back({edge.vertices, edge.triangle, static_cast<float>(spacing)});
 }
 
 void join_edges(ContactMesh& mesh) {
@@ -93,11 +117,11 @@ void join_edges(ContactMesh& mesh) {
             ++mesh.forked_edges;
         else if (!regular)
             ++mesh.open_edges;
-        const Vec3 normal_a(mesh.face_normals[a.triangle]);
-        const Vec3 normal_b(mesh.face_normals[b.triangle]);
-        if (!regular || glm::dot(normal_a, normal_b) < std::cos(sharp_angle)) {
+        if (regular) {
+            add_edge(mesh, a, b);
+        } else {
             mesh.sharp_edges.push_back(make_edge(mesh, a, b));
-            if (!regular) mesh.sharp_edges.back().convex = true;
+            mesh.sharp_edges.back().convex = true;
         }
         i = end;
     }
@@ -187,6 +211,11 @@ void append(ContactMesh& whole, const ContactMesh& mesh) {
         edge.vertices = {edge.vertices[0] + first, edge.vertices[1] + first};
         edge.triangle += first_triangle;
         whole.sharp_edges.push_back(edge);
+    }
+    for (RoundEdge edge : mesh.round_edges) {
+        edge.vertices = {edge.vertices[0] + first, edge.vertices[1] + first};
+        edge.triangle += first_triangle;
+        whole.round_edges.push_back(edge);
     }
     whole.without_area += mesh.without_area;
     whole.open_edges += mesh.open_edges;

@@ -15,17 +15,27 @@
 
 namespace bolt::contact {
 
-// An edge whose faces' normals are further apart than `sharp_angle`, or one that has not exactly two faces.
+// An edge that would be missed: the surface rises by more than `edge_rise` over what it would be without it.
+// Also one that has not exactly two faces.
 struct SharpEdge {
     std::array<std::uint32_t, 2> vertices;
     // One of its faces.
     std::uint32_t triangle;
+    // Between the normals of its faces, rad.
+    float angle;
     // Unit, of the two faces; equal where there is one face only.
     std::array<glm::vec3, 2> normals;
     // Unit, in each face and away from the edge.
     std::array<glm::vec3, 2> inward;
     // Sticks out. Only such edges can be touched by other edges.
     bool convex;
+};
+
+// An edge of a finely cut round face that is longer than its vertices may be apart.
+struct RoundEdge {
+    std::array<std::uint32_t, 2> vertices;
+    std::uint32_t triangle;
+    float spacing;  // m, see `spacing_on_round`
 };
 
 struct ContactMesh {
@@ -39,6 +49,7 @@ struct ContactMesh {
     std::vector<glm::vec3> vertex_normals;
 
     std::vector<SharpEdge> sharp_edges;
+    std::vector<RoundEdge> round_edges;
 
     // What was wrong with the triangles given. Where edges are open, the side of a point near them is a
     // guess.
@@ -49,9 +60,14 @@ struct ContactMesh {
     [[nodiscard]] bool watertight() const { return open_edges == 0 && forked_edges == 0; }
 };
 
-// Below this angle an edge counts as part of a round surface. A facet's edge that is touched between two
-// sample points a millimetre away goes unseen by at most 1 mm × tan(sharp_angle / 2), less than 0.1 mm.
-inline constexpr double sharp_angle = 10.0 * pi / 180.0;
+inline constexpr double edge_rise = 30e-6;  // m
+// Between neighbouring points a round surface rises by no more than this (m).
+inline constexpr double round_rise = 60e-6;
+// Surfaces that are less round (1/m) get no points for it.
+inline constexpr double least_curvature = 10.0;
+
+// How far apart (m) points may be on a surface of this curvature.
+inline double spacing_on_round(double curvature) { return std::sqrt(8.0 * round_rise / curvature); }
 
 // Three indices a triangle, counterclockwise seen from outside. Vertices in one place become one. An error:
 // no triangle that has an area, an index out of range, a coordinate that is not finite or beyond 1 km.

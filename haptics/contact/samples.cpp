@@ -20,9 +20,10 @@ struct Ridges {
     std::vector<std::vector<std::uint32_t>> at_vertex;
     std::vector<bool> done;
 
-    explicit Ridges(const Solid& solid)
+    Ridges(const Solid& solid, double sharper_than)
         : mesh(solid.mesh), at_vertex(mesh.vertices.size()), done(mesh.sharp_edges.size(), true) {
         for (const std::uint32_t e : solid.ridges) {
+            if (static_cast<double>(mesh.sharp_edges[e].angle) < sharper_than) continue;
             done[e] = false;
             for (const std::uint32_t v : mesh.sharp_edges[e].vertices) at_vertex[v].push_back(e);
         }
@@ -93,7 +94,7 @@ void follow(Ridges& ridges, std::uint32_t edge, std::uint32_t from, double longe
 }
 
 void add_edges(const Solid& solid, double longest, std::vector<Sample>& out) {
-    Ridges ridges(solid);
+    Ridges ridges(solid, 0.0);
     for (std::uint32_t v = 0; v < solid.mesh.vertices.size(); ++v)
         if (ridges.is_corner(v))
             for (const std::uint32_t e : ridges.at_vertex[v])
@@ -134,11 +135,10 @@ class Cells {
     std::unordered_map<Cell, std::vector<Vec3>, Hash> cells_;
 };
 
-// How far apart points may be at each vertex so that the surface rises by `sample_rise` between them; 0: the
+// How far apart points may be at each vertex so that the surface rises by `round_rise` between them; 0: the
 // vertex is a corner, infinite: it needs none.
 std::vector<double> spacings(const Solid& solid) {
     const ContactMesh& mesh = solid.mesh;
-    const auto sagitta = [](double curvature) { return std::sqrt(8.0 * sample_rise / curvature); };
     std::vector<double> curvature(mesh.vertices.size(), 0.0);
     for (const auto& t : mesh.triangles)
         for (std::size_t i = 0; i < 6; ++i) {
@@ -149,9 +149,9 @@ std::vector<double> spacings(const Solid& solid) {
         }
     std::vector<double> spacing(mesh.vertices.size());
     for (std::size_t v = 0; v < spacing.size(); ++v)
-        spacing[v] = curvature[v] < least_curvature ? nothing_near : sagitta(curvature[v]);
+        spacing[v] = curvature[v] < least_curvature ? nothing_near : spacing_on_round(curvature[v]);
     // On an edge counts only how the edge itself turns.
-    const Ridges ridges(solid);
+    const Ridges ridges(solid, keen_angle);
     for (std::uint32_t v = 0; v < spacing.size(); ++v) {
         const auto& edges = ridges.at_vertex[v];
         if (edges.empty()) continue;
@@ -166,9 +166,32 @@ std::vector<double> spacings(const Solid& solid) {
         const double bend =
             2.0 * turn /
             (glm::length(from - Vec3(mesh.vertices[v])) + glm::length(to - Vec3(mesh.vertices[v])));
-        spacing[v] = turn > to_radians(20.0) ? 0.0 : bend < least_curvature ? nothing_near : sagitta(bend);
+        spacing[v] = turn > to_radians(20.0)  ? 0.0
+                     : bend < least_curvature ? keen_spacing
+                                              : std::min(keen_spacing, spacing_on_round(bend));
     }
     return spacing;
+}
+
+void add_between(const Vec3& a, const Vec3& b, double spacing, std::uint32_t triangle,
+                 std::vector<Sample>& out) {
+    const int pieces = static_cast<int>(std::ceil(glm::length(b - a) / spacing));
+    for (int i = 1; i < pieces; ++i)
+        out.push_back({.at = glm::mix(a, b, static_cast<double>(i) / pieces), .triangle = triangle});
+}
+
+void add_along_edges(const Solid& solid, bool round, std::vector<Sample>& out) {
+    const ContactMesh& mesh = solid.mesh;
+    for (const std::uint32_t e : solid.ridges) {
+        const SharpEdge& edge = mesh.sharp_edges[e];
+        if (static_cast<double>(edge.angle) < keen_angle && !round) continue;
+        add_between(Vec3(mesh.vertices[edge.vertices[0]]), Vec3(mesh.vertices[edge.vertices[1]]),
+                    keen_spacing, edge.triangle, out);
+    }
+    if (!round) return;
+    for (const RoundEdge& edge : mesh.round_edges)
+        add_between(Vec3(mesh.vertices[edge.vertices[0]]), Vec3(mesh.vertices[edge.vertices[1]]),
+                    static_cast<double>(edge.spacing), edge.triangle, out);
 }
 
 void add_points(const Solid& solid, std::vector<Sample>& out) {
@@ -302,6 +325,7 @@ std::vector<Cluster> group(const std::vector<Cluster>& clusters) {
 Samples make_samples(const Solid& solid, const SampleOptions& options) {
     Samples made;
     add_points(solid, made.samples);
+    add_along_edges(solid, options.round, made.samples);
     if (options.on_faces > 0) {
         const Spreading points(solid.mesh, options.on_faces);
         made.samples.insert(made.samples.end(), points.taken().begin(), points.taken().end());

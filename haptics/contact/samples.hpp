@@ -1,8 +1,8 @@
 // Where a surface is touched first, in clusters of neighbours so that most of it is done with at once.
 //
-// Two solids touch where one of them at least curves outward: at a corner, on an edge (there edge to edge, or
-// at its end), on a round face. Flat and hollow places need no points of their own, for what they touch has
-// them.
+// Two solids touch where one of them at least curves outward: at a corner, along an edge (there edge to edge,
+// or with a round face), on a round face. Flat and hollow places need no points of their own, for what they
+// touch has them.
 #pragma once
 
 #include <cstdint>
@@ -38,15 +38,16 @@ struct Samples {
 };
 
 struct SampleOptions {
-    double longest_piece = 3e-3;  // m, of an edge; pieces that follow each other nearly straight become one
-    bool edges = true;            // pieces of edges too, not only points
+    double longest_piece = 4e-3;  // m, of an edge; pieces that follow each other nearly straight become one
+    // Of two solids one has pieces of its edges (and is asked with them about the other's), the other has
+    // points along its round faces: where these meet each other, one side's are enough.
+    bool edges = true, round = false;
     std::size_t on_faces = 0;  // points spread evenly over everything, for round faces that curve too little
 };
 
-// Between neighbouring points a round surface rises by no more than this.
-inline constexpr double sample_rise = 50e-6;
-// Surfaces that are less round (1/m) get no points for it.
-inline constexpr double least_curvature = 10.0;
+// Edges sharper than this get points along them, this far apart: round faces touch them anywhere.
+inline constexpr double keen_angle = 20.0 * pi / 180.0;
+inline constexpr double keen_spacing = 1.5e-3;
 
 // The same for the same mesh.
 Samples make_samples(const Solid& solid, const SampleOptions& options);

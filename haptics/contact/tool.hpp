@@ -7,7 +7,7 @@
 namespace bolt::contact {
 
 struct ToolOptions {
-    SampleOptions samples{.on_faces = 1000};
+    SampleOptions samples{.on_faces = 500};
     double cell = 1.5e-3;  // m, of the tool's distance grid; 0: none
 };
 
