@@ -9,6 +9,7 @@
 #include "haptics/contact/proximity.hpp"
 #include "tests/contact/support.hpp"
 #include "tests/support/forbidden.hpp"
+#include "tools/geometry/crossing.hpp"
 
 using namespace bolt;
 using namespace bolt::contact;
@@ -118,4 +119,48 @@ TEST_CASE("finding contacts allocates nothing, locks nothing, reads no clock") {
     CHECK(seen.all() == 0);
     // The counter counts.
     CHECK(test::forbidden_in([&] { (void)make_proximity(reducer.world, reducer.tool); }).allocations > 0);
+}
+
+namespace {
+
+geometry::Bvh tree(const ContactMesh& mesh, const Pose& pose) {
+    std::vector<geometry::Triangle> triangles;
+    for (const auto& t : soup(mesh, pose)) triangles.push_back({.a = t[0], .b = t[1], .c = t[2]});
+    return geometry::Bvh(std::move(triangles));
+}
+
+}  // namespace
+
+TEST_CASE("where the wrench first touches the reducer it is found, and deeper") {
+    const Reducer reducer;
+    const geometry::Bvh still = tree(reducer.world.shapes[0].solid.mesh, {});
+    ProximityState state = make_proximity(reducer.world, reducer.tool);
+    Random random(44);
+    int met = 0;
+    for (int i = 0; i < 240; ++i) {
+        const Pose start = reducer.at_the_surface(random);
+        const Vec3 way = random_direction(random);
+        const auto at = [&](double s) { return Pose{start.position + s * way, start.orientation}; };
+        const auto crosses = [&](double s) {
+            return first_crossing(still, tree(reducer.tool.solid.mesh, at(s)), geometry::Pose{}).has_value();
+        };
+        double free = -20.0 * mm;
+        double in = 4.0 * mm;
+        if (crosses(free) || !crosses(in)) continue;
+        while (in - free > 1e-6) {
+            const double middle = 0.5 * (free + in);
+            (crosses(middle) ? in : free) = middle;
+        }
+        std::array<Contact, 32> contacts;
+        const Found touch = find_contacts(reducer.world, reducer.tool, at(free), 0.5 * mm, state, contacts);
+        REQUIRE(touch.count > 0);
+        CHECK(contacts[0].distance < 0.1 * mm);
+        // Half a millimetre on along a way that may be slanting: less deep, but there.
+        const Found deep =
+            find_contacts(reducer.world, reducer.tool, at(in + 0.5 * mm), 0.5 * mm, state, contacts);
+        REQUIRE(deep.count > 0);
+        CHECK(contacts[0].distance < 0.05 * mm);
+        ++met;
+    }
+    CHECK(met > 15);
 }
