@@ -8,6 +8,7 @@
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/proximity.hpp"
 #include "tests/contact/support.hpp"
+#include "tests/support/forbidden.hpp"
 
 using namespace bolt;
 using namespace bolt::contact;
@@ -118,4 +119,19 @@ TEST_CASE("meshes: a wrench led about a casing with a rib, pockets and sharp edg
     CHECK(touching > 2000);
     CHECK(most <= p.queries);
     CHECK(deep == 0);
+}
+
+TEST_CASE("meshes: a step with the real finder does nothing that a tick must not") {
+    Bench bench(contact_test::casing().mesh());
+    const GodObjectParameters p = for_tool(bench.tool);
+    GodObjectState state = start_god_object({Vec3(0.02, 0.06, 0.015), Quat(1, 0, 0, 0)});
+    std::size_t most = 0;
+    const test::Forbidden seen = test::forbidden_in([&] {
+        for (int i = 0; i < 800; ++i) {
+            const Vec3 at(0.02 + 0.01 * std::sin(5e-3 * i), 0.06 - 6e-5 * i, 0.015);
+            most = std::max(most, bench.step(p, state, {at, state.device.orientation}).contacts);
+        }
+    });
+    CHECK(most > 0);
+    CHECK(seen.all() == 0);
 }

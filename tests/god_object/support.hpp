@@ -1,4 +1,4 @@
-// A wrench, a hand that moves it about, and the watch over allocations.
+// A wrench, and a hand that moves it about.
 #pragma once
 
 #include "tests/god_object/scene.hpp"
@@ -38,9 +38,5 @@ class Wandering {
     double reach_, turn_;
     Wave waves_[6];
 };
-
-// Allocations made by this program between the two.
-void start_counting();
-int stop_counting();
 
 }  // namespace bolt::test
