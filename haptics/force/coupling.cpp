@@ -63,4 +63,14 @@ OutputCommand coupling_force(const Coupling& c, const Offset& offset, const Offs
     return {saturated(force, c.force), saturated(torque, c.torque)};
 }
 
+double stored_energy(const Coupling& c, const Offset& offset) {
+    // Of a spring whose stiffness nowhere exceeds K, F²/2K or more is stored. For the turn, whose torque goes
+    // with the sine, that is K sin²/2, and K (1 - cos) is more.
+    const auto held = [](const Vec3& force, double stiffness) {
+        return stiffness > 0.0 ? 0.5 * glm::dot(force, force) / stiffness : 0.0;
+    };
+    return held(saturated(c.stiffness * offset.linear, c.force), c.stiffness) +
+           held(saturated(c.torsion * offset.angular, c.torque), c.torsion);
+}
+
 }  // namespace bolt::force

@@ -44,4 +44,8 @@ Offset offset_between(const Pose& device, const Pose& tool);
 // At the device's origin, on the device. `before`: the offset of the last tick.
 OutputCommand coupling_force(const Coupling& coupling, const Offset& offset, const Offset& before, double dt);
 
+// J that the springs hold and may give back, for the passivity observer. A lower bound: exact while they are
+// linear, less by what saturation rounds off.
+double stored_energy(const Coupling& coupling, const Offset& offset);
+
 }  // namespace bolt::force

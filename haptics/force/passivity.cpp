@@ -41,6 +41,7 @@ OutputCommand control(const OutputLimits& limits, PassivityState& s, const Motio
     // What the ramp lets in is no work of the hand either, and is meant to be.
     const double granted = strength * wanted.granted + (strength - before) * full;
     s.balance = std::min(s.balance + granted - (stored - s.stored), saved_at_most);
+    if (s.balance > 0.0) s.balance *= std::max(0.0, 1.0 - dt / saved_for);
     s.stored = stored;
 
     const double b = damping_share * limits.damping, b_angular = damping_share * limits.angular_damping;

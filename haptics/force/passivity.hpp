@@ -36,9 +36,11 @@ struct PassivityState {
 // Of what the device takes (Colgate, Schenkel 1997 give the reason: damping is sampled and late as well).
 inline constexpr double damping_share = 0.9;
 
-// J that may be saved up: what was dissipated long ago does not pay for trembling now. A spring of 1 N/mm
-// that is pressed at 0.3 m/s by a 1 kHz loop makes 45 µJ a tick; this is enough not to act on single ticks.
-inline constexpr double saved_at_most = 0.5e-3;
+// J that may be saved up, and s in which what is saved is forgotten: what was dissipated a while ago does not
+// pay for trembling now. Rocking on a ball lived for a second on half a millijoule. A spring of 1 N/mm that
+// is pressed at 0.3 m/s by a 1 kHz loop makes 45 µJ a tick; this is enough not to act on single ticks.
+inline constexpr double saved_at_most = 0.2e-3;
+inline constexpr double saved_for = 0.03;
 
 // The observer: what the motion since the last sample cost with the forces that were out then.
 void observe(const OutputLimits& limits, PassivityState& state, const Motion& motion, double ticks);

@@ -127,7 +127,10 @@ TEST_CASE("what was dissipated long ago is not saved up") {
         observe(limits, s, moved(Vec3(1e-3, 0, 0)), 1.0);  // 10 mJ a tick into a brake
         control(limits, s, {}, {}, 1.0, 1.0, dt);
     }
-    CHECK(s.balance == doctest::Approx(saved_at_most));
+    CHECK(s.balance <= saved_at_most);
+    CHECK(s.balance > 0.9 * saved_at_most);
+    for (int i = 0; i < 100; ++i) control(limits, s, {}, {}, 1.0, 1.0, dt);
+    CHECK(s.balance < 0.05 * saved_at_most);  // and forgotten soon
 }
 
 TEST_CASE("help that is granted is no deficit; a store that grows without work is one") {

@@ -108,3 +108,24 @@ TEST_CASE("a device thrown at the wall comes back no faster: the stated damping 
     stiff.force = 1e3;
     CHECK(rebound(stiff, 0.0) > 0.2);
 }
+
+TEST_CASE("the energy stored is that of the springs, and never more than they give back") {
+    Coupling c;
+    c.stiffness = 1500.0;
+    c.torsion = 12.0;
+    c.force = 20.0;
+    c.torque = 2.0;
+    CHECK(stored_energy(c, along(Vec3(1e-3, 0, 0))) == doctest::Approx(0.75e-3).epsilon(1e-3));
+    CHECK(stored_energy(c, along(Vec3(0.0), Vec3(0, 0.01, 0))) == doctest::Approx(0.6e-3).epsilon(1e-3));
+    CHECK(stored_energy(c, {}) == 0.0);
+    // Drawn out and let back slowly, up to three times what saturates it.
+    double work = 0.0, turned = 0.0;
+    const double step = 1e-6;
+    for (double x = 0.5 * step; x < 0.04; x += step) {
+        work += step * coupling_force(c, along(Vec3(x, 0, 0)), along(Vec3(x, 0, 0)), 1e-3).force.x;
+        REQUIRE(stored_energy(c, along(Vec3(x + 0.5 * step, 0, 0))) <= work * (1 + 1e-9));
+        const Offset turn = along(Vec3(0.0), Vec3(0, 0, std::sin(10.0 * x)));
+        turned += 10.0 * step * coupling_force(c, turn, turn, 1e-3).torque.z;
+        REQUIRE(stored_energy(c, turn) <= turned * (1 + 1e-3) + 1e-9);
+    }
+}

@@ -1,0 +1,181 @@
+// The whole way from contact to hand: forty arms, forty scenes, a god-object on a coupling, the output stage,
+// 1 sample late and through an encoder. What comes out of the device is counted in truth, on the arm's side.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/force/output_stage.hpp"
+#include "tests/god_object/scene.hpp"
+#include "tests/support/simulated_arm.hpp"
+
+using namespace bolt;
+using namespace bolt::force;
+using namespace bolt::test;
+
+namespace {
+
+enum class Before : std::uint8_t { wall, corner, edge, row, ball };
+
+struct Trial {
+    Scene scene;
+    Before what = Before::wall;
+    test::ArmParameters arm;
+    Vec3 from{0.0};  // m, where the hand begins
+    double speed = 0.2, press = 5.0;
+};
+
+// A wrench's points: jaw tips, throat, along the handle. Its origin is in the jaw.
+void add_wrench(Scene& scene) {
+    for (const double z : {-0.006, 0.006}) {
+        for (const double y : {-0.02, 0.02}) {
+            scene.points.emplace_back(0.018, y, z);
+            scene.points.emplace_back(-0.02, y, z);
+        }
+        for (int i = 0; i <= 10; ++i)
+            scene.points.emplace_back(-0.03 - 0.02 * i, 0.008 * (i % 2 == 0 ? 1 : -1), z);
+    }
+}
+
+// The surface's top is at z = 0 and the hand comes down on it.
+Trial trial(std::uint64_t seed) {
+    Random random(seed, 31);
+    Trial t;
+    t.arm = test::random_arm(random);
+    t.what = static_cast<Before>(seed % 5);
+    add_wrench(t.scene);
+    switch (t.what) {
+        case Before::wall:
+            t.scene.obstacles.push_back(HalfSpace{{0, 0, 1}, 0.0});
+            break;
+        case Before::corner:
+            t.scene.obstacles.push_back(HalfSpace{{0, 0, 1}, 0.0});
+            t.scene.obstacles.push_back(HalfSpace{{-1, 0, 0}, -0.03});
+            break;
+        case Before::edge: {
+            const Box box{{Vec3(0.1, 0.0, -0.05), Quat(1, 0, 0, 0)}, Vec3(0.1, 0.1, 0.05)};
+            t.scene.obstacles.emplace_back(box);
+            add_edges_as_pins(t.scene, box, 0.002);
+            break;
+        }
+        case Before::row:
+            for (int i = -6; i <= 6; ++i)
+                t.scene.obstacles.push_back(Rod{{0.03 * i, 0.0, -0.2}, {0.03 * i, 0.0, -0.008}, 0.008});
+            break;
+        case Before::ball:
+            t.scene.obstacles.push_back(Ball{{0.0, 0.0, -0.04}, 0.04, 0});
+            break;
+    }
+    t.from = Vec3(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), 0.06);
+    t.speed = random.uniform(0.08, 0.4);
+    t.press = random.uniform(2.0, 10.0);
+    return t;
+}
+
+struct Range {
+    double low = 1e9, high = -1e9;
+    void add(double x) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+    [[nodiscard]] double width() const { return std::max(0.0, high - low); }
+};
+
+struct Outcome {
+    double greatest_energy = 0.0, energy = 0.0;  // J that came out: at any time, at the end
+    double early_swing = 0.0,
+           late_swing = 0.0;  // m, of the jaw and the handle's end, while the hand is still
+    double deepest = 1.0;     // m
+    bool touched = false;
+};
+
+GodObjectParameters coupled(double dt) {
+    GodObjectParameters p;
+    CouplingRange range;
+    range.dt = dt;
+    p.coupling = make_coupling(range);
+    return p;
+}
+
+// Comes down, presses, shakes sideways for half a second at 6 Hz, then means to stand still.
+Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputLimits& limits, double dt) {
+    test::Arm arm;
+    arm.parameters = t.arm;
+    arm.parameters.delay = limits.delay;
+    arm.pose.position = arm.intention.position = t.from;
+    GodObjectState tool = start_god_object(arm.pose);
+    OutputStage stage;
+    Outcome outcome;
+    Range early[2], late[2];
+    const auto ticks = static_cast<int>(std::lround(5.0 / dt));
+    for (int k = 0; k < ticks; ++k) {
+        const double time = k * dt;
+        Vec3 at = t.from;
+        at.z = std::max(t.from.z - t.speed * time, -t.press / t.arm.stiffness);
+        const double shake = time > 2.0 && time < 2.5 ? std::sin(2.0 * pi * 6.0 * (time - 2.0)) : 0.0;
+        at += Vec3(0.01, 0.006, 0.004) * shake;
+        arm.intention.position = at;
+        PortInput input;
+        input.pose = test::sample(arm);
+        input.enabled = true;
+        step_god_object(parameters, tool, input.pose, t.scene, dt);
+        const Wanted wanted{tool.felt, stored_energy(parameters.coupling, tool.offset)};
+        test::step(arm, render(limits, stage, input, wanted, dt), dt);
+        outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_out);
+        outcome.deepest = std::min(outcome.deepest, clearance(t.scene, tool.tool));
+        outcome.touched = outcome.touched || glm::length(tool.felt.force) > 0.2;
+        const double places[] = {arm.pose.position.z, (arm.pose * Vec3(-0.23, 0, 0)).z};
+        for (int i = 0; i < 2; ++i) {
+            if (time >= 2.6 && time < 3.1) early[i].add(places[i]);
+            if (time >= 4.5) late[i].add(places[i]);
+        }
+    }
+    outcome.energy = arm.energy_out;
+    outcome.early_swing = std::max(early[0].width(), early[1].width());
+    outcome.late_swing = std::max(late[0].width(), late[1].width());
+    return outcome;
+}
+
+OutputLimits device() {
+    OutputLimits limits;
+    limits.ramp_up = 1e-3;  // the scenes begin with the first tick
+    return limits;
+}
+
+bool swings_on(const Outcome& o) { return o.late_swing > 100e-6 && o.late_swing > 0.3 * o.early_swing; }
+
+}  // namespace
+
+TEST_CASE("forty arms, forty scenes: no net energy comes out, nothing swings on") {
+    for (const double dt : {1e-3, 0.25e-3}) {
+        double most = 0.0;
+        int touched = 0;
+        for (std::uint64_t seed = 0; seed < 40; ++seed) {
+            CAPTURE(seed);
+            CAPTURE(dt);
+            const Outcome o = run(trial(seed), coupled(dt), device(), dt);
+            CHECK(o.energy <= 0.0);
+            CHECK(o.greatest_energy <= 1e-3);
+            CHECK_FALSE(swings_on(o));
+            CHECK(o.deepest > -1e-4);
+            touched += o.touched;
+            most = std::max(most, o.greatest_energy);
+        }
+        CHECK(touched >= 39);  // between bolts there is room
+        MESSAGE("dt ", dt, ": most energy that was out at any time, mJ: ", 1e3 * most);
+    }
+}
+
+TEST_CASE("the same without the controller lets energy out and trembles on") {
+    OutputLimits uncontrolled = device();
+    uncontrolled.damping = uncontrolled.angular_damping = 0.0;
+    int active = 0, trembling = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const Outcome o = run(trial(seed), coupled(1e-3), uncontrolled, 1e-3);
+        active += o.energy > 0.0;
+        trembling += swings_on(o);
+    }
+    CHECK(active >= 10);
+    CHECK(trembling >= 5);
+    MESSAGE("energy came out of ", active, ", ", trembling, " tremble on");
+}
