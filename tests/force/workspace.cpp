@@ -1,0 +1,159 @@
+#include "haptics/force/workspace.hpp"
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+#include <limits>
+
+#include "engine/base/random.hpp"
+
+using namespace bolt;
+using namespace bolt::force;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+Vec3 any(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
+
+Workspace any_workspace(Random& random) {
+    Workspace w;
+    w.turn = rotation(any(random));
+    w.scale = random.uniform(0.5, 5.0);
+    w.power = random.chance(0.5) ? 1.0 : 1.0 / w.scale;
+    return w;
+}
+
+double apart(const Pose& a, const Pose& b) {
+    return glm::length(a.position - b.position) +
+           glm::length(rotation_vector(glm::normalize(a.orientation * glm::conjugate(b.orientation))));
+}
+
+}  // namespace
+
+TEST_CASE("the tool begins where it is placed; a way of the hand is a scaled, turned way of the tool") {
+    Random random(1);
+    for (int i = 0; i < 100; ++i) {
+        const Workspace w = any_workspace(random);
+        const Pose device{any(random), rotation(any(random))}, tool{any(random), rotation(any(random))};
+        WorkspaceState s = place(w, device, tool);
+        CHECK(apart(to_assembly(w, s, device, false, dt), tool) < 1e-12);
+        const Vec3 shift = any(random), turn = 0.3 * any(random);
+        const Pose there{device.position + shift, glm::normalize(rotation(turn) * device.orientation)};
+        const Pose now = to_assembly(w, s, there, false, dt);
+        CHECK(glm::length(now.position - tool.position - w.scale * (w.turn * shift)) < 1e-12);
+        CHECK(apart({now.position, glm::normalize(rotation(w.turn * turn) * tool.orientation)}, now) < 1e-12);
+    }
+}
+
+TEST_CASE("the clutch holds the tool still, and letting it go moves nothing, as often as one likes") {
+    Random random(2);
+    const Workspace w = any_workspace(random);
+    Pose device{any(random), rotation(any(random))};
+    WorkspaceState s = place(w, device, {any(random), rotation(any(random))});
+    Pose last = s.tool;
+    bool clutch = false;
+    double moved = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+        if (random.chance(0.01)) clutch = !clutch;
+        const Vec3 shift = 1e-3 * any(random), turn = 1e-3 * any(random);
+        device.position += shift;
+        device.orientation = glm::normalize(rotation(turn) * device.orientation);
+        const Pose now = to_assembly(w, s, device, clutch, dt);
+        const double way = apart(now, last);
+        if (clutch) {
+            REQUIRE(way == 0.0);
+        } else {
+            // Also in the tick in which the clutch opens: no farther than the hand itself.
+            REQUIRE(way <= (w.scale * glm::length(shift) + glm::length(turn)) * (1 + 1e-6) + 1e-12);
+        }
+        moved += way;
+        last = now;
+    }
+    CHECK(moved > 1.0);
+}
+
+TEST_CASE("a sample that is no pose is passed on, and nothing of it stays, clutched or not") {
+    const Workspace w;
+    WorkspaceState s = place(w, {}, {Vec3(1, 2, 3), rotation(Vec3(0, 1, 0))});
+    Pose broken;
+    broken.position.y = std::numeric_limits<double>::quiet_NaN();
+    for (const bool clutch : {false, true}) {
+        CHECK(std::isnan(to_assembly(w, s, broken, clutch, dt).position.y));
+        CHECK(apart(to_assembly(w, s, {}, clutch, dt), {Vec3(1, 2, 3), rotation(Vec3(0, 1, 0))}) < 1e-12);
+    }
+}
+
+TEST_CASE("power at the device is the stated share of the power in the assembly, whatever moves") {
+    Random random(3);
+    for (int i = 0; i < 200; ++i) {
+        const Workspace w = any_workspace(random);
+        const Pose device{any(random), rotation(any(random))};
+        WorkspaceState s = place(w, device, {any(random), rotation(any(random))});
+        const Vec3 v = any(random), omega = any(random);
+        const double h = 1e-7;
+        const Pose before = to_assembly(w, s, device, false, dt);
+        const Pose after = to_assembly(
+            w, s, {device.position + h * v, glm::normalize(rotation(h * omega) * device.orientation)}, false,
+            dt);
+        const Vec3 tool_v = (after.position - before.position) / h;
+        const Vec3 tool_omega =
+            rotation_vector(glm::normalize(after.orientation * glm::conjugate(before.orientation))) / h;
+        const OutputCommand on_tool{any(random), any(random)};
+        const OutputCommand on_hand = to_device(w, s, on_tool);
+        const double there = glm::dot(on_tool.force, tool_v) + glm::dot(on_tool.torque, tool_omega);
+        const double here = glm::dot(on_hand.force, v) + glm::dot(on_hand.torque, omega);
+        CHECK(here == doctest::Approx(w.power * there).epsilon(1e-5).scale(1.0));
+    }
+}
+
+TEST_CASE("with power 1/scale forces are as they are") {
+    Workspace w;
+    w.scale = 4.0;
+    w.power = 0.25;
+    const OutputCommand out = to_device(w, {}, {Vec3(1, 2, 3), Vec3(0, 4, 0)});
+    CHECK(out.force == Vec3(1, 2, 3));
+    CHECK(out.torque == Vec3(0, 1, 0));
+}
+
+TEST_CASE("forces go with the clutch in its time, and come back in it") {
+    const Workspace w;
+    WorkspaceState s;
+    const OutputCommand pressed{Vec3(10, 0, 0), Vec3(0, 1, 0)};
+    double last = 10.0;
+    for (int i = 1; i <= 50; ++i) {
+        to_assembly(w, s, {}, true, dt);
+        const double now = to_device(w, s, pressed).force.x;
+        CHECK(last - now == doctest::Approx(0.2));
+        last = now;
+    }
+    CHECK(last == doctest::Approx(0.0).scale(1.0));
+    for (int i = 0; i < 25; ++i) to_assembly(w, s, {}, false, dt);
+    CHECK(to_device(w, s, pressed).force.x == doctest::Approx(5.0));
+    CHECK(to_device(w, s, pressed).torque.y == doctest::Approx(0.5));
+}
+
+TEST_CASE("the device's limits seen from the assembly: what is at the limit there is at the limit here") {
+    Random random(4);
+    for (int i = 0; i < 50; ++i) {
+        const Workspace w = any_workspace(random);
+        const OutputLimits device, limits = in_assembly(w, device);
+        const Vec3 way = glm::normalize(any(random));
+        const OutputCommand out = to_device(w, {}, {limits.force * way, limits.torque * way});
+        CHECK(glm::length(out.force) == doctest::Approx(device.force));
+        CHECK(glm::length(out.torque) == doctest::Approx(device.torque));
+        // A spring of the stiffness allowed, pressed by 1 mm of the tool.
+        const double pressed =
+            glm::length(to_device(w, {}, {limits.stiffness * 1e-3 * way, Vec3(0.0)}).force);
+        CHECK(pressed / (1e-3 / w.scale) == doctest::Approx(device.stiffness));
+        const double braked = glm::length(to_device(w, {}, {limits.damping * 0.1 * way, Vec3(0.0)}).force);
+        CHECK(braked / (0.1 / w.scale) == doctest::Approx(device.damping));
+        CHECK(limits.speed / w.scale == doctest::Approx(device.speed));
+        CHECK(limits.jump / w.scale == doctest::Approx(device.jump));
+        CHECK(limits.angular_speed == device.angular_speed);
+        const OutputCommand turned = to_device(w, {}, {Vec3(0.0), limits.torsion * 0.01 * way});
+        CHECK(glm::length(turned.torque) == doctest::Approx(0.01 * device.torsion));
+        CHECK(limits.force_rate / limits.force == doctest::Approx(device.force_rate / device.force));
+        CHECK(limits.torque_rate / limits.torque == doctest::Approx(device.torque_rate / device.torque));
+    }
+}
