@@ -27,7 +27,7 @@ void for_each_column(Visit visit) {
     for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.device.position[i]; });
     for (int i = 0; i < 4; ++i) visit([i](auto& tick) -> auto& { return tick.device.orientation[i]; });
     visit([](auto& tick) -> auto& { return tick.grip; });
-    visit([](auto& tick) -> auto& { return tick.enabled; });
+    visit([](auto& tick) -> auto& { return tick.flags; });
     visit([](auto& tick) -> auto& { return tick.guide; });
     for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.force[i]; });
     for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.torque[i]; });

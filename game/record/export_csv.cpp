@@ -60,7 +60,7 @@ void append_row(std::string& text, double time, const TickRecord& tick, JointFie
     const auto out = std::back_inserter(text);
     const auto& [p, q] = tick.device;
     fmt::format_to(out, "{:.6f},{},{},{},{},{},{},{},{},{},", time, p[0], p[1], p[2], q[0], q[1], q[2], q[3],
-                   name(static_cast<servo::Grip>(tick.grip)), tick.enabled);
+                   name(static_cast<servo::Grip>(tick.grip)), tick.flags & flag_enabled);
     text.append(joints[tick.guide]).append(",").append(joints[tick.joint]);
     fmt::format_to(
         out, ",{},{},{},{},{},{},{},{},{},{}\r\n", joint::name(static_cast<joint::Stage>(tick.stage)),

@@ -1,12 +1,16 @@
 #include "game/record/tick.hpp"
 
+#include <algorithm>
+
 namespace bolt::record {
 
 TickRecord make_record(const servo::Input& input, const servo::Output& output) {
     TickRecord record;
     record.device = input.device;
     record.grip = static_cast<std::uint8_t>(input.grip);
-    record.enabled = input.enabled ? 1 : 0;
+    record.flags = static_cast<std::uint8_t>(
+        (input.enabled ? flag_enabled : 0) | (input.fresh ? 0 : flag_silent) | (input.stop ? flag_stop : 0) |
+        (input.reset ? flag_reset : 0) | std::min<int>(input.missed, 15) << 4);
     record.guide = input.guide;
     for (int i = 0; i < 3; ++i) {
         record.force[i] = static_cast<float>(output.force[i]);
@@ -24,15 +28,19 @@ servo::Input input_of(const TickRecord& record) {
     servo::Input input;
     input.device = record.device;
     input.grip = static_cast<servo::Grip>(record.grip);
-    input.enabled = record.enabled != 0;
+    input.enabled = (record.flags & flag_enabled) != 0;
+    input.fresh = (record.flags & flag_silent) == 0;
+    input.stop = (record.flags & flag_stop) != 0;
+    input.reset = (record.flags & flag_reset) != 0;
+    input.missed = static_cast<std::uint8_t>(record.flags >> 4);
     input.guide = record.guide;
     return input;
 }
 
 bool is_valid(const TickRecord& record) {
     constexpr auto last_grip = static_cast<std::uint8_t>(servo::Grip::wrench);
-    return record.grip <= last_grip && record.enabled <= 1 && record.stage < joint::stage_count &&
-           record.guide >= -1 && record.joint >= -1;
+    return record.grip <= last_grip && record.stage < joint::stage_count && record.guide >= -1 &&
+           record.joint >= -1;
 }
 
 }  // namespace bolt::record

@@ -9,8 +9,8 @@ namespace bolt::record {
 
 struct TickRecord {
     servo::DeviceSample device;
-    std::uint8_t grip = 0;  // servo::Grip
-    std::uint8_t enabled = 0;
+    std::uint8_t grip = 0;   // servo::Grip
+    std::uint8_t flags = 0;  // see below
     std::int16_t guide = -1;
     float force[3] = {0.0F, 0.0F, 0.0F};   // N
     float torque[3] = {0.0F, 0.0F, 0.0F};  // N·m
@@ -20,6 +20,9 @@ struct TickRecord {
     float nut_angle = 0.0F;      // rad
     float clamp = 0.0F;          // N
 };
+
+// Of the input's small values; above them four bits of missed deadlines.
+inline constexpr std::uint8_t flag_enabled = 1, flag_silent = 2, flag_stop = 4, flag_reset = 8;
 
 TickRecord make_record(const servo::Input& input, const servo::Output& output);
 servo::Input input_of(const TickRecord& record);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/base/pose.hpp"
+#include "haptics/force/watchdog.hpp"
 #include "haptics/joint/stage.hpp"
 
 namespace bolt::servo {
@@ -23,12 +24,19 @@ struct Input {
     Grip grip = Grip::none;
     bool enabled = false;     // dead-man held: without it nothing is rendered
     std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
+
+    bool fresh = true;        // the device gave a sample since the tick before: a silent one is let go of
+    bool stop = false;        // emergency stop pressed: latches
+    bool reset = false;       // ends it, with the dead-man and the stop let go
+    std::uint8_t missed = 0;  // deadlines without a tick since the one before, 15 at most
 };
 
 struct Output {
     // To the device, after scaling and the limits of the output stage: N and N·m at the tool's origin.
     Vec3 force{0.0};
     Vec3 torque{0.0};
+
+    force::Fault fault = force::Fault::none;  // why nothing is rendered, if that is so
 
     // The tool where obstacles let it be, to the assembly, and how many hold or nearly hold it.
     Pose tool;

@@ -150,11 +150,16 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
     port.pose = {hand.position + grip_at * hand.handle, hand.orientation};
     port.valid = hand.valid;
     port.enabled = input.enabled;
+    port.fresh = input.fresh;
+    port.missed = input.missed;
+    port.stop = input.stop;
+    port.reset = input.reset;
     const force::OutputCommand limited = force::render(setup.limits, state.output, port, wanted, setup.dt);
     output.tool = {tool.position, tool.orientation};
     output.contacts = state.touch ? static_cast<std::uint16_t>(state.touch->last.contacts) : std::uint16_t{0};
     output.force = limited.force;
     output.torque = limited.torque;
+    output.fault = state.output.watchdog.fault;
     ++state.tick;
     return output;
 }

@@ -101,7 +101,6 @@ TEST_CASE("no flipped bit of a chunk goes unnoticed") {
 TEST_CASE("values that no type has are refused, not handed out") {
     std::vector<TickRecord> ticks = random_ticks(3, 9);
     SUBCASE("grip") { ticks[1].grip = 3; }
-    SUBCASE("enabled") { ticks[1].enabled = 2; }
     SUBCASE("stage") { ticks[1].stage = 4; }
     SUBCASE("joint") { ticks[1].joint = -2; }
     SUBCASE("guide") { ticks[1].guide = -2; }

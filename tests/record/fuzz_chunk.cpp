@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::memcpy(&tick.force, from + 28, sizeof tick.force);
         std::memcpy(&tick.torque, from + 40, sizeof tick.torque);
         tick.grip = from[52] % 3;
-        tick.enabled = from[53] % 2;
+        tick.flags = from[53];
         tick.stage = from[54] % bolt::joint::stage_count;
         tick.joint = static_cast<std::int16_t>(from[55] - 1);
     }

@@ -42,7 +42,7 @@ TickRecord random_tick(Random& random) {
     for (float& value : tick.force) value = any();
     for (float& value : tick.torque) value = any();
     tick.grip = static_cast<std::uint8_t>(random.bits() % 3);
-    tick.enabled = static_cast<std::uint8_t>(random.bits() % 2);
+    tick.flags = static_cast<std::uint8_t>(random.bits() % 256);
     tick.guide = static_cast<std::int16_t>(static_cast<int>(random.bits() % 32769) - 1);
     tick.joint = static_cast<std::int16_t>(static_cast<int>(random.bits() % 32769) - 1);
     tick.stage = static_cast<std::uint8_t>(random.bits() % joint::stage_count);
@@ -69,7 +69,7 @@ bool same(const TickRecord& a, const TickRecord& b) {
         all = all && equal(a.device.position[i], b.device.position[i]) && equal(a.force[i], b.force[i]) &&
               equal(a.torque[i], b.torque[i]);
     for (int i = 0; i < 4; ++i) all = all && equal(a.device.orientation[i], b.device.orientation[i]);
-    return all && a.grip == b.grip && a.enabled == b.enabled && a.guide == b.guide && a.joint == b.joint &&
+    return all && a.grip == b.grip && a.flags == b.flags && a.guide == b.guide && a.joint == b.joint &&
            a.stage == b.stage;
 }
 

@@ -14,12 +14,20 @@ TEST_CASE("a tick's input comes back as it went in") {
         input.device = test::random_tick(random).device;
         input.grip = static_cast<servo::Grip>(random.bits() % 3);
         input.enabled = random.chance(0.5);
+        input.fresh = random.chance(0.5);
+        input.stop = random.chance(0.5);
+        input.reset = random.chance(0.5);
+        input.missed = static_cast<std::uint8_t>(random.bits() % 16);
         input.guide = static_cast<std::int16_t>(static_cast<int>(random.bits() % 20) - 1);
         const TickRecord record = make_record(input, {});
         CHECK(is_valid(record));
         CHECK(test::same(make_record(input_of(record), {}), record));
         CHECK(input_of(record).grip == input.grip);
         CHECK(input_of(record).enabled == input.enabled);
+        CHECK(input_of(record).fresh == input.fresh);
+        CHECK(input_of(record).stop == input.stop);
+        CHECK(input_of(record).reset == input.reset);
+        CHECK(input_of(record).missed == input.missed);
         CHECK(input_of(record).guide == input.guide);
     }
 }

@@ -273,3 +273,38 @@ TEST_CASE("a running nut stands when it is let go, and a wrench put on it meets 
     }
     CHECK(held_by_wrench);
 }
+
+TEST_CASE("a device that falls silent at full torque: nothing within 20 ms, told, and back when it speaks") {
+    Setup setup = test::two_joints();
+    State state = initial_state(setup);
+    const NutPlace& nut = setup.nuts[0];
+    double angle = setup.wrench.head_angle;
+    Output output;
+    const auto input = [&] {
+        const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
+        return test::holding(Grip::wrench, test::tool_at(nut, at, angle));
+    };
+    for (int i = 0; i < 60'000 && output.wrench_torque < 150.0; ++i) {
+        angle += 1e-3;
+        output = tick(setup, state, input());
+    }
+    REQUIRE(glm::length(output.torque) > 1.0);
+    CHECK(output.fault == force::Fault::none);
+    Input silent = input();
+    silent.fresh = false;
+    for (int i = 0; i < 20; ++i) output = tick(setup, state, silent);
+    CHECK(glm::length(output.torque) == 0.0);
+    CHECK(glm::length(output.force) == 0.0);
+    CHECK(output.fault == force::Fault::silent);
+    for (int i = 0; i < 600; ++i) output = tick(setup, state, input());
+    CHECK(output.fault == force::Fault::none);
+    CHECK(glm::length(output.torque) > 1.0);
+
+    Input stopped = input();
+    stopped.stop = true;
+    for (int i = 0; i < 20; ++i) output = tick(setup, state, stopped);
+    CHECK(glm::length(output.torque) == 0.0);
+    for (int i = 0; i < 2000; ++i) output = tick(setup, state, input());
+    CHECK(output.fault == force::Fault::stopped);
+    CHECK(glm::length(output.torque) == 0.0);
+}
