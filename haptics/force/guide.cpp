@@ -83,7 +83,7 @@ Wanted guide(const Guiding& g, GuideState& s, const GuidedTool& tool, const Guid
 
     const double wanted = here && good ? std::clamp(g.strength, 0.0, 1.0) : 0.0;
     s.strength = towards(s.strength, wanted, g.slew * dt);
-    s.alignment = towards(s.alignment, s.at_end && left < g.near ? wanted : 0.0, g.slew * dt);
+    s.alignment = towards(s.alignment, left < g.near ? wanted : 0.0, g.slew * dt);
 
     // A point on the way is passed softly; at the end the law is exact.
     const double least = std::clamp(remaining, 1e-12, soft);

@@ -24,9 +24,10 @@ void observe(const OutputLimits& limits, PassivityState& s, const Motion& motion
     s.applied.force += ticks * out.force;
     s.applied.torque += ticks * out.torque;
     s.ticks += ticks;
-    if (!motion.fresh) return;
-    s.balance -=
-        (glm::dot(s.applied.force, motion.shift) + glm::dot(s.applied.torque, motion.turn)) / s.ticks;
+    if (!motion.fresh && !motion.begins) return;
+    if (motion.fresh)
+        s.balance -=
+            (glm::dot(s.applied.force, motion.shift) + glm::dot(s.applied.torque, motion.turn)) / s.ticks;
     s.applied = {};
     s.ticks = 0.0;
 }

@@ -26,7 +26,6 @@ bool move_on(const OutputLimits& limits, WatchdogState& s, const Pose& pose, dou
     s.last = pose;
     if (glm::length(m.shift) > limits.jump * ticks || glm::length(m.turn) > limits.angular_jump * ticks) {
         m = {};
-        s.mean_velocity = s.mean_angular_velocity = Vec3(0.0);
         return false;
     }
     const double elapsed = ticks * dt;
@@ -43,12 +42,11 @@ bool move_on(const OutputLimits& limits, WatchdogState& s, const Pose& pose, dou
 Fault look(const OutputLimits& limits, WatchdogState& s, const PortInput& input, bool request_is_sound,
            double dt) {
     s.quiet += 1 + input.missed;
-    s.motion.fresh = false;
+    s.motion.fresh = s.motion.begins = false;
     if (input.fresh) {
         if (!is_pose(input)) {
             s.known = false;  // the next pose is a beginning, not a motion
             s.motion = {};
-            s.mean_velocity = s.mean_angular_velocity = Vec3(0.0);
             s.quiet = 0;
             return Fault::no_pose;
         }
@@ -56,6 +54,7 @@ Fault look(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
             s.quiet = 0;
             return Fault::jumped;
         }
+        s.motion.begins = !s.known;
         s.last = input.pose;
         s.known = true;
         s.quiet = 0;

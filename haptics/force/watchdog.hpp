@@ -41,6 +41,7 @@ struct Motion {
     Vec3 velocity{0.0};          // m/s, smoothed over two ticks
     Vec3 angular_velocity{0.0};  // rad/s
     bool fresh = false;          // false: nothing new is known
+    bool begins = false;         // the first sample: what was before it is no motion
 };
 
 struct WatchdogState {

@@ -226,6 +226,41 @@ TEST_CASE("something comes between hand and target: the force fades, and leads r
     CHECK(force == Vec3(0.0));
 }
 
+TEST_CASE("come to a corner and nothing is seen on: the help fades, and comes again when there is a way") {
+    const Guiding guiding;
+    GuideState state;
+    const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+    Vec3 hand(-0.2, 0, 0);
+    bool closed = false;
+    int asked = 0;
+    const auto free = [&](const Vec3& a, const Vec3& b) {
+        ++asked;
+        return over_the_wall(a, b) && !(closed && (a.x > -0.15 || b.x > -0.15));
+    };
+    const auto lead = [&](int ticks) {
+        bool off = false;
+        for (int i = 0; i < ticks; ++i) {
+            const Wanted wanted = guide(guiding, state, tool_at(hand), goal, free, dt);
+            follow(hand, wanted.command.force);
+            off = off || (wanted.command.force == Vec3(0.0) && state.strength == 0.0);
+        }
+        return off;
+    };
+    lead(10);
+    REQUIRE(state.path.count > 2);
+    closed = true;
+    CHECK(lead(8000));
+    CHECK(hand.x < -0.1);
+    // Where there is no way it is looked for four times a second, not in every tick.
+    asked = 0;
+    lead(1000);
+    CHECK(asked < 500);
+    CHECK(asked > 0);
+    closed = false;
+    lead(20'000);
+    CHECK(glm::length(hand - goal.target.point) < 2e-3);
+}
+
 TEST_CASE("a nut that comes down as it turns is followed without a step") {
     const Guiding guiding;
     GuideState state;

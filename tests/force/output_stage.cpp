@@ -132,6 +132,44 @@ TEST_CASE("whatever goes in, what comes out is finite, inside the limits and nev
         if (i != static_cast<std::size_t>(Fault::silent)) CHECK(stage.watchdog.counts[i] > 0);
 }
 
+TEST_CASE(
+    "while the loop missed deadlines the device went on with what it had: that counts as long as it lasted") {
+    OutputLimits limits;
+    limits.delay = 0;
+    limits.ramp_up = dt;
+    limits.damping = limits.angular_damping = 0.0;
+    limits.force_rate = 1e6;
+    OutputStage stage;
+    PortInput input = held();
+    const auto push = [&](double newton) {
+        render(limits, stage, input, {{Vec3(newton, 0, 0), Vec3(0.0)}}, dt);
+    };
+    push(1.0);
+    input.fresh = false;
+    push(3.0);  // a tick with 1 N is over
+    input.fresh = true;
+    input.missed = 2;
+    input.pose.position.x = 1e-3;
+    const double before = stage.passivity.balance;
+    push(0.0);  // and three with 3 N
+    CHECK(before - stage.passivity.balance == doctest::Approx((1.0 + 3.0 * 3.0) / 4.0 * 1e-3));
+}
+
+TEST_CASE("what was owed is forgotten with the dead-man let go: nothing drags when it is held again") {
+    const OutputLimits limits;
+    OutputStage stage = at_full(limits);
+    stage.passivity.balance = -1.0;
+    PortInput input = held();
+    input.enabled = false;
+    for (int i = 0; i < 30; ++i) render(limits, stage, input, {}, dt);
+    input.enabled = true;
+    for (int i = 0; i < 600; ++i) {
+        input.pose.position.x += 1e-4;
+        const OutputCommand out = render(limits, stage, input, {}, dt);
+        REQUIRE(nothing(out));
+    }
+}
+
 TEST_CASE("it allocates nothing, takes no lock, looks at no clock, and gives the same bits twice") {
     const auto run = [] {
         OutputStage stage;

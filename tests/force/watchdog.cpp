@@ -145,6 +145,21 @@ TEST_CASE("a jump of place or turn is held off and makes no velocity; the new pl
     }
 }
 
+TEST_CASE("a sample every fourth tick may be four times as far away as one every tick") {
+    Device device;
+    device.limits.jump = 5e-3;
+    for (int i = 0; i < 400; ++i) {
+        device.input.fresh = i % 4 == 0;
+        if (device.input.fresh) device.input.pose.position.x += 8e-3;
+        CHECK(device.step());
+    }
+    CHECK(device.state.motion.velocity.x == doctest::Approx(2.0).epsilon(1e-3));
+    device.input.fresh = true;
+    device.step();
+    device.input.pose.position.x += 8e-3;
+    CHECK_FALSE(device.step());
+}
+
 TEST_CASE("too fast for a hand: held off within 20 ms, until it has come down to half of that") {
     Device device;
     device.move(0.1, 10);
