@@ -7,7 +7,8 @@ namespace bolt::force {
 
 namespace {
 
-constexpr double speed_smoothing = 0.005;  // s
+constexpr double speed_smoothing = 0.005;  // s, of what the speed limits hold
+constexpr double smoothing = 0.0015;       // s, of what is damped: an encoder's steps would be felt as noise
 
 bool is_pose(const PortInput& input) {
     const Pose& p = input.pose;
@@ -30,8 +31,9 @@ bool move_on(const OutputLimits& limits, WatchdogState& s, const Pose& pose, dou
     }
     const double elapsed = ticks * dt;
     const Vec3 velocity = m.shift / elapsed, angular_velocity = m.turn / elapsed;
-    m.velocity += 0.5 * (velocity - m.velocity);
-    m.angular_velocity += 0.5 * (angular_velocity - m.angular_velocity);
+    const double smooth = 1.0 - std::exp(-elapsed / smoothing);
+    m.velocity += smooth * (velocity - m.velocity);
+    m.angular_velocity += smooth * (angular_velocity - m.angular_velocity);
     const double share = 1.0 - std::exp(-elapsed / speed_smoothing);
     s.mean_velocity += share * (velocity - s.mean_velocity);
     s.mean_angular_velocity += share * (angular_velocity - s.mean_angular_velocity);

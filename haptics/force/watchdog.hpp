@@ -38,7 +38,7 @@ struct PortInput {
 struct Motion {
     Vec3 shift{0.0};             // m
     Vec3 turn{0.0};              // rad
-    Vec3 velocity{0.0};          // m/s, smoothed over two ticks
+    Vec3 velocity{0.0};          // m/s, smoothed over 1.5 ms
     Vec3 angular_velocity{0.0};  // rad/s
     bool fresh = false;          // false: nothing new is known
     bool begins = false;         // the first sample: what was before it is no motion
