@@ -72,6 +72,11 @@ void* operator new(std::size_t size) {
     if (void* memory = std::malloc(size)) return memory;
     throw std::bad_alloc();
 }
+// The standard library's sorts ask in this way.
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+    count(&bolt::test::Forbidden::allocations);
+    return std::malloc(size);
+}
 void operator delete(void* memory) noexcept {
     count(&bolt::test::Forbidden::allocations);
     std::free(memory);
