@@ -142,7 +142,7 @@ class Sweep {
             SampleBounds& b = bounds.samples[i];
             b.point = std::max(b.point, all + spent);
             b.edge = std::max(b.edge, all + spent);
-            if (std::min(b.point, b.edge) - spent <= band_) ask(i, cluster.reach, b, spent);
+            if (std::min(b.point, b.edge) - spent <= band_) ask(i, b, spent);
             least = std::min({least, b.point, b.edge});
         }
         bounds.clusters[c] = least;
@@ -157,7 +157,7 @@ class Sweep {
     }
 
     // A sample whose bound is spent.
-    void ask(std::uint32_t index, double reach, SampleBounds& b, double spent) const {
+    void ask(std::uint32_t index, SampleBounds& b, double spent) const {
         const Sample& sample = samples_.samples[index];
         const Vec3 at = to_surface_ * sample.at;
         if (sample.half_length == 0.0) {
@@ -166,7 +166,7 @@ class Sweep {
         } else {
             b.point = nothing_near;
             b.edge = std::max(b.edge, distance_bounds(grid_, at).lower - sample.half_length + spent);
-            if (b.edge - spent <= band_) ask_edge(index, at, reach, b, spent);
+            if (b.edge - spent <= band_) ask_edge(index, at, b, spent);
         }
     }
 
@@ -196,12 +196,12 @@ class Sweep {
                         .feature = of_tool_ ? index : index | of_obstacle});
     }
 
-    void ask_edge(std::uint32_t index, const Vec3& at, double reach, SampleBounds& b, double spent) const {
+    void ask_edge(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent) const {
         const Sample& sample = samples_.samples[index];
         const Quat& turn = to_surface_.orientation;
         const EdgePiece piece{at, turn * sample.half, {turn * sample.inward[0], turn * sample.inward[1]}};
         std::array<Crossing, most_sides> crossings;
-        const Crossings found = near_edges(surface_, piece, reach, band_ + edge_lookahead, band_, crossings);
+        const Crossings found = near_edges(surface_, piece, band_ + edge_lookahead, band_, crossings);
         collected_.complete = std::min(collected_.complete, found.complete);
         b.edge = found.nearest - rounding + spent;
         for (std::size_t i = 0; i < found.count; ++i) {

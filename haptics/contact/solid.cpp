@@ -169,46 +169,15 @@ bool is_behind(const ContactMesh& mesh, const Candidate& c, const Side& side, do
 struct EdgeGathering {
     const Solid* solid;
     const EdgePiece* piece;
-    double band, reach;
+    double band;
     std::span<Crossing> crossings;
-    double length;   // half the piece's
-    double nearest;  // of what may touch; at first the radius asked
     std::size_t count = 0;
+    double nearest = std::numeric_limits<double>::infinity();
     double dropped = std::numeric_limits<double>::infinity();
-
-    void add(Crossing crossing);
 };
 
 bool nearer_crossing(const Crossing& a, const Crossing& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.edge < b.edge;
-}
-
-void EdgeGathering::add(Crossing crossing) {
-    if (std::abs(crossing.distance) > band) return;
-    if (count < crossings.size()) {
-        crossings[count++] = crossing;
-        return;
-    }
-    const auto last = std::max_element(crossings.begin(), crossings.end(), nearer_crossing);
-    if (last != crossings.end() && nearer_crossing(crossing, *last)) std::swap(crossing, *last);
-    dropped = std::min(dropped, crossing.distance);
-}
-
-// How far the piece must turn (rad) until two edges with the common perpendicular `normal` may face each
-// other; 0: they do. They face each other where the perpendicular leads out of both solids. It turns no
-// faster than twice the edges do, over the sine between them, and only with them: how they shift does not
-// matter.
-double turn_to_face(const SharpEdge& edge, const EdgePiece& piece, const Vec3& normal, double sine) {
-    double out = -1.0;
-    double in = -1.0;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const double of_edge = glm::dot(normal, Vec3(edge.inward[i]));
-        const double of_piece = glm::dot(normal, piece.inward[i]);
-        out = std::max({out, of_edge, -of_piece});
-        in = std::max({in, -of_edge, of_piece});
-    }
-    constexpr double slack = 1e-6;
-    return std::max(0.0, std::min(out, in) - slack) * sine / 3.0;
 }
 
 bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
@@ -223,29 +192,30 @@ bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
     Crossing crossing;
     crossing.on_piece = g.piece->middle + at.s * g.piece->half;
     crossing.on_edge = middle + at.t * half;
-    double nearest = glm::length(crossing.on_piece - crossing.on_edge);
-    if (!(nearest < g.nearest)) return false;
-    const Vec3 across = glm::cross(g.piece->half, half);
-    const double sine = glm::length(across) / (g.length * glm::length(half));
-    double turn = 0.0;
-    if (sine > 1e-3) {
-        crossing.normal = glm::normalize(across);
-        turn = turn_to_face(edge, *g.piece, crossing.normal, sine);
-        nearest = std::max(nearest, turn * g.reach);
+    g.nearest = std::min(g.nearest, glm::length(crossing.on_piece - crossing.on_edge));
+    if (!at.inner) return false;
+    crossing.normal = glm::normalize(glm::cross(g.piece->half, half));
+    if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)
+        crossing.normal = -crossing.normal;
+    // Both edges must face each other along the normal: it leads out of both solids. Else some face, vertex
+    // or other edge is nearer.
+    constexpr double slack = 1e-6;
+    for (std::size_t i = 0; i < 2; ++i)
+        if (glm::dot(crossing.normal, Vec3(edge.inward[i])) > slack ||
+            glm::dot(crossing.normal, g.piece->inward[i]) < -slack)
+            return false;
+    crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
+    crossing.edge = index;
+    if (std::abs(crossing.distance) > g.band) return false;
+    if (g.count < g.crossings.size()) {
+        g.crossings[g.count++] = crossing;
+        return false;
     }
-    if (at.inner && turn == 0.0) {
-        if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)
-            crossing.normal = -crossing.normal;
-        crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
-        crossing.edge = index;
-        g.add(crossing);
-    }
-    // What is within the band is wanted in any case.
-    g.nearest = std::min(g.nearest, std::max(nearest, g.band * (1.0 + 1e-9)));
-    const float radius = with_margin(g.length + g.nearest, g.piece->middle);
-    if (!(radius < arguments->query->radius)) return false;
-    arguments->query->radius = radius;
-    return true;
+    const auto last = std::max_element(g.crossings.begin(), g.crossings.end(), nearer_crossing);
+    if (last == g.crossings.end()) return false;
+    if (nearer_crossing(crossing, *last)) std::swap(crossing, *last);
+    g.dropped = std::min(g.dropped, crossing.distance);
+    return false;
 }
 
 void edge_box(const RTCBoundsFunctionArguments* arguments) {
@@ -382,17 +352,18 @@ Near near_point(const Solid& solid, const Vec3& point, double radius, double ban
     return near;
 }
 
-Crossings near_edges(const Solid& solid, const EdgePiece& piece, double reach, double radius, double band,
+Crossings near_edges(const Solid& solid, const EdgePiece& piece, double radius, double band,
                      std::span<Crossing> crossings) {
-    if (!solid.edge_scene) return {0, band, radius};
-    EdgeGathering g{&solid, &piece, band, reach, crossings, glm::length(piece.half), std::max(radius, band)};
-    RTCPointQuery query = make_query(piece.middle, g.length + g.nearest);
+    if (!solid.edge_scene) return {0, band, nothing_near};
+    EdgeGathering g{&solid, &piece, band, crossings};
+    RTCPointQuery query = make_query(piece.middle, glm::length(piece.half) + radius);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
     std::sort(crossings.begin(), crossings.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
     // Nearly parallel edges are compared at the piece's middle only: off by their angle at most.
-    return {g.count, std::min(band, g.dropped), g.nearest - 1e-3 * g.length};
+    const double slack = 1e-3 * glm::length(piece.half);
+    return {g.count, std::min(band, g.dropped), std::min(g.nearest - slack, radius)};
 }
 
 bool blocked(const Solid& solid, const Vec3& from, const Vec3& to) {

@@ -85,14 +85,12 @@ struct Crossing {
 struct Crossings {
     std::size_t count = 0;
     double complete = 0.0;  // as in Near
-    // m: how far the piece must move until another edge may be within the band that is not written, where
-    // turning by an angle counts as `reach` times it; less the band. At most the radius asked.
-    double nearest = 0.0;
+    double nearest = 0.0;   // m, unsigned: no convex edge is nearer to the piece; at most the radius asked
 };
 
-// The convex edges within `band` <= radius that face the piece, edge to edge; if there is no room for all,
-// the nearest.
-Crossings near_edges(const Solid& solid, const EdgePiece& piece, double reach, double radius, double band,
+// The convex edges within `radius`, and of them those within `band` <= radius that face the piece, edge to
+// edge; if there is no room for all, the nearest.
+Crossings near_edges(const Solid& solid, const EdgePiece& piece, double radius, double band,
                      std::span<Crossing> crossings);
 
 // Whether a surface lies between two points.
