@@ -141,11 +141,11 @@ void contact_proximity_without_grid(benchmark::State& state) { proximity(state, 
 BENCHMARK(contact_proximity_without_grid)->Arg(0)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 // Peers: whatever of them was there when this was built.
-void contact_peer(benchmark::State& state, bench::MakePeer make) {
+void contact_peer(benchmark::State& state, bench::MakePeer make, std::size_t every) {
     guarded(state, [&] {
         const auto casing = static_cast<std::size_t>(state.range(0));
         const std::unique_ptr<bench::Peer> peer = make(Ground::get().casings[casing], Ground::get().wrench);
-        along(state, 10, [&](const Pose& pose) { return peer->touches(pose); });
+        along(state, every, [&](const Pose& pose) { return peer->touches(pose); });
         state.SetLabel(triangles(casing));
     });
 }
