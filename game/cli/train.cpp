@@ -30,7 +30,7 @@ struct Options {
     std::string glove = "auto";
     bool hmd = false;
     bool headless = false;
-    bool quiet = false, no_pictures = false;
+    bool quiet = false, no_pictures = false, obstacles = false;
     std::string trainee = "expert";
     std::uint64_t seed = 1;
     std::string out = "out";
@@ -104,6 +104,7 @@ Result<play::TrainOptions> play_options(const Options& options, const content::A
                : options.law == "published" ? joint::Law::published
                                             : joint::Law::mechanistic;
     play.seed = options.seed;
+    play.obstacles = options.obstacles;
     Result<operators::Profile> trainee = operators::find_profile(options.trainee);
     if (!trainee) return fail(trainee.error());
     play.trainee = *trainee;
@@ -218,6 +219,8 @@ void add_train(CLI::App& app, int& exit_code) {
         ->check(whole_number)
         ->capture_default_str();
     train->add_option("--out", options->out, "Folder for session, summary and report")->capture_default_str();
+    train->add_flag("--obstacles", options->obstacles,
+                    "The wrench meets casing, bolts and nuts; simulated trainees see them and reach round");
     train->add_flag("--no-pictures", options->no_pictures, "Without pictures of how the lesson ended");
     train->add_flag("--quiet", options->quiet, "No progress");
     train->callback([options, &exit_code] { exit_code = run(*options); });

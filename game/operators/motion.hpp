@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/math.hpp"
+#include "engine/base/pose.hpp"
 #include "engine/base/random.hpp"
 
 namespace bolt::operators {
@@ -14,11 +14,6 @@ inline double minimum_jerk(double tau) {
     const double t = std::clamp(tau, 0.0, 1.0);
     return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
 }
-
-struct Pose {
-    Vec3 position{0.0};
-    Quat orientation{1.0, 0.0, 0.0, 0.0};
-};
 
 // From one pose to another at share s of the way, on an arc that rises by `lift` along `up`.
 inline Pose along(const Pose& from, const Pose& to, double s, const Vec3& up, double lift) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "game/operators/motion.hpp"
+#include "game/operators/around.hpp"
 #include "game/operators/nerves.hpp"
 
 namespace bolt::operators {
@@ -21,10 +21,13 @@ constexpr double spin_stroke = 200.0;          // degrees of one finger twist
 constexpr double loose_free = 40.0;            // degrees turned at next to no torque: the nut is free
 constexpr double no_torque = 1.0;              // N·m, next to none at a wrench
 constexpr double seen_turn = to_radians(0.5);  // of a nut that can be seen
-constexpr double unwinding_time = 0.18;        // s to let the wrench spring back before it comes off
+constexpr double caught_at = 0.02;       // m that a wrench stays behind the hand's meaning: it is caught
+constexpr double caught_after = 0.5;     // s
+constexpr double retreat = 0.06;         // m
+constexpr double unwinding_time = 0.18;  // s to let the wrench spring back before it comes off
 
 // What the hand is doing. Each phase ends by choosing the next.
-enum class Phase { think, reach, lower, settle, pull, ease, lift, spin, spin_back, done };
+enum class Phase { think, fetch, reach, lower, settle, pull, ease, lift, spin, spin_back, done };
 
 // What it has made up its mind to do.
 struct Intent {
@@ -78,6 +81,12 @@ struct Operator::Mind {
     double begin_angle = 0.0;   // rad, of the nut when it came to it
     double free_turn = 0.0;     // rad turned without resistance, loosening
     Vec3 placed{0.0};           // m, how far off the centre it put the tool
+    double rise = 0.0;          // m, how high the reach goes above the straight way
+    double room = 0.0;          // rad that the handle may swing in this pull
+    bool holds_wrench = false;
+    double caught = 0.0;  // s that the wrench has been kept from where the hand means to be
+    int bumps = 0;        // times in a row that it was
+    Pose rest;            // before the assembly, where the wrench lies and nothing is in the way
 
     // What can be seen at this tick.
     const servo::Setup* setup = nullptr;
@@ -89,6 +98,7 @@ struct Operator::Mind {
 
     [[nodiscard]] const servo::NutPlace& nut() const { return setup->nuts[intent.joint]; }
     [[nodiscard]] const joint::JointState& joint() const { return state->joints[intent.joint]; }
+    [[nodiscard]] const servo::Touch* obstacles() const { return state->touch ? &*state->touch : nullptr; }
     [[nodiscard]] double elapsed() const { return time - begun; }
     [[nodiscard]] double progress() const { return length > 0.0 ? elapsed() / length : 1.0; }
     [[nodiscard]] bool over() const { return progress() >= 1.0; }
@@ -119,6 +129,8 @@ struct Operator::Mind {
     void decide();
     void choose_joint_and_goal(const lesson::Step& due);
     void choose_grip_angle();
+    void plan_reach();
+    void notice_caught(const Pose& meant, const Pose& wrench);
     void pull(const Feeling& felt);
     void spin(const Feeling& felt);
     Pose move(const Feeling& felt, Grip& grip);
@@ -150,10 +162,20 @@ void Operator::Mind::decide() {
         choose_grip_angle();
     }
     placed = off_centre(profile.position_noise * (intent.fingers ? 3.0 : 1.0));
+    // Among obstacles another tool is laid down or taken up where there are none.
+    if (obstacles() != nullptr && holds_wrench == intent.fingers && from.position != rest.position) {
+        to = {rest.position, from.orientation};
+        plan_reach();
+        enter(Phase::fetch, profile.reach_time);
+        return;
+    }
+    holds_wrench = !intent.fingers;
     // A short way takes less time than a long one, but never none (Fitts).
     to = at_nut(hover);
     const double far = std::min(1.0, 0.35 + glm::distance(from.position, to.position) / 0.3);
-    enter(Phase::reach, far * profile.reach_time * random.uniform(0.85, 1.2));
+    plan_reach();
+    enter(Phase::reach, far * profile.reach_time * random.uniform(0.85, 1.2) *
+                            (obstacles() != nullptr ? 1.0 + 2.0 * rise : 1.0));
 }
 
 void Operator::Mind::choose_joint_and_goal(const lesson::Step& due) {
@@ -198,18 +220,57 @@ void Operator::Mind::choose_joint_and_goal(const lesson::Step& due) {
 void Operator::Mind::choose_grip_angle() {
     const double wanted = 0.5 * pi + (intent.loosening ? 0.5 : -0.5);
     double best = 1e9;
+    room = profile.stroke;
     for (const bool flip : {false, true}) {
         const double head = flip ? setup->wrench.head_angle : -setup->wrench.head_angle;
         const double fits =
             joint().nut.angle - head;  // handle angle at which the jaw lies on the flats, modulo 60°
-        const double candidate = wanted + wrap(fits - wanted, pi / 3.0);
-        if (std::abs(candidate - wanted) < best) {
-            best = std::abs(candidate - wanted);
-            handle = candidate;
-            flipped = flip;
+        const double nearest = wanted + wrap(fits - wanted, pi / 3.0);
+        for (int sixth = -3; sixth < 3; ++sixth) {
+            const double candidate = nearest + (obstacles() != nullptr ? sixth * pi / 3.0 : 0.0);
+            double swing = profile.stroke;
+            if (obstacles() != nullptr)
+                swing = swing_room(*setup, *obstacles(), intent.joint, joint().nut.angle, candidate,
+                                   intent.loosening ? -1.0 : 1.0, profile.stroke);
+            // Room for the pull counts more than where the arm would like to be.
+            const double cost = std::abs(candidate - wanted) + 4.0 * (profile.stroke - swing);
+            if (cost < best) {
+                best = cost;
+                handle = candidate;
+                flipped = flip;
+                room = std::max(swing, to_radians(15.0));
+            }
         }
     }
     handle += profile.angle_noise * random.normal();
+}
+
+// How high to go: as ever, or as the obstacles that can be seen make it.
+void Operator::Mind::plan_reach() {
+    rise = std::min(arc, 0.3 * glm::distance(from.position, to.position));
+    if (obstacles() != nullptr)
+        rise = rise_over(*setup, *obstacles(), from, to, nut().axis, rise + 0.05 * bumps);
+}
+
+// A wrench that is caught on something is taken back and up, and the next way goes higher.
+void Operator::Mind::notice_caught(const Pose& meant, const Pose& wrench) {
+    const bool on_the_way =
+        phase == Phase::reach || phase == Phase::fetch || phase == Phase::lift || phase == Phase::think;
+    if (!on_the_way || glm::distance(meant.position, wrench.position) < caught_at) {
+        caught = 0.0;
+        if (phase == Phase::lower) bumps = 0;
+        return;
+    }
+    caught += setup->dt;
+    if (caught < caught_after) return;
+    caught = 0.0;
+    ++bumps;
+    from = wrench;
+    const Vec3 back = rest.position - wrench.position;
+    to = {wrench.position +
+              retreat * (nut().axis + 0.3 * static_cast<double>(bumps) * back / (1e-3 + glm::length(back))),
+          wrench.orientation};
+    enter(Phase::lift, 0.6);
 }
 
 // A hand on a wrench controls force: it lets the torque grow at a rate, slower towards the goal, and follows
@@ -236,8 +297,7 @@ void Operator::Mind::pull(const Feeling& felt) {
                           (intent.checks && joint().nut.angle - begin_angle > seen_turn) ||
                           (intent.until_seated && felt.seated);
     }
-    if (intent.finished || std::abs(handle - stroke_begin) >= profile.stroke)
-        enter(Phase::ease, unwinding_time);
+    if (intent.finished || std::abs(handle - stroke_begin) >= room) enter(Phase::ease, unwinding_time);
 }
 
 void Operator::Mind::spin(const Feeling& felt) {
@@ -255,9 +315,15 @@ Pose Operator::Mind::move(const Feeling& felt, Grip& grip) {
         case Phase::think:
             if (over()) decide();
             break;
+        case Phase::fetch:
+            pose = along(from, to, minimum_jerk(progress()), nut().axis, rise);
+            if (!over()) break;
+            from = rest;
+            holds_wrench = !intent.fingers;
+            enter(Phase::think, 0.2);
+            break;
         case Phase::reach:
-            pose = along(from, to, minimum_jerk(progress()), nut().axis,
-                         std::min(arc, 0.3 * glm::distance(from.position, to.position)));
+            pose = along(from, to, minimum_jerk(progress()), nut().axis, rise);
             if (!over()) break;
             from = to;
             enter(Phase::lower, profile.placing_time * random.uniform(0.8, 1.3));
@@ -274,6 +340,10 @@ Pose Operator::Mind::move(const Feeling& felt, Grip& grip) {
                 enter(intent.fingers ? Phase::spin : Phase::pull);
             } else if (over()) {
                 // It does not slide on: place it again and turn it a little, as anybody would.
+                if (obstacles() != nullptr && !intent.fingers) {
+                    lift_off(pose, 0.2);
+                    break;
+                }
                 placed = off_centre(0.7 * profile.position_noise);
                 choose_grip_angle();
                 enter(Phase::settle, 0.15);
@@ -326,7 +396,7 @@ Operator::Operator(const Profile& profile, std::uint64_t seed, const servo::Setu
     Vec3 centre(0.0);
     for (const servo::NutPlace& nut : setup.nuts) centre += nut.seat / static_cast<double>(setup.nuts.size());
     mind_->from.position = centre + Vec3(0.0, 0.3, 0.4);  // the hand rests in front of the assembly
-    mind_->to = mind_->from;
+    mind_->to = mind_->rest = mind_->from;
 }
 
 Operator::Operator(Operator&&) noexcept = default;
@@ -353,6 +423,14 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
         if (m.phase == Phase::pull) {
             const double sway = m.profile.tremor_torsion * m.tremor.torsion(m.time);
             pose.orientation = orientation_of(m.nut(), m.handle + sway, m.flipped);
+        }
+    }
+    if (m.obstacles() != nullptr && m.holds_wrench) {
+        input.grip = Grip::wrench;
+        if (m.obstacles()->in_hand) {
+            const Pose& wrench = m.obstacles()->god_object.tool;
+            m.notice_caught(pose, wrench);
+            pose = give_way(pose, wrench);
         }
     }
     input.device = sample_of(pose);

@@ -4,6 +4,7 @@
 
 #include "game/operators/operator.hpp"
 #include "game/play/servo_setup.hpp"
+#include "game/play/touch_models.hpp"
 #include "game/record/session.hpp"
 
 namespace bolt::play {
@@ -55,6 +56,19 @@ Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOp
     if (options.task == lesson::Task::loosen)
         if (Status tight = pretighten(assembly, setup, state); !tight) return fail(tight.error());
 
+    if (options.obstacles) {
+        Result<std::optional<servo::Touch>> touch = load_touch(assembly, setup);
+        if (!touch) return fail(touch.error());
+        if (!touch->has_value()) {
+            Error none;
+            none.code = ErrorCode::bad_content;
+            none.what = "the assembly names no contact model, or its tool no model";
+            none.expected = "expected both: they are the obstacles and what meets them";
+            none.file = assembly.file;
+            return fail(none);
+        }
+        state.touch = std::move(*touch);
+    }
     Result<record::Writer> created = record::Writer::create(file, header_of(assembly, options));
     if (!created) return fail(created.error());
     record::Writer& writer = *created;

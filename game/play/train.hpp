@@ -20,6 +20,7 @@ struct TrainOptions {
     operators::Profile trainee;
     std::uint64_t seed = 1;
     double dt = 0.001;
+    bool obstacles = false;    // the wrench meets casing, bolts and nuts (touch_models.hpp)
     double longest = 14400.0;  // s of virtual time after which the lesson is given up
     double patience = 900.0;   // s without a step done, likewise
 };

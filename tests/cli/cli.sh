@@ -91,6 +91,8 @@ expect 1 'full|written' bash -c "'$bin/boltwright' export a/session.boltwright -
 
 # Loosening, held against measured runs.
 expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --task loosen --out loose
+expect 0 'score 100' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --obstacles --out solid
+expect 3 'contact model' "$bin/boltwright" train --no-pictures "$sources/tests/data/cover.json" --headless --quiet --obstacles --out bare
 expect 0 'Al Assadi' "$bin/boltwright" compare loose/session.boltwright "$sources/tests/data/m8_releasable.csv" --html m8.html
 expect 0 'MAPE' "$bin/boltwright" compare loose/session.boltwright "$sources/tests/data/m8_releasable.csv" --html m8.html
 check "compare names the source on the page" grep -q 'Al Assadi' m8.html
