@@ -8,18 +8,24 @@
 
 #include "content/format/load.hpp"
 #include "game/play/servo_setup.hpp"
+#include "game/play/touch_models.hpp"
 #include "haptics/servo/thread.hpp"
 
 namespace bolt::cli {
 
 namespace {
 
-// A hand that turns the first nut down with its fingers: joint law, group and output stage are all at work.
-servo::Input turning(const servo::Setup& setup, const servo::State& state) {
+// A hand that puts the wrench on the first nut once a second, eight degrees off, so that it stands on top,
+// and lifts it again: obstacles, god-object, guiding and output stage are all at work.
+servo::Input working(const servo::Setup& setup, const servo::State& state) {
     const servo::NutPlace& nut = setup.nuts.front();
-    const double turned = static_cast<double>(state.tick) * setup.dt;  // rad: one a second
-    const Vec3 at = servo::nut_centre(nut, state.joints.front().nut.angle);
-    const Vec3 x = std::cos(turned) * nut.e1 - std::sin(turned) * nut.e2;
+    const double time = static_cast<double>(state.tick) * setup.dt;
+    const Vec3 at = servo::nut_centre(nut, 0.0) + nut.axis * (0.014 + 0.012 * std::cos(2.0 * pi * time));
+    // Away from the casing: out over the flange's edge.
+    const double handle = setup.wrench.head_angle + to_radians(8.0) + (nut.seat.z > 0.0 ? 0.5 : 1.5) * pi;
+    const double nearest =
+        std::round(handle / (pi / 3.0)) * (pi / 3.0) + setup.wrench.head_angle + to_radians(8.0);
+    const Vec3 x = std::cos(-nearest) * nut.e1 + std::sin(-nearest) * nut.e2;
     const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(nut.axis, x), nut.axis)));
     servo::Input input;
     for (int i = 0; i < 3; ++i) input.device.position[i] = static_cast<float>(at[i]);
@@ -27,8 +33,9 @@ servo::Input turning(const servo::Setup& setup, const servo::State& state) {
     input.device.orientation[1] = static_cast<float>(q.x);
     input.device.orientation[2] = static_cast<float>(q.y);
     input.device.orientation[3] = static_cast<float>(q.z);
-    input.grip = servo::Grip::fingers;
+    input.grip = servo::Grip::wrench;
     input.enabled = true;
+    input.guide = 0;
     return input;
 }
 
@@ -50,10 +57,14 @@ Result<std::string> examine_servo(double seconds) {
         const servo::Setup setup =
             play::make_setup(loaded.assembly, loaded.assembly.law, force::OutputLimits{}, 0, 1.0 / rate);
         servo::State state = servo::initial_state(setup);
+        Result<std::optional<servo::Touch>> touch = play::load_touch(loaded.assembly, setup);
+        if (!touch) return fail(touch.error());
+        state.touch = std::move(*touch);
+        servo::tick(setup, state, working(setup, state));  // the first one proves everything anew
         servo::ThreadOptions options;
         options.rate = rate;
         Result<servo::Thread> thread = servo::Thread::start(options, [&](const servo::Beat&) {
-            servo::tick(setup, state, turning(setup, state));
+            servo::tick(setup, state, working(setup, state));
             return true;
         });
         if (!thread) return fail(thread.error());
