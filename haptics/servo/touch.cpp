@@ -33,6 +33,16 @@ Pose nut_pose(const NutPlace& nut, double nut_angle) {
     return {nut.seat + gap * nut.axis, seat * glm::angleAxis(-nut_angle, Vec3(0, 0, 1))};
 }
 
+void set_coupling(const Setup& setup, Touch& touch) {
+    force::CouplingRange range;
+    range.force = setup.limits.force;
+    range.torque = setup.limits.torque;
+    range.stiffness = setup.limits.stiffness;
+    range.torsion = setup.limits.torsion;
+    range.dt = setup.dt;
+    touch.parameters.coupling = force::make_coupling(range);
+}
+
 Result<Touch> make_touch(const Setup& setup, const TouchDescription& d) {
     Touch touch;
     std::vector<contact::Obstacle> obstacles;
@@ -52,13 +62,7 @@ Result<Touch> make_touch(const Setup& setup, const TouchDescription& d) {
         touch.nuts.push_back(contact::find_body(touch.world, first_nut + static_cast<std::int32_t>(i)));
     touch.proximity = contact::make_proximity(touch.world, touch.wrench);
 
-    force::CouplingRange range;
-    range.force = setup.limits.force;
-    range.torque = setup.limits.torque;
-    range.stiffness = setup.limits.stiffness;
-    range.torsion = setup.limits.torsion;
-    range.dt = setup.dt;
-    touch.parameters.coupling = force::make_coupling(range);
+    set_coupling(setup, touch);
     touch.parameters.radius = touch.wrench.reach();
     touch.parameters.friction = d.friction;
     return touch;

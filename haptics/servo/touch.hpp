@@ -37,6 +37,9 @@ struct Touch {
 // All that allocates. An error: a mesh that is not closed (contact/tool.hpp, contact/world.hpp).
 Result<Touch> make_touch(const Setup& setup, const TouchDescription& description);
 
+// The coupling that the device and the rate of the ticks allow; part of `make_touch`.
+void set_coupling(const Setup& setup, Touch& touch);
+
 // A nut's mesh to the assembly.
 Pose nut_pose(const NutPlace& nut, double nut_angle);
 
