@@ -8,13 +8,6 @@ namespace {
 
 constexpr std::int32_t first_nut = 1000;  // id of the first joint's nut
 
-// J that a spring holds which gives this force at this stretch. It grows ever more slowly towards its limit,
-// so what it holds is never less than the triangle under its curve.
-double held_energy(const force::OutputCommand& felt, const force::Offset& offset) {
-    return 0.5 * (glm::length(felt.force) * glm::length(offset.linear) +
-                  glm::length(felt.torque) * glm::length(offset.angular));
-}
-
 // A jaw that was on a nut and let go of it still surrounds it: the nut is an obstacle again when the jaw is
 // clear of it.
 bool clear_of(const NutPlace& nut, double nut_angle, const Pose& wrench) {
@@ -92,7 +85,7 @@ force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint
     touch.last = contact::step_god_object(touch.parameters, touch.god_object, hand, find, setup.dt);
     force::Wanted wanted;
     wanted.command = touch.god_object.felt;
-    wanted.stored = held_energy(touch.god_object.felt, touch.god_object.offset);
+    wanted.stored = force::stored_energy(touch.parameters.coupling, touch.god_object.offset);
     return wanted;
 }
 
