@@ -73,6 +73,9 @@ bool has_extension(VkPhysicalDevice physical, const char* wanted) {
     });
 }
 
+// Of shaders/light.vert: 25 rows and the position. Vulkan promises 64 numbers.
+constexpr std::uint32_t most_passed_on = 104;
+
 Candidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
@@ -90,6 +93,9 @@ Candidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
     vkGetPhysicalDeviceFeatures2(physical, &features.core);
     for (const Required& feature : required)
         if (feature.of(features) != VK_TRUE) candidate.missing.emplace_back(feature.name);
+    const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+    if (std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) < most_passed_on)
+        candidate.missing.emplace_back("room for 104 numbers between vertex and fragment shaders");
     if (!find_queue_family(physical, surface, candidate.presents))
         candidate.missing.emplace_back("a queue that draws and computes");
     if (surface != VK_NULL_HANDLE && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
