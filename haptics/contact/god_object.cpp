@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+
 #include "haptics/contact/constraint_solver.hpp"
 
 namespace bolt::contact {
@@ -13,6 +14,7 @@ namespace {
 constexpr double still = 1e-7;       // m: less motion than this is none
 constexpr double fine = 50e-6;       // m: what is left after so short a motion can wait for the next tick
 constexpr double least_share = 0.2;  // of the skin: nearer than this is a penetration to be
+constexpr double unseen = 100e-6;    // m: a feature is found before it is deeper than this
 constexpr int attempts = 4;          // motions tried from a pose
 constexpr int halvings = 24;
 
@@ -20,6 +22,7 @@ struct Look {
     std::array<Contact, most_contacts> contacts;
     std::size_t count = 0;
     double nearest = 0.0;
+    double limit = 0.0;  // nothing but the contacts is nearer
 };
 
 struct Rows {
@@ -41,7 +44,7 @@ Look look(Finder finder, const Pose& pose, double band) {
     Look l;
     const Found found = finder(pose, band, l.contacts);
     l.count = std::min(found.count, l.contacts.size());
-    l.nearest = found.clearance;
+    l.limit = l.nearest = found.clearance;
     for (std::size_t i = 0; i < l.count; ++i) l.nearest = std::min(l.nearest, l.contacts[i].distance);
     return l;
 }
@@ -118,17 +121,38 @@ class Stepper {
         return rows;
     }
 
+    // How far the tool's point of a contact seen at another pose has come along its normal, from here to there.
+    [[nodiscard]] double came(const Contact& c, const Vec3& arm) const {
+        return glm::dot(c.normal, c.on_tool - (pose_.position + arm));
+    }
+    // Where the tool's point of a contact seen at another pose is here, from the tool's origin.
+    [[nodiscard]] Vec3 arm_here(const Contact& c, const Pose& at) const {
+        return pose_.orientation * (glm::conjugate(at.orientation) * (c.on_tool - at.position));
+    }
+
+    // Whether the motion there brings the tool too near. What it did not come nearer to was as near here,
+    // unseen by a finder that knows features to a tolerance only: staying would not help, and the god-object
+    // would be caught by what is not there to be got away from.
+    [[nodiscard]] bool too_near(const Look& there, const Pose& at) const {
+        const double least = std::min(least_share * p_.skin, here_.nearest);
+        if (there.nearest >= least) return false;
+        if (there.limit < least) return true;
+        const auto contacts = std::span(there.contacts).first(there.count);
+        return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+            const double by = came(c, arm_here(c, at));
+            return c.distance < least && (by < 0.0 || c.distance - by < -unseen);
+        });
+    }
+
     // What would be too near at `there` becomes a constraint on the motion from here: its plane, where it
     // stood in the way. From here every motion but standing still may be forbidden, never that.
     void cut(const Look& there, const Pose& at, Rows& rows) const {
-        const Quat back = pose_.orientation * glm::conjugate(at.orientation);
         for (std::size_t i = 0; i < there.count; ++i) {
             const Contact& c = there.contacts[i];
             if (c.distance >= p_.skin) continue;
-            const Vec3 arm = back * (c.on_tool - at.position);
-            const double came = glm::dot(c.normal, c.on_tool - (pose_.position + arm));
+            const Vec3 arm = arm_here(c, at);
             rows.add({arm, c.normal,
-                      std::max(c.distance - p_.skin - came, std::min(0.0, here_.nearest - p_.skin)),
+                      std::max(c.distance - p_.skin - came(c, arm), std::min(0.0, here_.nearest - p_.skin)),
                       p_.friction});
         }
     }
@@ -195,7 +219,7 @@ class Stepper {
             }
             if (!may_ask()) return Advance::spent;
             const Look seen = ask(there);
-            if (seen.nearest >= std::min(least_share * p_.skin, here_.nearest)) {
+            if (!too_near(seen, there)) {
                 arrive(there);
                 here_ = seen;
                 const bool close = quiet == 1.0 && length < fine;
