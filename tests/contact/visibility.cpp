@@ -1,0 +1,107 @@
+#include "haptics/contact/visibility.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/contact/support.hpp"
+
+using namespace bolt;
+using namespace bolt::contact;
+using namespace contact_test;
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+// A 20 mm cube in the origin, and walls.
+struct Room {
+    ContactMesh cube = box(Vec3(-10.0) * mm, Vec3(10.0) * mm).mesh();
+    std::vector<ContactMesh> walls;
+    World world;
+    std::vector<Spot> spots = spread_spots(cube, 4000);
+    std::size_t body = 0;
+
+    explicit Room(std::vector<ContactMesh> given, const Pose& pose = {}) : walls(std::move(given)) {
+        std::vector<Obstacle> obstacles{{5, &cube, pose, true}};
+        std::int32_t id = 100;
+        for (const ContactMesh& wall : walls) obstacles.push_back({id++, &wall, {}, false});
+        world = make_world(obstacles).value();
+        body = find_body(world, 5).value();
+    }
+    [[nodiscard]] double share(const Vec3& eye) const { return look_at(world, body, spots, eye).share; }
+};
+
+ContactMesh wall(const Vec3& low, const Vec3& high) { return box(low * mm, high * mm).mesh(); }
+
+}  // namespace
+
+TEST_CASE("spots are spread by area, and lie on the surface") {
+    const ContactMesh slab = box(Vec3(0.0), Vec3(40.0, 10.0, 1.0) * mm).mesh();
+    const std::vector<Spot> spots = spread_spots(slab, 2000);
+    REQUIRE(spots.size() == 2000);
+    std::array<int, 6> on{};
+    std::array<int, 2> half{};
+    for (const Spot& spot : spots) {
+        CHECK(glm::length(spot.normal) == doctest::Approx(1.0));
+        for (int k = 0; k < 3; ++k)
+            if (std::abs(spot.normal[k]) > 0.5)
+                ++on[static_cast<std::size_t>(2 * k + (spot.normal[k] > 0.0 ? 1 : 0))];
+        if (spot.normal.z > 0.5) ++half[spot.at.x < 0.02 ? 0 : 1];
+    }
+    const double all = 2.0 * (400.0 + 40.0 + 10.0);
+    CHECK(on[5] == doctest::Approx(2000.0 * 400.0 / all).epsilon(0.01));
+    CHECK(on[3] == doctest::Approx(2000.0 * 40.0 / all).epsilon(0.03));
+    CHECK(std::abs(half[0] - half[1]) < 20);
+    CHECK(spread_spots(ContactMesh{}, 10).empty());
+}
+
+TEST_CASE("alone all of a body is seen, and it appears as large as it is") {
+    const Room room({});
+    const Vec3 eye(0.0, 0.0, 0.5);
+    const Seen seen = look_at(room.world, room.body, room.spots, eye);
+    CHECK(seen.share == 1.0);
+    // The solid angle of a square from above its middle: 4 asin(a² / (a² + d²)), side 2a, distance d; the
+    // sides of the cube are hidden by its top from there.
+    const double a = 0.01, d = 0.49;
+    const double surface = 6.0 * 0.02 * 0.02;
+    CHECK(seen.alone * surface == doctest::Approx(4.0 * std::asin(a * a / (a * a + d * d))).epsilon(0.01));
+}
+
+TEST_CASE("a wall hides what is behind it") {
+    const Vec3 eye(0.0, 0.0, 1.0);
+    SUBCASE("half") {
+        const Room room({wall({0.0, -50.0, 20.0}, {50.0, 50.0, 21.0})});
+        CHECK(room.share(eye) == doctest::Approx(0.5).epsilon(0.02));
+        // From far to the left nothing is in the way.
+        CHECK(room.share(Vec3(-1.0, 0.0, 0.02)) == 1.0);
+    }
+    SUBCASE("a quarter") {
+        const Room room({wall({0.0, 0.0, 20.0}, {50.0, 50.0, 21.0})});
+        CHECK(room.share(eye) == doctest::Approx(0.75).epsilon(0.02));
+    }
+    SUBCASE("all") {
+        const Room room({wall({-50.0, -50.0, 20.0}, {50.0, 50.0, 21.0})});
+        CHECK(room.share(eye) == 0.0);
+    }
+    SUBCASE("nothing, behind the body") {
+        const Room room({wall({-50.0, -50.0, -21.0}, {50.0, 50.0, -20.0})});
+        CHECK(room.share(eye) == 1.0);
+    }
+    SUBCASE("as much wherever body and eye are turned to") {
+        const Pose turned{Vec3(0.0), rotation(Vec3(0.0, 0.0, pi / 2.0))};
+        const Room room({wall({0.0, -50.0, 20.0}, {50.0, 50.0, 21.0})}, turned);
+        CHECK(room.share(eye) == doctest::Approx(0.5).epsilon(0.02));
+    }
+}
+
+TEST_CASE("what is off hides nothing, and what faces away is not counted") {
+    Room room({wall({-50.0, -50.0, 20.0}, {50.0, 50.0, 21.0})});
+    CHECK(room.share(Vec3(0.0, 0.0, 1.0)) == 0.0);
+    CHECK(room.share(Vec3(0.0, 0.0, -1.0)) == 1.0);
+    room.world.bodies[0].on = false;
+    CHECK(room.share(Vec3(0.0, 0.0, 1.0)) == 1.0);
+    CHECK(look_at(room.world, room.body, {}, Vec3(0.0, 0.0, 1.0)).share == 0.0);
+    CHECK(look_at(room.world, room.body, room.spots, Vec3(0.0)).share == 0.0);  // from within
+}
