@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "content/format/load.hpp"
 #include "engine/assets/pose.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
@@ -16,6 +17,9 @@
 #include "engine/base/nearest.hpp"
 #include "engine/render/picture.hpp"
 #include "game/cli/commands.hpp"
+#include "game/play/nut_views.hpp"
+#include "game/play/servo_setup.hpp"
+#include "game/play/touch_models.hpp"
 #include "game/view/marks.hpp"
 #include "game/view/painter.hpp"
 #include "game/view/picture_file.hpp"
@@ -29,6 +33,7 @@ namespace {
 struct RenderOptions {
     std::string what, png = "out/render.png", timings, light = "studio", gpu;
     std::vector<std::string> views;
+    std::string joint;
     view::Marks marks;
     std::string inset, eye, target, size = "1280x720", animation;
     double at_s = 0.0;
@@ -167,7 +172,35 @@ Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, co
     return std::vector{view};
 }
 
-Status render_all(const RenderOptions& options) {
+// The view that shows most of a joint's nut.
+Result<std::string> view_of_joint(const std::string& what, const std::string& id) {
+    const content::Loaded loaded = content::load_assembly(what);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    const content::Assembly& assembly = loaded.assembly;
+    const auto joint =
+        std::find_if(assembly.joints.begin(), assembly.joints.end(),
+                     [&](const content::AssemblyJoint& candidate) { return candidate.design.id == id; });
+    if (joint == assembly.joints.end()) {
+        std::vector<std::string> ids;
+        for (const content::AssemblyJoint& known : assembly.joints) ids.push_back(known.design.id);
+        const std::string near = nearest(id, ids);
+        return fail(ErrorCode::usage, fmt::format("{} has no joint \"{}\"", what, id),
+                    near.empty() ? "the id of one of its joints" : near);
+    }
+    const servo::Setup setup = play::make_setup(assembly, assembly.law, {}, 1, 1e-3);
+    Result<std::optional<servo::Touch>> touch = play::load_touch(assembly, setup);
+    if (!touch) return fail(touch.error());
+    const auto best = *touch
+                          ? play::best_view(play::views_of_nut(
+                                assembly, **touch, static_cast<std::size_t>(joint - assembly.joints.begin())))
+                          : std::nullopt;
+    if (!best)
+        return fail(ErrorCode::bad_content, fmt::format("no view of {} shows the nut of joint {}", what, id),
+                    "--view, or --eye and --target");
+    return assembly.views[*best].name;
+}
+
+Status render_all(RenderOptions options) {
     const Result<VkExtent2D> extent = view::parse_size(options.size);
     if (!extent) return fail(extent.error());
     view::LoadedSubject subject = view::load_subject(options.what);
@@ -176,6 +209,13 @@ Status render_all(const RenderOptions& options) {
         return fail(ErrorCode::usage, "a bare model has no joints that could be named", "an assembly");
     if (!options.animation.empty())
         if (Status posed = pose(subject.subject.model, options); !posed) return posed;
+    if (!options.joint.empty()) {
+        if (subject.subject.bare)
+            return fail(ErrorCode::usage, "a bare model has no joint to look at", "an assembly");
+        Result<std::string> view = view_of_joint(options.what, options.joint);
+        if (!view) return fail(view.error());
+        options.views = {std::move(*view)};
+    }
     std::vector<std::string> named = options.views;
     if (!options.inset.empty()) named.push_back(options.inset);
     for (const std::string& name : named)
@@ -247,7 +287,10 @@ void add_render(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("render", "Draw an assembly or a .glb into a PNG; needs no display");
     command->add_option("what", options->what, "Assembly (folder, file or name) or a .glb")->required();
-    command->add_option("--view", options->views, "Named view of the assembly; several give several files");
+    CLI::Option* views = command->add_option("--view", options->views,
+                                             "Named view of the assembly; several give several files");
+    command->add_option("--joint", options->joint, "From the named view that shows most of this joint's nut")
+        ->excludes(views);
     command->add_option("--inset", options->inset,
                         "Named view that is shown small in the lower right corner");
     command->add_flag("--labels", options->labels, "Write the joints' names where they are");

@@ -144,6 +144,13 @@ expect 0 'marked.png' "${draw[@]}" render cover-m8 --view top --inset front --la
 check "an inset and names change the picture" bash -c '! cmp -s marked.png same.png'
 expect 2 '"front"' "${draw[@]}" render cover-m8 --view top --inset frontt --png never.png
 expect 2 'no joints' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" --labels --png never.png
+expect 0 'best.png' "${draw[@]}" render cover-m8 --joint B3 --size 96x64 --png best.png
+check "the view that shows a nut best" cmp best.png pictures/cover-front.png
+expect 2 'no joint "B9"' "${draw[@]}" render cover-m8 --joint B9 --png never.png
+expect 0 '^B3 .* front$' "$bin/bolt-author" views cover-m8
+expect 0 '^B3 +0 % .* back$' "$bin/bolt-author" views zq350
+expect 0 '"best": "front"' "$bin/bolt-author" views cover-m8 --json
+expect 3 '' "$bin/bolt-author" views /dev/null
 expect 1 'fonts-dejavu-core' env BOLTWRIGHT_FONTS=/nowhere "${draw[@]}" render cover-m8 --view top --labels --size 8x8 --png never.png
 posed="$sources/tests/fuzz/gltf/everything.gltf"
 expect 0 'posed.png' "${draw[@]}" render "$posed" --animation wave --at 0.4 --size 64x48 --validate --png posed.png

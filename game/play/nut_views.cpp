@@ -1,0 +1,74 @@
+#include "game/play/nut_views.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace bolt::play {
+
+namespace {
+
+constexpr std::size_t spots = 400;  // 5 % is enough to choose a view
+
+constexpr double narrowest = 4.0 / 3.0;  // of pictures
+
+double surface(const contact::ContactMesh& mesh) {
+    double area = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto [a, b, c] = contact::corners(mesh, t);
+        area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+    return area;
+}
+
+// Not those of the bore, which the bolt fills.
+std::vector<contact::Spot> outside(const contact::Solid& nut) {
+    std::vector<contact::Spot> all = contact::spread_spots(nut.mesh, spots);
+    std::erase_if(all, [&](const contact::Spot& spot) {
+        return contact::blocked(nut, spot.at + 1e-4 * spot.normal, spot.at + 2.0 * nut.radius * spot.normal);
+    });
+    return all;
+}
+
+bool in_picture(const content::View& view, const Vec3& point) {
+    const Vec3 ahead = glm::normalize(view.target - view.eye);
+    const Vec3 right = glm::normalize(glm::cross(ahead, Vec3(0.0, 1.0, 0.0)));
+    const Vec3 to = point - view.eye;
+    const double depth = glm::dot(to, ahead), half_height = depth * std::tan(0.5 * view.field_of_view);
+    return depth > 0.0 && std::abs(glm::dot(to, right)) < narrowest * half_height &&
+           std::abs(glm::dot(to, glm::cross(right, ahead))) < half_height;
+}
+
+}  // namespace
+
+void seat_nuts(const servo::Setup& setup, servo::Touch& touch) {
+    for (std::size_t i = 0; i < touch.nuts.size(); ++i)
+        if (touch.nuts[i])
+            touch.world.bodies[*touch.nuts[i]].pose =
+                servo::nut_pose(setup.nuts[i], setup.nuts[i].start_gap / setup.nuts[i].lead);
+}
+
+std::vector<NutView> views_of_nut(const content::Assembly& assembly, const servo::Touch& touch,
+                                  std::size_t joint) {
+    std::vector<NutView> all;
+    if (joint >= touch.nuts.size() || !touch.nuts[joint]) return all;
+    const std::size_t body = *touch.nuts[joint];
+    const std::vector<contact::Spot> on_nut =
+        outside(touch.world.shapes[touch.world.bodies[body].shape].solid);
+    const double area = surface(touch.world.shapes[touch.world.bodies[body].shape].solid.mesh);
+    for (const content::View& view : assembly.views) {
+        const contact::Seen seen = contact::look_at(touch.world, body, on_nut, view.eye);
+        all.push_back({seen.share,
+                       seen.share * seen.alone * area / square(2.0 * std::tan(0.5 * view.field_of_view)),
+                       in_picture(view, touch.world.bodies[body].pose.position)});
+    }
+    return all;
+}
+
+std::optional<std::size_t> best_view(std::span<const NutView> views) {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (views[i].framed && views[i].size > 0.0 && (!best || views[i].size > views[*best].size)) best = i;
+    return best;
+}
+
+}  // namespace bolt::play
