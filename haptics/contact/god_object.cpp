@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-
 #include "haptics/contact/constraint_solver.hpp"
 
 namespace bolt::contact {
@@ -121,7 +120,8 @@ class Stepper {
         return rows;
     }
 
-    // How far the tool's point of a contact seen at another pose has come along its normal, from here to there.
+    // How far the tool's point of a contact seen at another pose has come along its normal, from here to
+    // there.
     [[nodiscard]] double came(const Contact& c, const Vec3& arm) const {
         return glm::dot(c.normal, c.on_tool - (pose_.position + arm));
     }
