@@ -105,12 +105,6 @@ Convex hexagon(const HexagonPrism& p) {
     return make_convex(planes);
 }
 
-double half_play(double opening, double across_flats) {
-    const double c = 0.5 * std::sqrt(3.0) * opening / across_flats;
-    if (c >= 1.0) return 0.5 * sixth;
-    return std::max(0.0, 0.5 * sixth - std::acos(c));
-}
-
 JawSeat seat_of(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     const Vec3 to_throat = wrench.orientation * direction(jaw.head_angle);
     const Vec3 across = wrench.orientation * direction(jaw.head_angle + 0.5 * pi);

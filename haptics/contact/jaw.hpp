@@ -51,9 +51,6 @@ JawParts jaw_parts(const Jaw& jaw);
 // The cone of the chamfers as twelve tangent planes.
 Convex hexagon(const HexagonPrism& prism);
 
-// Free rotation to either side, exact: √3/2 opening / s = cos(30° − angle). 0 if it does not go on.
-double half_play(double opening, double across_flats);
-
 // How a jaw sits.
 struct JawSeat {
     double misalignment = 0.0;  // rad, −30° … 30°, of jaw against hexagon, tightening positive

@@ -1,6 +1,6 @@
-// Which nut the hand holds, and with what. Until contact geometry answers this (jaw sliding onto the
-// hexagon), it is read off the poses: the jaw must be level with the nut, centred, square to the axis and
-// aligned within its play.
+// Which nut the hand holds, and with what. For fingers, and for a wrench that bumps into nothing, it is read
+// off the poses: the jaw must be level with the nut, centred, square to the axis and aligned within its play.
+// A wrench among obstacles: jaw_grip.hpp.
 #pragma once
 
 #include "haptics/servo/io.hpp"
@@ -25,6 +25,11 @@ struct Engagement {
     double azimuth = 0.0;     // rad, the tool's last angle about the bolt, tightening positive, not unwrapped
     double hand_angle = 0.0;  // rad, the same unwrapped, in the nut's count
     Vec3 held_at{0.0};        // tool minus nut centre when it was engaged; relaxes to zero
+
+    // Of a wrench among obstacles.
+    contact::JawSeat seat;
+    double strength = 1.0;  // 0 … 1 of what the corners bear: it slips
+    double yielded = 0.0;   // rad that it was turned beyond what they bear
 };
 
 // Centre of the nut, m: it comes down as it turns.

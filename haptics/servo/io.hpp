@@ -48,6 +48,9 @@ struct Output {
     double wrench_torque = 0.0;  // N·m about the bolt's axis, tightening positive
     double nut_angle = 0.0;      // rad from the hand-started nut, tightening positive
     double clamp = 0.0;          // N
+
+    std::int16_t slipped = -1;  // joint over whose corners the jaw slipped in this tick; −1: none
+    double rounded = 0.0;       // m of its flats that the engaged or slipped nut has lost at each corner
 };
 
 }  // namespace bolt::servo

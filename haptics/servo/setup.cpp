@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/joint/corner.hpp"
+
 namespace bolt::servo {
 
 namespace {
@@ -16,6 +18,9 @@ NutPlace place(const joint::JointDesign& design) {
     nut.e2 = glm::cross(nut.axis, nut.e1);
     nut.height = design.thread.size.nut_height;
     nut.across_flats = design.thread.size.across_flats;
+    nut.bearing = design.thread.size.nut_bearing;
+    nut.corner_pressure =
+        joint::corner_pressure(joint::nut_hardness(design.bolt_class, design.thread.size.d));
     nut.start_gap = design.start_gap;
     nut.lead = design.thread.thread.pitch / (2.0 * pi);
     return nut;
@@ -23,9 +28,11 @@ NutPlace place(const joint::JointDesign& design) {
 
 }  // namespace
 
-double jaw_half_play(double jaw, double across_flats) {
-    const double half_flat = 0.5 * across_flats / std::sqrt(3.0);
-    return 0.5 * std::max(jaw - across_flats, 0.0) / half_flat;
+Pose nut_pose(const NutPlace& nut, double nut_angle) {
+    const double gap = std::max(0.0, nut.start_gap - nut.lead * nut_angle);
+    const Quat seat = glm::normalize(glm::quat_cast(glm::dmat3(nut.e1, nut.e2, nut.axis)));
+    // Tightening turns about -axis.
+    return {nut.seat + gap * nut.axis, seat * glm::angleAxis(-nut_angle, Vec3(0, 0, 1))};
 }
 
 Setup make_setup(const Description& d) {
@@ -44,7 +51,8 @@ Setup make_setup(const Description& d) {
 
     setup.wrench.head_angle = d.head_angle;
     setup.wrench.handle_length = d.handle_length;
-    setup.wrench.half_play = jaw_half_play(d.jaw, across_flats);
+    setup.wrench.jaw = contact::make_jaw(d.jaw, d.head_angle, d.head_thickness, d.jaw_throat, d.jaw_tip);
+    setup.wrench.half_play = joint::rounded_half_play(d.jaw, across_flats, 0.0);
     const double greatest = std::max(d.greatest_torque, 1.0);
     setup.wrench.stiffness =
         greatest / to_radians(2.5);  // wrench and wrists give 2.5° at the greatest torque

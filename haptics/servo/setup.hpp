@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/pose.hpp"
+#include "haptics/contact/jaw.hpp"
 #include "haptics/force/guiding.hpp"
 #include "haptics/force/output_limits.hpp"
 #include "haptics/force/torque_rendering.hpp"
@@ -20,13 +22,20 @@ struct NutPlace {
     Vec3 axis{0.0, 1.0, 0.0};
     Vec3 e1{1.0, 0.0, 0.0};
     Vec3 e2{0.0, 0.0, -1.0};
-    double height = 0.0;        // m
-    double across_flats = 0.0;  // s, m
-    double start_gap = 0.0;     // m, face to seat at angle 0
-    double lead = 0.0;          // m/rad
+    double height = 0.0;           // m
+    double across_flats = 0.0;     // s, m
+    double bearing = 0.0;          // m, diameter of its faces within the chamfers
+    double corner_pressure = 0.0;  // Pa, at which its corners give way (joint/corner.hpp)
+    double start_gap = 0.0;        // m, face to seat at angle 0
+    double lead = 0.0;             // m/rad
 };
 
+// A nut's own frame to the assembly: origin on its bearing face, +Z along the bolt away from the members, a
+// corner of the hexagon along +X.
+Pose nut_pose(const NutPlace& nut, double nut_angle);
+
 struct Wrench {
+    contact::Jaw jaw;
     double head_angle = 0.0;     // rad, between jaw and handle; flipping the wrench changes its side
     double handle_length = 0.0;  // m
     double half_play = 0.0;      // rad, jaw on hexagon, to either side
@@ -58,6 +67,9 @@ struct Description {
     joint::PublishedParameters published;
     const joint::FlangePlate* flange = nullptr;
     double jaw = 0.0;              // m
+    double head_thickness = 0.0;   // m; 0, here and below: as our models have it (contact/jaw.hpp)
+    double jaw_throat = 0.0;       // m, from the middle of the jaw to its bottom
+    double jaw_tip = 0.0;          // m, and to its tips
     double head_angle = 0.0;       // rad
     double handle_length = 0.0;    // m
     double greatest_torque = 0.0;  // N·m that the lesson asks for: what the device's range is scaled to
@@ -67,9 +79,5 @@ struct Description {
 };
 
 Setup make_setup(const Description& description);
-
-// Free rotation, to either side, of a jaw of width `jaw` on a hexagon of width s: the jaw's clearance over
-// the half length of a flat, 2 (jaw − s)/2 / (s/√3) rad to first order.
-double jaw_half_play(double jaw, double across_flats);
 
 }  // namespace bolt::servo

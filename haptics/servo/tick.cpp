@@ -4,12 +4,21 @@
 #include <cmath>
 
 #include "haptics/servo/denormals.hpp"
+#include "haptics/servo/jaw_grip.hpp"
 
 namespace bolt::servo {
 
 namespace {
 
-joint::Handle handle_of(const Setup& setup, const Engagement& e) {
+// Whether contacts hold what is engaged.
+bool by_contact(const State& state) { return state.touch && state.engagement.grip == Grip::wrench; }
+
+joint::Handle handle_of(const Setup& setup, const State& state) {
+    const Engagement& e = state.engagement;
+    if (e.joint >= 0 && by_contact(state)) {
+        const auto i = static_cast<std::size_t>(e.joint);
+        return jaw_handle(setup, setup.nuts[i], state.rounded[i], e);
+    }
     joint::Handle handle;
     handle.engaged = e.joint >= 0;
     handle.angle = e.hand_angle;
@@ -34,7 +43,8 @@ double spring_energy(double stiffness, const Vec3& stretch) {
     return 0.5 * stiffness * glm::dot(stretch, stretch);
 }
 
-// What the hand feels while it holds a nut: the joint about the bolt's axis, the nut's place in the rest.
+// What the hand feels while it holds a nut: the joint about the bolt's axis, and the nut's place in the rest
+// where contacts do not give that.
 force::Wanted held(const Setup& setup, State& state, const ToolPose& tool, bool held_before) {
     const auto i = static_cast<std::size_t>(state.engagement.joint);
     const NutPlace& nut = setup.nuts[i];
@@ -42,19 +52,16 @@ force::Wanted held(const Setup& setup, State& state, const ToolPose& tool, bool 
     const Vec3 target = nut_centre(nut, state.joints[i].nut.angle) + state.engagement.held_at;
     force::Wanted wanted;
     wanted.command = force::render_torque(setup.torque, torque, nut.axis, tool.handle);
-    Vec3 off = target - tool.position;
-    // Along the axis a jaw slides; how far down is the obstacles' to say, where there are any.
-    const bool slides = state.touch && state.engagement.grip == Grip::wrench;
-    if (slides) off -= nut.axis * glm::dot(nut.axis, off);
-    wanted.command.force += setup.hold_stiffness * off;
     const double stiffness =
         state.engagement.grip == Grip::wrench ? setup.wrench.stiffness : setup.finger_stiffness;
     wanted.stored = force::stored_torque(setup.torque, torque, stiffness, setup.wrench.handle_length);
+    if (by_contact(state)) return wanted;
+    const Vec3 off = target - tool.position;
+    wanted.command.force += setup.hold_stiffness * off;
     const double hold = spring_energy(setup.hold_stiffness, off);
     wanted.stored += hold;
     // The place that it is held at moves with the nut, and to its middle: that is no work of the hand.
-    Vec3 moved = target - (held_before ? state.drawn_to : target);
-    if (slides) moved -= nut.axis * glm::dot(nut.axis, moved);
+    const Vec3 moved = target - (held_before ? state.drawn_to : target);
     wanted.granted = hold - spring_energy(setup.hold_stiffness, off - moved);
     state.drawn_to = target;
     if (state.engagement.grip == Grip::wrench && setup.limits.torque > 0.0) {
@@ -95,6 +102,7 @@ force::Wanted led(const Setup& setup, State& state, const ToolPose& tool, int jo
 State initial_state(const Setup& setup) {
     State state;
     state.joints = joint::initial_state(setup.group, setup.nuts.size());
+    state.rounded.assign(setup.nuts.size(), 0.0);
     return state;
 }
 
@@ -116,10 +124,13 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
         if (grip == Grip::wrench) tool = at_pose(state.touch->god_object.tool);
     }
     const int engaged_before = state.engagement.joint;
-    update_engagement(setup, state.joints, tool, grip, state.engagement);
+    if (state.touch && grip == Grip::wrench)
+        update_jaw_grip(setup, state.joints, state.rounded, tool, state.engagement);
+    else
+        update_engagement(setup, state.joints, tool, grip, state.engagement);
 
     const int engaged = state.engagement.joint;
-    step_group(setup.group, state.joints, engaged, handle_of(setup, state.engagement), setup.dt);
+    step_group(setup.group, state.joints, engaged, handle_of(setup, state), setup.dt);
 
     Output output;
     force::Wanted wanted;
@@ -131,6 +142,10 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
         const joint::JointState& joint = state.joints[i];
         if (state.engagement.grip == Grip::fingers) let_slip(setup, state.engagement, joint.nut.angle);
         wanted = held(setup, state, tool, engaged_before == engaged);
+        if (by_contact(state) &&
+            round_corners(setup, setup.nuts[i], joint, state.rounded[i], state.engagement))
+            output.slipped = static_cast<std::int16_t>(engaged);
+        output.rounded = state.rounded[i];
         output.joint = static_cast<std::int16_t>(engaged);
         output.stage = joint.stage;
         output.wrench_torque = joint.torque;

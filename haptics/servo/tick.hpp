@@ -2,7 +2,7 @@
 // bits.
 //
 //   1 hand pose → wrench pose, as far as obstacles allow   touch.hpp
-//   2 which nut is held                                    engagement.hpp
+//   2 which nut is held, and how well                      engagement.hpp, jaw_grip.hpp
 //   3 nut and joint: angle, stage, torque                  joint/group.hpp
 //   4 what the nut does to the hand, or the guiding force on its way there   force/guide.hpp
 //   5 output stage: watchdog, passivity, limits                              force/output_stage.hpp
@@ -23,6 +23,7 @@ namespace bolt::servo {
 struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
+    std::vector<double> rounded;  // m of each nut's flats that slipping jaws took off
     Engagement engagement;
     Vec3 drawn_to{0.0};  // where an engaged tool is held, m
     force::GuideState guide;

@@ -1,6 +1,11 @@
 #include "haptics/servo/touch.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "haptics/joint/corner.hpp"
+#include "haptics/servo/jaw_grip.hpp"
 
 namespace bolt::servo {
 
@@ -8,23 +13,102 @@ namespace {
 
 constexpr std::int32_t first_nut = 1000;  // id of the first joint's nut
 
-// A jaw that was on a nut and let go of it still surrounds it: the nut is an obstacle again when the jaw is
-// clear of it.
-bool clear_of(const NutPlace& nut, double nut_angle, const Pose& wrench) {
-    const Vec3 from = wrench.position - (nut_pose(nut, nut_angle).position + 0.5 * nut.height * nut.axis);
-    const double axial = glm::dot(from, nut.axis);
-    return std::abs(axial) > 1.5 * nut.height ||
-           glm::length(from - axial * nut.axis) > 1.5 * nut.across_flats;
+// Kept between jaw and hexagon, m: of a clearance of a tenth of a millimetre the skin would take half.
+constexpr double jaw_skin = 2e-6;
+
+// Of the opening: a nut this near to the jaw's middle touches nothing of the wrench but its jaw.
+constexpr double beside = 0.15, ahead = 0.25;
+constexpr double nearly_level = 0.99;  // cos 8°
+
+// In the frame of the jaw: along the slot to its throat, across, along the normal.
+Vec3 in_jaw(const contact::Jaw& jaw, const Pose& wrench, const Vec3& point) {
+    return glm::angleAxis(-jaw.head_angle, Vec3(0, 0, 1)) * (inverse(wrench) * point);
+}
+
+bool is_jaw(const contact::Jaw& jaw, const Pose& wrench, const Vec3& point) {
+    const Vec3 p = in_jaw(jaw, wrench, point);
+    const double cover = contact::jaw_cover * jaw.opening;
+    return std::abs(p.y) < 0.5 * jaw.opening + cover && p.x < jaw.throat + cover;
+}
+
+// Whether only the jaw can touch the nut in this tick and some more.
+bool jaw_only(const Setup& setup, const NutPlace& nut, const Pose& place, const Pose& wrench) {
+    const contact::Jaw& jaw = setup.wrench.jaw;
+    const Vec3 p = in_jaw(jaw, wrench, place.position + 0.5 * nut.height * nut.axis);
+    const Vec3 normal = wrench.orientation * Vec3(0, 0, 1);
+    return std::abs(p.y) < beside * jaw.opening && p.x < ahead * jaw.opening &&
+           std::abs(glm::dot(normal, nut.axis)) > nearly_level;
+}
+
+void place_nuts(const Setup& setup, Touch& touch, std::span<const joint::JointState> joints, bool held) {
+    for (std::size_t i = 0; i < touch.places.size(); ++i) {
+        touch.places[i] = nut_pose(setup.nuts[i], joints[i].nut.angle);
+        if (!touch.nuts[i]) continue;
+        contact::Body& body = touch.world.bodies[*touch.nuts[i]];
+        body.pose = touch.places[i];
+        body.on = !held || !jaw_only(setup, setup.nuts[i], body.pose, touch.god_object.tool);
+    }
+}
+
+// Where the hexagon stands for the jaw that sits on it: turned with it beyond the play.
+Pose turned_with(const Setup& setup, const NutPlace& nut, const Pose& place, const Pose& wrench) {
+    const double off =
+        contact::seat_of(setup.wrench.jaw, prism_of(nut), inverse(place) * wrench).misalignment;
+    const double play = joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, 0.0);
+    const double beyond = off - std::clamp(off, -play, play);
+    return {place.position, place.orientation * glm::angleAxis(-beyond, Vec3(0, 0, 1))};
+}
+
+// Contacts of the jaw with all nuts, as many as there is room for.
+contact::Found find_on_nuts(const Setup& setup, const Touch& touch, const Pose& pose, double band,
+                            std::span<contact::Contact> out) {
+    const double spared = touch.parameters.skin - jaw_skin;
+    contact::Found found{0, band, false};
+    std::array<contact::Contact, contact::most_jaw_contacts> met;
+    for (std::size_t i = 0; i < touch.hexagons.size(); ++i) {
+        const NutPlace& nut = setup.nuts[i];
+        const bool sits = static_cast<int>(i) == touch.around;
+        const Pose place = sits ? turned_with(setup, nut, touch.places[i], pose) : touch.places[i];
+        const std::size_t count = contact::jaw_contacts(touch.jaw, touch.hexagons[i], pose, place, band,
+                                                        first_nut + static_cast<std::int32_t>(i), met);
+        if (sits) contact::let_turn(place.position, nut.axis, std::span(met).first(count));
+        for (std::size_t k = 0; k < count; ++k) {
+            contact::Contact& c = met[k];
+            c.distance += spared;
+            if (found.count < out.size()) {
+                out[found.count++] = c;
+            } else {
+                found.crowded = true;
+                found.clearance = std::min(found.clearance, c.distance);
+            }
+        }
+    }
+    return found;
+}
+
+contact::Found find(const Setup& setup, Touch& touch, const Pose& pose, double band,
+                    std::span<contact::Contact> out) {
+    contact::Found found = find_on_nuts(setup, touch, pose, band, out);
+    const auto rest = out.subspan(found.count);
+    const contact::Found meshes =
+        contact::find_contacts(touch.world, touch.wrench, pose, band, touch.proximity, rest);
+    for (std::size_t k = 0; k < meshes.count; ++k) {
+        const bool said = rest[k].body >= first_nut && is_jaw(setup.wrench.jaw, pose, rest[k].on_tool);
+        if (!said) out[found.count++] = rest[k];
+    }
+    found.clearance = std::min(found.clearance, meshes.clearance);
+    found.crowded = found.crowded || meshes.crowded;
+    return found;
+}
+
+// A jaw that was on a nut and holds it no more is off it when it is clear of the hexagon as that stands.
+bool is_off(const Touch& touch, std::size_t i) {
+    std::array<contact::Contact, contact::most_jaw_contacts> met;
+    return contact::jaw_contacts(touch.jaw, touch.hexagons[i], touch.god_object.tool, touch.places[i], 0.0, 0,
+                                 met) == 0;
 }
 
 }  // namespace
-
-Pose nut_pose(const NutPlace& nut, double nut_angle) {
-    const double gap = std::max(0.0, nut.start_gap - nut.lead * nut_angle);
-    const Quat seat = glm::normalize(glm::quat_cast(glm::dmat3(nut.e1, nut.e2, nut.axis)));
-    // Tightening turns about -axis.
-    return {nut.seat + gap * nut.axis, seat * glm::angleAxis(-nut_angle, Vec3(0, 0, 1))};
-}
 
 void set_coupling(const Setup& setup, Touch& touch) {
     force::CouplingRange range;
@@ -51,8 +135,12 @@ Result<Touch> make_touch(const Setup& setup, const TouchDescription& d) {
     Result<contact::ToolShape> wrench = contact::make_tool(d.wrench);
     if (!wrench) return fail(wrench.error());
     touch.wrench = std::move(*wrench);
-    for (std::size_t i = 0; i < setup.nuts.size(); ++i)
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         touch.nuts.push_back(contact::find_body(touch.world, first_nut + static_cast<std::int32_t>(i)));
+        touch.hexagons.push_back(contact::hexagon(prism_of(setup.nuts[i])));
+        touch.places.push_back(nut_pose(setup.nuts[i], 0.0));
+    }
+    touch.jaw = contact::jaw_parts(setup.wrench.jaw);
     touch.proximity = contact::make_proximity(touch.world, touch.wrench);
 
     set_coupling(setup, touch);
@@ -62,27 +150,22 @@ Result<Touch> make_touch(const Setup& setup, const TouchDescription& d) {
 }
 
 force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint::JointState> joints,
-                         const Pose& hand, bool held, int on_nut) {
-    for (std::size_t i = 0; i < touch.nuts.size(); ++i) {
-        if (!touch.nuts[i]) continue;
-        contact::Body& body = touch.world.bodies[*touch.nuts[i]];
-        const double angle = joints[i].nut.angle;
-        body.pose = nut_pose(setup.nuts[i], angle);
-        if (static_cast<int>(i) == on_nut)
-            body.on = false;
-        else if (!body.on)
-            body.on = !held || clear_of(setup.nuts[i], angle, touch.god_object.tool);
-    }
+                         const Pose& hand, bool held, int held_nut) {
+    place_nuts(setup, touch, joints, held);
+    if (held_nut >= 0)
+        touch.around = held_nut;
+    else if (touch.around >= 0 && (!held || is_off(touch, static_cast<std::size_t>(touch.around))))
+        touch.around = -1;
     if (!held || !touch.in_hand) {
         touch.god_object = contact::start_god_object(hand);
         touch.last = {};
         touch.in_hand = held;
         if (!held) return {};
     }
-    const auto find = [&](const Pose& pose, double band, std::span<contact::Contact> out) {
-        return contact::find_contacts(touch.world, touch.wrench, pose, band, touch.proximity, out);
+    const auto finder = [&](const Pose& pose, double band, std::span<contact::Contact> out) {
+        return find(setup, touch, pose, band, out);
     };
-    touch.last = contact::step_god_object(touch.parameters, touch.god_object, hand, find, setup.dt);
+    touch.last = contact::step_god_object(touch.parameters, touch.god_object, hand, finder, setup.dt);
     force::Wanted wanted;
     wanted.command = touch.god_object.felt;
     wanted.stored = force::stored_energy(touch.parameters.coupling, touch.god_object.offset);

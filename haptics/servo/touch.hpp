@@ -1,6 +1,9 @@
 // The wrench in the hand among what it can bump into: casing, bolts and the nuts themselves, which turn and
 // come down as their joints do. The wrench that is worked with is the one that contact lets through
 // (contact/god_object.hpp); what is felt of the contact is the coupling between that one and the hand.
+//
+// Jaw against nut is closed form (contact/jaw.hpp), from the first touch until the jaw is off again; whatever
+// else of the wrench meets a nut meets its mesh, and everything that is no nut meets all of the wrench's.
 #pragma once
 
 #include <optional>
@@ -13,9 +16,8 @@
 
 namespace bolt::servo {
 
-// What is touched. Still obstacles lie in the assembly's frame. A nut lies in its own: origin on its bearing
-// face, +Z along the bolt away from the members, a corner of the hexagon along +X; nuts without a mesh are
-// not touched.
+// What is touched. Still obstacles lie in the assembly's frame, nuts in their own (nut_pose in setup.hpp).
+// Nuts without a mesh are touched by the jaw alone.
 struct TouchDescription {
     std::span<const contact::ContactMesh> still;
     std::span<const contact::ContactMesh> nuts;    // by joint; a mesh without triangles: none
@@ -30,8 +32,12 @@ struct Touch {
     contact::GodObjectParameters parameters;
     contact::GodObjectState god_object;
     std::vector<std::optional<std::size_t>> nuts;  // by joint: index of its body
-    contact::GodObjectStep last;                   // what the last tick did
-    bool in_hand = false;                          // the wrench was held in the last tick
+    std::vector<contact::Convex> hexagons;         // by joint
+    std::vector<Pose> places;                      // by joint: where its nut is now
+    contact::JawParts jaw;
+    int around = -1;              // joint whose nut the jaw sits on, held or slipping; −1: none
+    contact::GodObjectStep last;  // what the last tick did
+    bool in_hand = false;         // the wrench was held in the last tick
 };
 
 // All that allocates. An error: a mesh that is not closed (contact/tool.hpp, contact/world.hpp).
@@ -40,14 +46,11 @@ Result<Touch> make_touch(const Setup& setup, const TouchDescription& description
 // The coupling that the device and the rate of the ticks allow; part of `make_touch`.
 void set_coupling(const Setup& setup, Touch& touch);
 
-// A nut's mesh to the assembly.
-Pose nut_pose(const NutPlace& nut, double nut_angle);
-
-// One tick: nuts go where their joints are, the wrench follows the hand as far as it may. `on_nut`: the joint
-// whose nut the jaw is on, which holds the jaw by itself (tick.hpp), so its nut is no obstacle; −1: none. Not
-// held, the wrench is where the hand is, and nothing is felt.
+// One tick: nuts go where their joints are, the wrench follows the hand as far as it may. `held_nut`: the
+// joint whose nut the jaw holds; with it the hexagon turns, so contacts do not resist that turn and the joint
+// does (jaw_grip.hpp); −1: none. Not held, the wrench is where the hand is, and nothing is felt.
 force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint::JointState> joints,
-                         const Pose& hand, bool held, int on_nut);
+                         const Pose& hand, bool held, int held_nut);
 
 // Whether an obstacle other than this joint's nut lies between two points.
 bool hidden(const Touch& touch, const Vec3& from, const Vec3& to, int joint);
