@@ -318,7 +318,7 @@ Pose Operator::Mind::move(const Feeling& felt, Grip& grip) {
         case Phase::fetch:
             pose = along(from, to, minimum_jerk(progress()), nut().axis, rise);
             if (!over()) break;
-            from = rest;
+            from = to;
             holds_wrench = !intent.fingers;
             enter(Phase::think, 0.2);
             break;

@@ -39,6 +39,8 @@ void let_slip(const Setup& setup, Engagement& e, double nut_angle) {
     e.hand_angle = nut_angle + std::clamp(e.hand_angle - nut_angle, -most, most);
 }
 
+constexpr double opening_time = 0.05;  // s
+
 double spring_energy(double stiffness, const Vec3& stretch) {
     return 0.5 * stiffness * glm::dot(stretch, stretch);
 }
@@ -73,6 +75,28 @@ force::Wanted held(const Setup& setup, State& state, const ToolPose& tool, bool 
         wanted.stored += 0.5 * glm::dot(torsion, torsion) / setup.hold_torsion;
     }
     return wanted;
+}
+
+// What is left of the hold on a nut that was let go of.
+force::Wanted opens(const Setup& setup, Opening& opening, const ToolPose& tool) {
+    force::Wanted wanted;
+    opening.share = std::max(0.0, opening.share - setup.dt / opening_time);
+    const Vec3 off = opening.drawn_to - tool.position;
+    wanted.command.force = opening.share * setup.hold_stiffness * off;
+    wanted.stored = spring_energy(opening.share * setup.hold_stiffness, off);
+    return wanted;
+}
+
+// The guiding force pulls at the hand and is a potential of the tool. Where contacts hold the tool back the
+// hand goes other ways than it does, and the work of that is help, as it is meant to be.
+double work_beside(const force::OutputCommand& help, const Pose& hand_before, const Pose& hand,
+                   const Pose& tool_before, const Pose& tool) {
+    const auto turn = [](const Pose& from, const Pose& to) {
+        return rotation_vector(glm::normalize(to.orientation * glm::conjugate(from.orientation)));
+    };
+    const Vec3 beside = (hand.position - hand_before.position) - (tool.position - tool_before.position);
+    return glm::dot(help.force, beside) +
+           glm::dot(help.torque, turn(hand_before, hand) - turn(tool_before, tool));
 }
 
 // The tool on its way to a nut.
@@ -119,11 +143,18 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
     force::Wanted bumps;
     ToolPose tool = hand;
     if (state.touch && hand.valid) {
-        bumps = step_touch(setup, *state.touch, state.joints, {hand.position, hand.orientation},
-                           grip == Grip::wrench, state.engagement.joint);
-        if (grip == Grip::wrench) tool = at_pose(state.touch->god_object.tool);
+        const contact::GodObjectState before = state.touch->god_object;
+        const bool in_hand = state.touch->in_hand;
+        const Pose now{hand.position, hand.orientation};
+        bumps =
+            step_touch(setup, *state.touch, state.joints, now, grip == Grip::wrench, state.engagement.joint);
+        const Pose& tool_now = state.touch->god_object.tool;
+        if (grip == Grip::wrench) tool = at_pose(tool_now);
+        if (in_hand && grip == Grip::wrench)
+            bumps.granted += work_beside(state.helped, before.device, now, before.tool, tool_now);
     }
     const int engaged_before = state.engagement.joint;
+    const bool drawn_before = engaged_before >= 0 && !by_contact(state);
     if (state.touch && grip == Grip::wrench)
         update_jaw_grip(setup, state.joints, state.rounded, tool, state.engagement);
     else
@@ -137,6 +168,10 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
     // Engaged it has come there, and without a pose there is nobody to lead: what help there was fades.
     const bool leads = engaged < 0 && tool.valid && input.enabled;
     const force::Wanted help = led(setup, state, tool, leads ? input.guide : -1, free);
+    state.helped = help.command;
+    if (drawn_before && engaged != engaged_before) state.opening = {state.drawn_to, 1.0};
+    if (!tool.valid || !input.enabled) state.opening.share = 0.0;
+    const force::Wanted opening = opens(setup, state.opening, tool);
     if (engaged >= 0) {
         const auto i = static_cast<std::size_t>(engaged);
         const joint::JointState& joint = state.joints[i];
@@ -153,7 +188,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
         output.clamp = joint.clamp;
     }
     if (tool.valid)
-        for (const force::Wanted& more : {help, bumps}) {
+        for (const force::Wanted& more : {help, bumps, opening}) {
             wanted.command.force += more.command.force;
             wanted.command.torque += more.command.torque;
             wanted.stored += more.stored;

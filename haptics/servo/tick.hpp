@@ -20,12 +20,21 @@
 
 namespace bolt::servo {
 
+// Fingers that open, a hand that gives up its hold: what drew the tool to the nut goes within 50 ms, not at
+// once.
+struct Opening {
+    Vec3 drawn_to{0.0};
+    double share = 0.0;  // of the stiffness that is left
+};
+
 struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
     std::vector<double> rounded;  // m of each nut's flats that slipping jaws took off
     Engagement engagement;
     Vec3 drawn_to{0.0};  // where an engaged tool is held, m
+    Opening opening;
+    force::OutputCommand helped;  // by the guiding force in the tick before
     force::GuideState guide;
     force::OutputStage output;
     std::optional<Touch> touch;  // none: nothing is bumped into
