@@ -12,9 +12,8 @@ namespace bolt::record {
 
 namespace {
 
-constexpr std::byte version{1};
+constexpr std::byte version{2};
 constexpr std::size_t header_bytes = 1 + 4 + 8;
-constexpr std::size_t tick_bytes = 16 * 4 + 2 * 2 + 3;
 constexpr int compression_level = 1;  // level 3 takes a tenth longer and saves nothing on such columns
 
 template <class T>
@@ -23,7 +22,7 @@ using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t,
 
 // The columns in the order in which they are stored. The only place that knows it, for both directions.
 template <class Visit>
-void for_each_column(Visit visit) {
+void for_each_column(std::byte written_by, Visit visit) {
     for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.device.position[i]; });
     for (int i = 0; i < 4; ++i) visit([i](auto& tick) -> auto& { return tick.device.orientation[i]; });
     visit([](auto& tick) -> auto& { return tick.grip; });
@@ -36,6 +35,19 @@ void for_each_column(Visit visit) {
     visit([](auto& tick) -> auto& { return tick.wrench_torque; });
     visit([](auto& tick) -> auto& { return tick.nut_angle; });
     visit([](auto& tick) -> auto& { return tick.clamp; });
+    if (written_by < std::byte{2}) return;
+    visit([](auto& tick) -> auto& { return tick.contacts; });
+    visit([](auto& tick) -> auto& { return tick.touched; });
+    visit([](auto& tick) -> auto& { return tick.fault; });
+}
+
+std::size_t tick_bytes(std::byte written_by) {
+    std::size_t bytes = 0;
+    for_each_column(written_by, [&](auto field) {
+        const TickRecord tick;
+        bytes += sizeof(field(tick));
+    });
+    return bytes;
 }
 
 template <class T>
@@ -68,7 +80,7 @@ Word unfolded(Word code) {
 // Shifts by whole bytes instead of copying memory: the stored order does not depend on the machine's.
 void to_columns(std::span<const TickRecord> ticks, std::byte* out) {
     const std::size_t count = ticks.size();
-    for_each_column([&](auto field) {
+    for_each_column(version, [&](auto field) {
         using Value = std::remove_cvref_t<decltype(field(ticks[0]))>;
         using Word = Bits<Value>;
         Word before = 0;
@@ -83,9 +95,9 @@ void to_columns(std::span<const TickRecord> ticks, std::byte* out) {
     });
 }
 
-void from_columns(const std::byte* in, std::span<TickRecord> ticks) {
+void from_columns(std::byte written_by, const std::byte* in, std::span<TickRecord> ticks) {
     const std::size_t count = ticks.size();
-    for_each_column([&](auto field) {
+    for_each_column(written_by, [&](auto field) {
         using Value = std::remove_cvref_t<decltype(field(ticks[0]))>;
         using Word = Bits<Value>;
         Word word = 0;
@@ -127,7 +139,7 @@ ChunkEncoder::~ChunkEncoder() = default;
 Result<std::span<const std::byte>> ChunkEncoder::encode(std::uint64_t first_tick,
                                                         std::span<const TickRecord> ticks) {
     State& state = *state_;
-    const std::size_t raw = ticks.size() * tick_bytes;
+    const std::size_t raw = ticks.size() * tick_bytes(version);
     state.columns.resize(std::max(state.columns.size(), raw));
     state.packed.resize(std::max(state.packed.size(), header_bytes + ZSTD_compressBound(raw)));
     to_columns(ticks, state.columns.data());
@@ -160,7 +172,7 @@ Result<std::span<const TickRecord>> ChunkDecoder::decode(std::uint64_t first_tic
                                                          std::span<const std::byte> bytes) {
     State& state = *state_;
     if (bytes.size() < header_bytes) return damaged(first_tick, "they are cut short");
-    if (bytes[0] != version)
+    if (bytes[0] < std::byte{1} || bytes[0] > version)
         return damaged(first_tick, fmt::format("version {} is not known", static_cast<int>(bytes[0])));
     const std::byte* in = bytes.data() + 1;
     if (take<std::uint32_t>(in) != count) return damaged(first_tick, "the count is wrong");
@@ -168,14 +180,14 @@ Result<std::span<const TickRecord>> ChunkDecoder::decode(std::uint64_t first_tic
     if (count > max_chunk_ticks) return damaged(first_tick, "there are too many");
 
     // The count decides how much is allocated, never what the frame says of itself.
-    const std::size_t raw = count * tick_bytes;
+    const std::size_t raw = count * tick_bytes(bytes[0]);
     state.columns.resize(raw);
     const std::size_t size =
         ZSTD_decompressDCtx(state.zstd.get(), state.columns.data(), raw, in, bytes.size() - header_bytes);
     if (ZSTD_isError(size) != 0) return damaged(first_tick, ZSTD_getErrorName(size));
     if (size != raw) return damaged(first_tick, "values are missing");
-    state.ticks.resize(count);
-    from_columns(state.columns.data(), state.ticks);
+    state.ticks.assign(count, {});
+    from_columns(bytes[0], state.columns.data(), state.ticks);
     for (const TickRecord& tick : state.ticks)
         if (!is_valid(tick)) return damaged(first_tick, "a value is out of range");
     return std::span<const TickRecord>(state.ticks);

@@ -80,7 +80,8 @@ Statement& Statement::bind(int index, std::string_view value) {
 }
 
 Statement& Statement::bind(int index, std::span<const std::byte> value) {
-    bind_error_ |= sqlite3_bind_blob64(statement_.get(), index, value.data(), value.size(), SQLITE_STATIC);
+    const void* const data = value.empty() ? static_cast<const void*>("") : value.data();  // as above
+    bind_error_ |= sqlite3_bind_blob64(statement_.get(), index, data, value.size(), SQLITE_STATIC);
     return *this;
 }
 

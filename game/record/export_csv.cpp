@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -19,7 +20,7 @@ namespace {
 constexpr std::string_view header_row =
     "time_s,position_x_m,position_y_m,position_z_m,orientation_w,orientation_x,orientation_y,orientation_z,"
     "grip,enabled,guide,joint,stage,wrench_torque_Nm,nut_angle_deg,clamp_N,"
-    "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm\r\n";
+    "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,contacts,touched,fault\r\n";
 
 constexpr std::string_view name(servo::Grip grip) {
     constexpr std::string_view names[] = {"none", "fingers", "wrench"};
@@ -36,36 +37,39 @@ std::string quoted(const std::string& text) {
     return field += '"';
 }
 
-// The fields for joint numbers, from −1 on: empty for none. A number that has no result row stands as
-// "#number".
-class JointFields {
+// Fields for numbers that have names, from 0 on; none is empty. A number without a name stands as "#number".
+class NamedFields {
   public:
-    explicit JointFields(const std::vector<lesson::JointResult>& joints) {
-        for (const lesson::JointResult& joint : joints) ids_.push_back(quoted(joint.id));
-    }
+    void add(std::int32_t number, const std::string& name) { names_[number] = quoted(name); }
 
-    [[nodiscard]] std::string_view operator[](std::int16_t joint) {
-        if (joint < 0) return {};
-        const auto index = static_cast<std::size_t>(joint);
-        if (index < ids_.size()) return ids_[index];
-        return unknown_ = fmt::format("#{}", joint);
+    [[nodiscard]] std::string_view operator[](std::int16_t number) {
+        if (number < 0) return {};
+        const auto found = names_.find(number);
+        return found != names_.end() ? found->second : unknown_ = fmt::format("#{}", number);
     }
 
   private:
-    std::vector<std::string> ids_;
+    std::map<std::int32_t, std::string> names_;
     std::string unknown_;
 };
 
-void append_row(std::string& text, double time, const TickRecord& tick, JointFields& joints) {
+struct Names {
+    NamedFields joints, obstacles;
+};
+
+void append_row(std::string& text, double time, const TickRecord& tick, Names& names) {
     const auto out = std::back_inserter(text);
     const auto& [p, q] = tick.device;
     fmt::format_to(out, "{:.6f},{},{},{},{},{},{},{},{},{},", time, p[0], p[1], p[2], q[0], q[1], q[2], q[3],
                    name(static_cast<servo::Grip>(tick.grip)), tick.flags & flag_enabled);
-    text.append(joints[tick.guide]).append(",").append(joints[tick.joint]);
-    fmt::format_to(
-        out, ",{},{},{},{},{},{},{},{},{},{}\r\n", joint::name(static_cast<joint::Stage>(tick.stage)),
-        tick.wrench_torque, static_cast<float>(to_degrees(static_cast<double>(tick.nut_angle))), tick.clamp,
-        tick.force[0], tick.force[1], tick.force[2], tick.torque[0], tick.torque[1], tick.torque[2]);
+    text.append(names.joints[tick.guide]).append(",").append(names.joints[tick.joint]);
+    fmt::format_to(out, ",{},{},{},{},{},{},{},{},{},{},{},",
+                   joint::name(static_cast<joint::Stage>(tick.stage)), tick.wrench_torque,
+                   static_cast<float>(to_degrees(static_cast<double>(tick.nut_angle))), tick.clamp,
+                   tick.force[0], tick.force[1], tick.force[2], tick.torque[0], tick.torque[1],
+                   tick.torque[2], tick.contacts);
+    text.append(names.obstacles[tick.touched]).append(",");
+    text.append(force::name(static_cast<force::Fault>(tick.fault))).append("\r\n");
 }
 
 tl::unexpected<Error> write_error(const std::string& out_name, int reason) {
@@ -81,7 +85,11 @@ Status export_csv(const Reader& session, std::FILE* out, const CsvOptions& optio
     if (options.every_n == 0) return fail(ErrorCode::usage, "every 0th tick was asked for", "1 or more");
     const auto result = session.result();
     if (!result) return fail(result.error());
-    JointFields joints(result->joints);
+    Names names;
+    for (std::size_t i = 0; i < result->joints.size(); ++i)
+        names.joints.add(static_cast<std::int32_t>(i), result->joints[i].id);
+    for (const ObstacleName& named : session.header().obstacle_names)
+        names.obstacles.add(named.id, named.name);
     const double dt = session.header().dt;
 
     std::string text(header_row);
@@ -94,7 +102,7 @@ Status export_csv(const Reader& session, std::FILE* out, const CsvOptions& optio
         if (failure) return;
         const std::uint64_t past = first % options.every_n;
         for (std::uint64_t i = past == 0 ? 0 : options.every_n - past; i < ticks.size(); i += options.every_n)
-            append_row(text, static_cast<double>(first + i) * dt, ticks[i], joints);
+            append_row(text, static_cast<double>(first + i) * dt, ticks[i], names);
         write_out();
     });
     write_out();

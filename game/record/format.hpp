@@ -11,7 +11,8 @@
 namespace bolt::record {
 
 inline constexpr std::int64_t application_id = 0x424F4C54;  // "BOLT", in SQLite's header
-inline constexpr std::int64_t format_version = 1;  // user_version; raised when an older program would misread
+// user_version; raised when an older program would misread. 2: contacts, faults, the servo's times.
+inline constexpr std::int64_t format_version = 2, oldest_format = 1;
 
 // Angles are in radians: the unit that is computed in, so that what is read is what was written.
 inline constexpr const char* schema = R"(
@@ -24,6 +25,9 @@ CREATE TABLE joint_result(ordinal INTEGER PRIMARY KEY, id TEXT NOT NULL, torque_
                           overall TEXT NOT NULL, condition TEXT NOT NULL, strokes INTEGER NOT NULL,
                           rehits INTEGER NOT NULL, order_errors INTEGER NOT NULL);
 CREATE TABLE score_reason(ordinal INTEGER PRIMARY KEY, points REAL, text TEXT NOT NULL);
+CREATE TABLE obstacle(id INTEGER PRIMARY KEY, name TEXT NOT NULL);
+CREATE TABLE servo_time(name TEXT PRIMARY KEY, count INTEGER NOT NULL, least_ns INTEGER NOT NULL,
+                        greatest_ns INTEGER NOT NULL, sum_ns REAL NOT NULL, bins BLOB NOT NULL) WITHOUT ROWID;
 CREATE TABLE seal(name TEXT PRIMARY KEY, rows INTEGER NOT NULL, sum INTEGER NOT NULL) WITHOUT ROWID;
 )";
 
@@ -39,6 +43,10 @@ inline constexpr const char* operator_name = "operator";
 inline constexpr const char* seed = "seed";
 inline constexpr const char* dt = "dt_s";
 inline constexpr const char* program = "program";
+inline constexpr const char* guide = "guide";  // this one and the three below: since format 2
+inline constexpr const char* obstacles = "obstacles";
+inline constexpr const char* device = "device";
+inline constexpr const char* servo = "servo";
 inline constexpr const char* state = "state";
 inline constexpr const char* duration = "duration_s";  // this one and those below: complete sessions only
 inline constexpr const char* score = "score";

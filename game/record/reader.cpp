@@ -111,6 +111,14 @@ Result<Header> header_of(Meta meta, const std::string& file) {
             return file_error(file, fmt::format("is damaged: it does not say its {}", name));
         *text = std::move(found->second);
     }
+    const std::pair<const char*, std::string*> since_2[] = {
+        {key::guide, &header.guide},
+        {key::obstacles, &header.obstacles},
+        {key::device, &header.device},
+        {key::servo, &header.servo},
+    };
+    for (const auto& [name, text] : since_2)
+        if (const auto found = meta.find(name); found != meta.end()) *text = std::move(found->second);
     const auto seed = number<std::uint64_t>(meta[key::seed]);
     const auto dt = number<double>(meta[key::dt]);
     if (!seed || !dt || !ticks_per_commit(*dt))
@@ -118,6 +126,16 @@ Result<Header> header_of(Meta meta, const std::string& file) {
     header.seed = *seed;
     header.dt = *dt;
     return header;
+}
+
+Status read_obstacles(Database& database, const std::string& file, std::vector<ObstacleName>& names) {
+    return for_each_row(database, file, "obstacle", "SELECT id, name FROM obstacle ORDER BY id",
+                        [&](const Statement& row) -> std::optional<std::uint64_t> {
+                            const auto id = static_cast<std::int32_t>(row.integer(0));
+                            if (id != row.integer(0)) return std::nullopt;
+                            names.push_back({id, std::string(row.text(1))});
+                            return sum_of(names.back());
+                        });
 }
 
 // How many ticks there are, if the chunks follow each other without a gap.
@@ -159,7 +177,12 @@ std::optional<lesson::JointResult> joint_of(const Statement& row) {
     return joint;
 }
 
-Result<Database> open_session(const std::filesystem::path& path, const std::string& file) {
+struct Session {
+    Database database;
+    std::int64_t format = 0;
+};
+
+Result<Session> open_session(const std::filesystem::path& path, const std::string& file) {
     std::error_code status;
     const std::filesystem::path real = std::filesystem::canonical(path, status);
     if (status) return file_error(file, "cannot be opened: " + status.message());
@@ -181,15 +204,15 @@ Result<Database> open_session(const std::filesystem::path& path, const std::stri
         return file_error(
             file, fmt::format("was written by a newer version (its format is {}, this program reads {})",
                               *version, format_version));
-    if (*version != format_version)
-        return file_error(file, fmt::format("has the unknown format {}", *version));
-    return database;
+    if (*version < oldest_format) return file_error(file, fmt::format("has the unknown format {}", *version));
+    return Session{std::move(*database), *version};
 }
 
 }  // namespace
 
 struct Reader::State {
     Database database;
+    std::int64_t format = 0;
     std::string file;
     Header header;
     bool complete = false;
@@ -206,11 +229,12 @@ Reader::~Reader() = default;
 
 Result<Reader> Reader::open(const std::filesystem::path& path) {
     const std::string file = path.string();
-    auto database = open_session(path, file);
-    if (!database) return fail(database.error());
-    auto meta = read_meta(*database, file);
+    auto session = open_session(path, file);
+    if (!session) return fail(session.error());
+    Database& database = session->database;
+    auto meta = read_meta(database, file);
     if (!meta) return fail(meta.error());
-    auto ticks = count_ticks(*database, file);
+    auto ticks = count_ticks(database, file);
     if (!ticks) return fail(ticks.error());
     const bool complete = (*meta)[key::state] == state_complete;
     const auto duration = number<double>((*meta)[key::duration]);
@@ -220,10 +244,13 @@ Result<Reader> Reader::open(const std::filesystem::path& path) {
         return file_error(file, "is damaged: it is complete without a result");
     auto header = header_of(std::move(*meta), file);
     if (!header) return fail(header.error());
+    if (session->format >= 2)
+        if (auto read = read_obstacles(database, file, header->obstacle_names); !read)
+            return fail(read.error());
     const double recorded = static_cast<double>(*ticks) * header->dt;
-    return Reader(
-        std::make_unique<State>(State{std::move(*database), file, std::move(*header), complete, *ticks,
-                                      duration.value_or(recorded), score.value_or(0.0), finished}));
+    return Reader(std::make_unique<State>(State{std::move(database), session->format, file,
+                                                std::move(*header), complete, *ticks,
+                                                duration.value_or(recorded), score.value_or(0.0), finished}));
 }
 
 const Header& Reader::header() const { return state_->header; }
@@ -274,6 +301,28 @@ Result<std::vector<lesson::Event>> Reader::events() const {
                      });
     if (!read) return fail(read.error());
     return events;
+}
+
+Result<std::optional<servo::Timing>> Reader::timing() const {
+    if (state_->format < 2) return std::nullopt;
+    std::optional<servo::Timing> timing;
+    const Status read =
+        for_each_row(state_->database, state_->file, "servo_time",
+                     "SELECT name, count, least_ns, greatest_ns, sum_ns, bins FROM servo_time",
+                     [&](const Statement& row) -> std::optional<std::uint64_t> {
+                         const auto bins = row.bytes(5);
+                         const TimingRow found{std::string(row.text(0)),
+                                               static_cast<std::uint64_t>(row.integer(1)),
+                                               static_cast<std::uint64_t>(row.integer(2)),
+                                               static_cast<std::uint64_t>(row.integer(3)),
+                                               row.real(4),
+                                               {bins.begin(), bins.end()}};
+                         if (!timing) timing.emplace();
+                         if (!take_row(*timing, found)) return std::nullopt;
+                         return sum_of(found);
+                     });
+    if (!read) return fail(read.error());
+    return timing;
 }
 
 Status Reader::for_each_chunk(

@@ -46,6 +46,17 @@ std::uint64_t sum_of_chunk(std::uint64_t first_tick, std::uint64_t count) {
     return Hash("tick_chunk").add(first_tick).add(count).value();
 }
 
+std::uint64_t sum_of(const ObstacleName& obstacle) {
+    return Hash("obstacle").add(obstacle.id).add(std::string_view(obstacle.name)).value();
+}
+
+std::uint64_t sum_of(const TimingRow& row) {
+    const std::string_view bins(reinterpret_cast<const char*>(row.bins.data()), row.bins.size());
+    Hash hash("servo_time");
+    hash.add(std::string_view(row.name)).add(row.count).add(row.least).add(row.greatest).add(row.sum);
+    return hash.add(bins).value();
+}
+
 std::uint64_t sum_of(std::uint64_t ordinal, const lesson::Event& event) {
     Hash hash("event");
     hash.add(ordinal).add(event.tick).add(std::string_view(event.kind)).add(event.joint);

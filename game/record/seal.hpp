@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "game/lesson/result.hpp"
+#include "game/record/session.hpp"
+#include "game/record/timing_rows.hpp"
 
 namespace bolt::record {
 
@@ -24,6 +26,8 @@ struct Seal {
 // What a row adds. NaNs are all alike and −0 is 0, because SQLite keeps neither apart.
 std::uint64_t sum_of_meta(std::string_view key, std::string_view value);
 std::uint64_t sum_of_chunk(std::uint64_t first_tick, std::uint64_t count);
+std::uint64_t sum_of(const ObstacleName& obstacle);
+std::uint64_t sum_of(const TimingRow& row);
 std::uint64_t sum_of(std::uint64_t ordinal, const lesson::Event& event);
 std::uint64_t sum_of(std::uint64_t ordinal, const lesson::JointResult& result);
 std::uint64_t sum_of(std::uint64_t ordinal, const lesson::ScoreReason& reason);

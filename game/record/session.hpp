@@ -1,11 +1,12 @@
 // The session file: one SQLite database, written as the lesson runs and safe against the process dying at any
 // moment.
 //
-// Tables: meta(key, value) — header and state; tick_chunk(first_tick, count, data) — up to a second of ticks,
-// as chunk.hpp says; event(...); joint_result(...), by joint index; score_reason(...); seal(name, rows, sum)
-// — what each table holds, so that damage is noticed. Every second is one commit, so that a killed process
-// loses at most the one that was being collected. meta 'state' is 'recording' until finish() makes it
-// 'complete'.
+// Tables: meta(key, value) — header and state; obstacle(id, name) — what could be bumped into;
+// tick_chunk(first_tick, count, data) — up to a second of ticks, as chunk.hpp says; event(...);
+// joint_result(...), by joint index; score_reason(...); servo_time(...) — how the servo's thread kept its
+// time, where there was one; seal(name, rows, sum) — what each table holds, so that damage is noticed. Every
+// second is one commit, so that a killed process loses at most the one that was being collected. meta 'state'
+// is 'recording' until finish() makes it 'complete'.
 //
 // While it is recorded, and after a kill, the newest part is in a -wal file beside it; finish() leaves one
 // file. A -shm and a .lock file are also there as long as it is recorded; what a kill leaves of them is in
@@ -19,6 +20,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,8 +28,15 @@
 #include "engine/base/result.hpp"
 #include "game/lesson/result.hpp"
 #include "game/record/tick.hpp"
+#include "haptics/servo/timing.hpp"
 
 namespace bolt::record {
+
+// Something that a wrench can bump into, as TickRecord::touched numbers it.
+struct ObstacleName {
+    std::int32_t id = 0;
+    std::string name;
+};
 
 struct Header {
     std::string assembly;       // name
@@ -41,6 +50,13 @@ struct Header {
     std::uint64_t seed = 0;
     double dt = 0.001;    // s
     std::string program;  // name and version that wrote it
+
+    // What else decided the ticks; all empty in a session of format 1, which does not say.
+    std::string guide;      // "on", "off": whether a guiding force led to the due joint
+    std::string obstacles;  // "none", or the files that the wrench met, each with its size and its sum
+    std::string device;     // what it takes (device_text.hpp)
+    std::string servo;      // "virtual time", or the rate of the thread in words
+    std::vector<ObstacleName> obstacle_names;
 };
 
 // Move-only. All errors name the file. After an error everything committed before stays readable, and every
@@ -62,6 +78,7 @@ class Writer {
     Status append(const TickRecord& tick);              // commits when a second is full
     Status add(const lesson::Event& event);             // committed with the chunk that is being collected
     Status update(const lesson::JointResult& result);   // latest state of a joint, by id; committed likewise
+    Status keep(const servo::Timing& timing);           // of the servo's thread, latest state; likewise
     Status finish(const lesson::LessonResult& result);  // flushes, writes all results, marks complete
 
   private:
@@ -85,6 +102,7 @@ class Reader {
 
     Result<lesson::LessonResult> result() const;  // what is known, also when cut short
     Result<std::vector<lesson::Event>> events() const;
+    Result<std::optional<servo::Timing>> timing() const;  // none: no thread ran, or it was not recorded
 
     // Calls `visit(first_tick, ticks)` chunk after chunk, in order; a damaged chunk is an error that names
     // it.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "game/record/format.hpp"
+#include "game/record/timing_rows.hpp"
 
 namespace bolt::record {
 
@@ -34,10 +35,20 @@ Status put_header(Database& database, const Header& header, Seals& seals) {
         {key::seed, seed},
         {key::dt, dt},
         {key::program, header.program},
+        {key::guide, header.guide},
+        {key::obstacles, header.obstacles},
+        {key::device, header.device},
+        {key::servo, header.servo},
         {key::state, state_recording},
     };
     for (const auto& [name, value] : values)
         if (auto put = put_meta(database, name, value, seals.meta); !put) return put;
+    auto obstacle = database.prepare("INSERT INTO obstacle VALUES(?, ?)");
+    if (!obstacle) return fail(obstacle.error());
+    for (const ObstacleName& named : header.obstacle_names) {
+        if (auto put = obstacle->run_with(named.id, std::string_view(named.name)); !put) return put;
+        seals.obstacle.add(sum_of(named));
+    }
     return {};
 }
 
@@ -59,6 +70,19 @@ Status put_events(Database& database, std::uint64_t first_ordinal, std::span<con
         auto put = statement->run_with(ordinal, event.tick, event.kind, event.joint, event.value, event.text);
         if (!put) return put;
         seals.event.add(sum_of(ordinal++, event));
+    }
+    return {};
+}
+
+Status put_timing(Database& database, const servo::Timing& timing, Seals& seals) {
+    auto statement = database.prepare("INSERT OR REPLACE INTO servo_time VALUES(?, ?, ?, ?, ?, ?)");
+    if (!statement) return fail(statement.error());
+    seals.servo_time = {};  // all rows are put anew
+    for (const TimingRow& row : rows_of(timing)) {
+        auto put = statement->run_with(std::string_view(row.name), row.count, row.least, row.greatest,
+                                       row.sum, std::span<const std::byte>(row.bins));
+        if (!put) return put;
+        seals.servo_time.add(sum_of(row));
     }
     return {};
 }
@@ -114,7 +138,9 @@ Status put_seals(Database& database, const Seals& seals) {
                                                        {"tick_chunk", &seals.chunk},
                                                        {"event", &seals.event},
                                                        {"joint_result", &seals.joint},
-                                                       {"score_reason", &seals.reason}};
+                                                       {"score_reason", &seals.reason},
+                                                       {"obstacle", &seals.obstacle},
+                                                       {"servo_time", &seals.servo_time}};
     for (const auto& [table, seal] : all)
         if (auto put = statement->run_with(table, seal->rows, seal->sum); !put) return put;
     return {};

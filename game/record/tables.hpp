@@ -14,7 +14,7 @@
 namespace bolt::record {
 
 struct Seals {
-    Seal meta, chunk, event, joint, reason;
+    Seal meta, chunk, event, joint, reason, obstacle, servo_time;
 };
 
 struct JointRow {
@@ -29,6 +29,7 @@ Status put_chunk(Database& database, std::uint64_t first_tick, std::size_t count
                  std::span<const std::byte> data, Seals& seals);
 Status put_events(Database& database, std::uint64_t first_ordinal, std::span<const lesson::Event> events,
                   Seals& seals);
+Status put_timing(Database& database, const servo::Timing& timing, Seals& seals);
 Status put_changed(Database& database, std::span<JointRow> joints, Seals& seals);
 // The reasons and the numbers, and that the session is complete. The joints are put as changed ones.
 Status put_result(Database& database, const lesson::LessonResult& result, Seals& seals);

@@ -21,6 +21,9 @@ TickRecord make_record(const servo::Input& input, const servo::Output& output) {
     record.wrench_torque = static_cast<float>(output.wrench_torque);
     record.nut_angle = static_cast<float>(output.nut_angle);
     record.clamp = static_cast<float>(output.clamp);
+    record.contacts = output.contacts;
+    record.touched = output.touched;
+    record.fault = static_cast<std::uint8_t>(output.fault);
     return record;
 }
 
@@ -40,7 +43,7 @@ servo::Input input_of(const TickRecord& record) {
 bool is_valid(const TickRecord& record) {
     constexpr auto last_grip = static_cast<std::uint8_t>(servo::Grip::wrench);
     return record.grip <= last_grip && record.stage < joint::stage_count && record.guide >= -1 &&
-           record.joint >= -1;
+           record.joint >= -1 && record.touched >= -1 && record.fault < force::fault_kinds;
 }
 
 }  // namespace bolt::record

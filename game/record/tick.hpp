@@ -19,6 +19,11 @@ struct TickRecord {
     float wrench_torque = 0.0F;  // N·m
     float nut_angle = 0.0F;      // rad
     float clamp = 0.0F;          // N
+
+    // Since format 2; sessions of format 1 have the defaults.
+    std::uint16_t contacts = 0;  // of the wrench
+    std::int16_t touched = -1;   // obstacle that it lies against, named in Header::obstacle_names
+    std::uint8_t fault = 0;      // force::Fault of the output stage
 };
 
 // Of the input's small values; above them four bits of missed deadlines.

@@ -39,6 +39,7 @@ struct Writer::State {
     ChunkEncoder encoder;
     std::vector<TickRecord> ticks;  // collected and not yet committed, as are the events
     std::vector<lesson::Event> events;
+    std::optional<servo::Timing> timing;
     std::vector<JointRow> joints;  // all of them, in the order in which they were first seen
     std::uint64_t committed_ticks = 0;
     std::uint64_t committed_events = 0;
@@ -52,6 +53,8 @@ Status Writer::State::put_collected() {
         if (auto put = put_chunk(*database, committed_ticks, ticks.size(), *data, seals); !put) return put;
     }
     if (auto put = put_events(*database, committed_events, events, seals); !put) return put;
+    if (timing)
+        if (auto put = put_timing(*database, *timing, seals); !put) return put;
     return put_changed(*database, joints, seals);
 }
 
@@ -76,6 +79,7 @@ Status Writer::State::commit(const lesson::LessonResult* result) {
     committed_events += events.size();
     ticks.clear();
     events.clear();
+    timing.reset();
     return {};
 }
 
@@ -156,6 +160,12 @@ Status Writer::add(const lesson::Event& event) {
 Status Writer::update(const lesson::JointResult& result) {
     if (state_->refusal) return fail(*state_->refusal);
     state_->update(result);
+    return {};
+}
+
+Status Writer::keep(const servo::Timing& timing) {
+    if (state_->refusal) return fail(*state_->refusal);
+    state_->timing = timing;
     return {};
 }
 

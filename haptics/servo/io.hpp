@@ -38,9 +38,11 @@ struct Output {
 
     force::Fault fault = force::Fault::none;  // why nothing is rendered, if that is so
 
-    // The tool where obstacles let it be, to the assembly, and how many hold or nearly hold it.
+    // The tool where obstacles let it be, to the assembly, how many hold or nearly hold it, and which one the
+    // wrench lies against (Touch::touched).
     Pose tool;
     std::uint16_t contacts = 0;
+    std::int16_t touched = -1;
 
     // True values, unscaled.
     std::int16_t joint = -1;  // engaged joint; −1: none

@@ -207,6 +207,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
     const force::OutputCommand limited = force::render(setup.limits, state.output, port, wanted, setup.dt);
     output.tool = {tool.position, tool.orientation};
     output.contacts = state.touch ? static_cast<std::uint16_t>(state.touch->last.contacts) : std::uint16_t{0};
+    output.touched = state.touch ? static_cast<std::int16_t>(state.touch->touched) : std::int16_t{-1};
     output.force = limited.force;
     output.torque = limited.torque;
     output.fault = state.output.watchdog.fault;

@@ -11,7 +11,7 @@ namespace bolt::servo {
 
 namespace {
 
-constexpr std::int32_t first_nut = 1000;  // id of the first joint's nut
+constexpr double against = 2.0;  // skins: nearer than this an obstacle holds the wrench
 
 // Kept between jaw and hexagon, m: of a clearance of a tenth of a millimetre the skin would take half.
 constexpr double jaw_skin = 2e-6;
@@ -108,6 +108,14 @@ bool is_off(const Touch& touch, std::size_t i) {
                                  met) == 0;
 }
 
+// The nearest of some contacts, if the wrench lies against it.
+std::int32_t touched_of(std::span<const contact::Contact> contacts, double skin) {
+    const auto nearest = std::min_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
+        return a.distance < b.distance;
+    });
+    return nearest != contacts.end() && nearest->distance < against * skin ? nearest->body : -1;
+}
+
 }  // namespace
 
 void set_coupling(const Setup& setup, Touch& touch) {
@@ -159,11 +167,14 @@ force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint
     if (!held || !touch.in_hand) {
         touch.god_object = contact::start_god_object(hand);
         touch.last = {};
+        touch.touched = -1;
         touch.in_hand = held;
         if (!held) return {};
     }
     const auto finder = [&](const Pose& pose, double band, std::span<contact::Contact> out) {
-        return find(setup, touch, pose, band, out);
+        const contact::Found found = find(setup, touch, pose, band, out);
+        touch.touched = touched_of(out.first(found.count), touch.parameters.skin);
+        return found;
     };
     touch.last = contact::step_god_object(touch.parameters, touch.god_object, hand, finder, setup.dt);
     force::Wanted wanted;

@@ -25,6 +25,9 @@ struct TouchDescription {
     double friction = 0.15;                        // steel on painted iron, oiled by use
 };
 
+// Ids of obstacles: what stands still in the order given, and from here on the nuts by joint.
+inline constexpr std::int32_t first_nut = 1000;
+
 struct Touch {
     contact::World world;
     contact::ToolShape wrench;
@@ -38,6 +41,7 @@ struct Touch {
     int around = -1;              // joint whose nut the jaw sits on, held or slipping; −1: none
     contact::GodObjectStep last;  // what the last tick did
     bool in_hand = false;         // the wrench was held in the last tick
+    std::int32_t touched = -1;    // id of the obstacle that it lies against; −1: none
 };
 
 // All that allocates. An error: a mesh that is not closed (contact/tool.hpp, contact/world.hpp).

@@ -36,6 +36,7 @@ std::vector<TickRecord> finite_ticks(std::size_t count) {
         tick.wrench_torque = any(), tick.nut_angle = any(), tick.clamp = any();
         tick.joint = static_cast<std::int16_t>(static_cast<int>(random.bits() % 4) - 1);
         tick.guide = static_cast<std::int16_t>(static_cast<int>(random.bits() % 4) - 1);
+        tick.touched = static_cast<std::int16_t>(static_cast<int>(random.bits() % 4) - 1);
     }
     return ticks;
 }
@@ -104,7 +105,7 @@ TEST_CASE("an exported session reads back to the same ticks") {
     REQUIRE(rows.size() == ticks.size() + 1);
     CHECK(rows[0].front() == "time_s");
     CHECK(rows[0][13] == "wrench_torque_Nm");
-    CHECK(rows[0].back() == "torque_z_Nm");
+    CHECK(rows[0].back() == "fault");
     const std::string joints[] = {"", "A,1", "the \"second\"", "#2"};
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         const auto& row = rows[i + 1];
@@ -125,6 +126,10 @@ TEST_CASE("an exported session reads back to the same ticks") {
         CHECK(row[9] == ((tick.flags & flag_enabled) != 0 ? "1" : "0"));
         CHECK(row[10] == joints[tick.guide + 1]);
         CHECK(row[11] == joints[tick.joint + 1]);
+        const char* const obstacles[] = {"", "housing", "a \"lid\", 盖", "#2"};
+        CHECK(row[22] == std::to_string(tick.contacts));
+        CHECK(row[23] == obstacles[tick.touched + 1]);
+        CHECK(row[24] == force::name(static_cast<force::Fault>(tick.fault)));
         CHECK(row[12] == name(static_cast<joint::Stage>(tick.stage)));
     }
 }

@@ -29,6 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         tick.flags = from[53];
         tick.stage = from[54] % bolt::joint::stage_count;
         tick.joint = static_cast<std::int16_t>(from[55] - 1);
+        tick.touched = static_cast<std::int16_t>(from[56] - 1);
+        tick.fault = from[57] % bolt::force::fault_kinds;
     }
     ChunkEncoder encoder;
     const auto packed = encoder.encode(size, ticks);

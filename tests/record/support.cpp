@@ -3,10 +3,13 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+
+#include "game/record/device_text.hpp"
 
 namespace bolt::record::test {
 
@@ -49,6 +52,9 @@ TickRecord random_tick(Random& random) {
     tick.wrench_torque = any();
     tick.nut_angle = any();
     tick.clamp = any();
+    tick.contacts = static_cast<std::uint16_t>(random.bits() % 65536);
+    tick.touched = static_cast<std::int16_t>(static_cast<int>(random.bits() % 32769) - 1);
+    tick.fault = static_cast<std::uint8_t>(random.bits() % force::fault_kinds);
     return tick;
 }
 
@@ -70,7 +76,7 @@ bool same(const TickRecord& a, const TickRecord& b) {
               equal(a.torque[i], b.torque[i]);
     for (int i = 0; i < 4; ++i) all = all && equal(a.device.orientation[i], b.device.orientation[i]);
     return all && a.grip == b.grip && a.flags == b.flags && a.guide == b.guide && a.joint == b.joint &&
-           a.stage == b.stage;
+           a.stage == b.stage && a.contacts == b.contacts && a.touched == b.touched && a.fault == b.fault;
 }
 
 bool same(std::span<const TickRecord> a, std::span<const TickRecord> b) {
@@ -84,7 +90,11 @@ bool same(const Header& a, const Header& b) {
     return a.assembly == b.assembly && a.assembly_file == b.assembly_file &&
            a.assembly_text == b.assembly_text && a.variant == b.variant && a.law == b.law &&
            a.mode == b.mode && a.task == b.task && a.operator_name == b.operator_name && a.seed == b.seed &&
-           std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) && a.program == b.program;
+           std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) &&
+           a.program == b.program && a.guide == b.guide && a.obstacles == b.obstacles &&
+           a.device == b.device && a.servo == b.servo &&
+           std::ranges::equal(a.obstacle_names, b.obstacle_names,
+                              [](const auto& x, const auto& y) { return x.id == y.id && x.name == y.name; });
 }
 
 namespace {
@@ -131,6 +141,11 @@ Header sample_header(double dt) {
     header.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
     header.dt = dt;
     header.program = "boltwright 0.1.0";
+    header.guide = "on";
+    header.obstacles = "cover.contact.glb 12 bytes, fnv1a 00000000075bcd15";
+    header.device = text_of(force::OutputLimits{});
+    header.servo = "virtual time";
+    header.obstacle_names = {{0, "housing"}, {1, "a \"lid\", 盖"}, {1003, "B4_nut"}};
     return header;
 }
 

@@ -41,6 +41,9 @@ TEST_CASE("a tick's output is kept in single precision") {
     output.wrench_torque = 48.7;
     output.nut_angle = 6.283185307179586;
     output.clamp = 23456.789;
+    output.contacts = 7;
+    output.touched = 1011;
+    output.fault = force::Fault::jumped;
     const TickRecord record = make_record({}, output);
     CHECK(record.force[0] == 0.1F);
     CHECK(record.force[1] == -2.0F);
@@ -52,4 +55,7 @@ TEST_CASE("a tick's output is kept in single precision") {
     CHECK(record.wrench_torque == 48.7F);
     CHECK(record.nut_angle == 6.283185307179586F);
     CHECK(record.clamp == 23456.789F);
+    CHECK(record.contacts == 7);
+    CHECK(record.touched == 1011);
+    CHECK(record.fault == static_cast<std::uint8_t>(force::Fault::jumped));
 }

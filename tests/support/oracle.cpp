@@ -18,8 +18,12 @@ std::vector<std::string> split(const std::string& line) {
 
 }  // namespace
 
+std::string test_file(const std::string& path_in_tests) {
+    return std::string(BOLT_TESTS) + "/" + path_in_tests;
+}
+
 std::vector<Row> read_table(const std::string& path_in_tests) {
-    std::ifstream file(std::string(BOLT_TESTS) + "/" + path_in_tests);
+    std::ifstream file(test_file(path_in_tests));
     if (!file) throw std::runtime_error("no table " + path_in_tests);
     std::vector<std::string> names;
     std::vector<Row> rows;

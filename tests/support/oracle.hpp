@@ -1,4 +1,4 @@
-// Reads the tables in tests/oracles and tests/data.
+// Files in tests/oracles and tests/data.
 #pragma once
 
 #include <map>
@@ -8,6 +8,8 @@
 namespace bolt::test {
 
 using Row = std::map<std::string, std::string>;  // by column name
+
+std::string test_file(const std::string& path_in_tests);  // its path
 
 // Lines that begin with # are comments. Throws if the file is not there: a missing oracle fails the test.
 std::vector<Row> read_table(const std::string& path_in_tests);
