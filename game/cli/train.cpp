@@ -30,7 +30,8 @@ struct Options {
     std::string glove = "auto";
     bool hmd = false;
     bool headless = false;
-    bool quiet = false, no_pictures = false, obstacles = false;
+    bool quiet = false, no_pictures = false, no_guide = false;
+    bool obstacles = false, no_obstacles = false;
     std::string trainee = "expert";
     std::uint64_t seed = 1;
     std::string out = "out";
@@ -104,7 +105,10 @@ Result<play::TrainOptions> play_options(const Options& options, const content::A
                : options.law == "published" ? joint::Law::published
                                             : joint::Law::mechanistic;
     play.seed = options.seed;
-    play.obstacles = options.obstacles;
+    play.obstacles = options.no_obstacles ? play::Obstacles::none
+                     : options.obstacles  ? play::Obstacles::required
+                                          : play::Obstacles::if_any;
+    play.guide = !options.no_guide;
     Result<operators::Profile> trainee = operators::find_profile(options.trainee);
     if (!trainee) return fail(trainee.error());
     play.trainee = *trainee;
@@ -152,25 +156,28 @@ int run(const Options& options) {
     for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(out / stale, made);
     ProgressLine line(options.quiet);
     const std::filesystem::path session = out / "session.boltwright";
-    Result<lesson::LessonResult> result =
+    const Result<play::Played> played =
         play::train(assembly, *play, session,
                     [&](const play::Progress& progress) { return line.show(assembly, progress); });
     line.end();
-    if (!result) return complain(result.error());
+    if (!played) return complain(played.error());
+    const lesson::LessonResult& result = played->result;
+    if (!options.quiet && !played->obstacles && !options.no_obstacles)
+        (void)std::fputs("Nothing could be bumped into: the assembly names no contact model.\n", stderr);
 
-    if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, *play, *result)); !kept)
+    if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, *play, *played)); !kept)
         return complain(kept.error());
     if (Status kept = write_report(session, out / "report.html"); !kept) return complain(kept.error());
-    std::string closing = play::summary_table(assembly, *result);
+    std::string closing = play::summary_table(assembly, result);
     closing += fmt::format("{}, {}, {}", session.string(), (out / "summary.json").string(),
                            (out / "report.html").string());
     closing += "\n";
     if (Status said = say(closing); !said) return complain(said.error());
     // What cannot be drawn takes nothing from what was recorded.
     if (!options.no_pictures && interrupted == 0)
-        if (Status drawn = view::draw_result(assembly, *result, out, {1280, 720}); !drawn)
+        if (Status drawn = view::draw_result(assembly, result, out, {1280, 720}); !drawn)
             (void)complain(drawn.error());
-    return interrupted != 0 || !result->finished ? static_cast<int>(ErrorCode::failed) : 0;
+    return interrupted != 0 || !result.finished ? static_cast<int>(ErrorCode::failed) : 0;
 }
 
 }  // namespace
@@ -219,8 +226,12 @@ void add_train(CLI::App& app, int& exit_code) {
         ->check(whole_number)
         ->capture_default_str();
     train->add_option("--out", options->out, "Folder for session, summary and report")->capture_default_str();
-    train->add_flag("--obstacles", options->obstacles,
-                    "The wrench meets casing, bolts and nuts; simulated trainees see them and reach round");
+    auto* solid = train->add_flag("--obstacles", options->obstacles,
+                                  "Fail if the assembly has no contact model; where it has one, the wrench "
+                                  "meets casing, bolts and nuts anyway");
+    train->add_flag("--no-obstacles", options->no_obstacles, "The wrench goes through everything")
+        ->excludes(solid);
+    train->add_flag("--no-guide", options->no_guide, "A guided lesson without the force that leads the hand");
     train->add_flag("--no-pictures", options->no_pictures, "Without pictures of how the lesson ended");
     train->add_flag("--quiet", options->quiet, "No progress");
     train->callback([options, &exit_code] { exit_code = run(*options); });

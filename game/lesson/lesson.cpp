@@ -194,6 +194,7 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
     lesson.assembly = &assembly;
     lesson.mode = mode;
     lesson.task = task;
+    lesson.guides = mode == Mode::guided;
     lesson.steps = make_plan(assembly, task);
     for (const content::AssemblyJoint& joint : assembly.joints) {
         JointTrack track;

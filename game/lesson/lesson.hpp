@@ -43,6 +43,7 @@ struct Lesson {
     const content::Assembly* assembly = nullptr;
     Mode mode = Mode::guided;
     Task task = Task::tighten;
+    bool guides = true;  // a force leads the hand to the due joint; begin(): in guided lessons
     std::vector<Step> steps;
     std::size_t current = 0;
     std::vector<JointTrack> joints;

@@ -413,10 +413,8 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
 
     servo::Input input;
     input.enabled = true;
-    // Only a guided lesson leads the hand.
     const lesson::Step* due = lesson.due();
-    if (due != nullptr && lesson.mode == lesson::Mode::guided)
-        input.guide = static_cast<std::int16_t>(due->joint);
+    if (due != nullptr && lesson.guides) input.guide = static_cast<std::int16_t>(due->joint);
     Pose pose = m.move(m.nerves.feel(m.joint()), input.grip);
     if (m.phase != Phase::done) {
         pose.position += m.tremor.at(m.time) * m.profile.tremor;

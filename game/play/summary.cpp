@@ -16,13 +16,16 @@ double rounded(double value, double digits) { return std::round(value * digits) 
 }  // namespace
 
 std::string summary_json(const content::Assembly& assembly, const TrainOptions& options,
-                         const lesson::LessonResult& result) {
+                         const Played& played) {
+    const lesson::LessonResult& result = played.result;
     nlohmann::ordered_json json;
     json["assembly"] = assembly.name;
     json["variant"] = assembly.variant;
     json["law"] = joint::name(options.law);
     json["mode"] = lesson::name(options.mode);
     json["task"] = lesson::name(options.task);
+    json["guide"] = options.guide && options.mode == lesson::Mode::guided;
+    json["obstacles"] = played.obstacles;
     json["operator"] = options.trainee.name;
     json["seed"] = options.seed;
     json["duration_s"] = rounded(result.duration, 1e3);

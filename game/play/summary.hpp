@@ -9,10 +9,10 @@
 
 namespace bolt::play {
 
-// {assembly, variant, law, mode, task, operator, seed, duration_s, score, finished,
+// {assembly, variant, law, mode, task, guide, obstacles, operator, seed, duration_s, score, finished,
 //  joints: [{id, torque_Nm, angle_deg, clamp_N, verdict}]}
 std::string summary_json(const content::Assembly& assembly, const TrainOptions& options,
-                         const lesson::LessonResult& result);
+                         const Played& played);
 
 // Joint, torque, clamp force, angle, verdict, in columns for a terminal.
 std::string summary_table(const content::Assembly& assembly, const lesson::LessonResult& result);

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/assets/gltf.hpp"
+#include "engine/base/file.hpp"
 
 namespace bolt::play {
 
@@ -101,11 +102,23 @@ double mouth(const contact::Solid& wrench, double head_angle, double jaw) {
     return least;
 }
 
-Result<std::vector<contact::ContactMesh>> read_wrench(const content::WrenchDesign& design) {
-    std::filesystem::path file = design.model;
-    std::filesystem::path own = file;
+std::filesystem::path wrench_file(const content::WrenchDesign& design) {
+    std::filesystem::path own = design.model;
     own.replace_extension(".contact.glb");
-    if (std::filesystem::exists(own)) file = own;
+    return std::filesystem::exists(own) ? own : std::filesystem::path(design.model);
+}
+
+// "NAME SIZE bytes, fnv1a SUM": the same model again or another one. (FNV-1a, 64 bits: Fowler, Noll, Vo.)
+Result<std::string> identity_of(const std::filesystem::path& file) {
+    const Result<std::string> bytes = read_file(file, std::size_t{1} << 30U, ErrorCode::bad_content);
+    if (!bytes) return fail(bytes.error());
+    std::uint64_t sum = 0xCBF29CE484222325ULL;
+    for (const char c : *bytes) sum = (sum ^ static_cast<std::uint8_t>(c)) * 0x100000001B3ULL;
+    return fmt::format("{} {} bytes, fnv1a {:016x}", file.filename().string(), bytes->size(), sum);
+}
+
+Result<std::vector<contact::ContactMesh>> read_wrench(const content::WrenchDesign& design) {
+    const std::filesystem::path file = wrench_file(design);
     const Result<std::vector<Piece>> pieces = read_pieces(file);
     if (!pieces) return fail(pieces.error());
     glm::dvec3 low(1e9), high(-1e9);
@@ -135,13 +148,21 @@ Result<std::vector<contact::ContactMesh>> read_wrench(const content::WrenchDesig
 
 }  // namespace
 
-Result<std::optional<servo::Touch>> load_touch(const content::Assembly& assembly, const servo::Setup& setup) {
+Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& assembly,
+                                                     const servo::Setup& setup) {
     if (assembly.models.contact.empty() || assembly.wrench.model.empty()) return std::nullopt;
     const std::filesystem::path file = assembly.models.contact;
     const Result<std::vector<Piece>> pieces = read_pieces(file);
     if (!pieces) return fail(pieces.error());
     const Result<std::vector<contact::ContactMesh>> wrench = read_wrench(assembly.wrench);
     if (!wrench) return fail(wrench.error());
+    const Result<std::string> about_file = identity_of(file);
+    if (!about_file) return fail(about_file.error());
+    const Result<std::string> about_wrench = identity_of(wrench_file(assembly.wrench));
+    if (!about_wrench) return fail(about_wrench.error());
+
+    TouchModels models;
+    models.files = *about_file + "; " + *about_wrench;
     std::vector<contact::ContactMesh> still, nuts(setup.nuts.size());
     for (const Piece& piece : *pieces) {
         std::size_t joint = 0;
@@ -153,6 +174,8 @@ Result<std::optional<servo::Touch>> load_touch(const content::Assembly& assembly
                     is_nut ? to_nut(setup.nuts[joint], piece)
                            : std::function<Vec3(const Vec3&)>([](const Vec3& p) { return p; }));
         if (!mesh) return fail(mesh.error());
+        const std::size_t id = is_nut ? static_cast<std::size_t>(servo::first_nut) + joint : still.size();
+        models.names.push_back({static_cast<std::int32_t>(id), piece.node});
         if (is_nut)
             nuts[joint] = std::move(*mesh);
         else
@@ -160,7 +183,15 @@ Result<std::optional<servo::Touch>> load_touch(const content::Assembly& assembly
     }
     Result<servo::Touch> touch = servo::make_touch(setup, {still, nuts, *wrench});
     if (!touch) return fail(bad(file, touch.error().what));
-    return std::optional<servo::Touch>(std::move(*touch));
+    models.touch = std::move(*touch);
+    return std::optional<TouchModels>(std::move(models));
+}
+
+Result<std::optional<servo::Touch>> load_touch(const content::Assembly& assembly, const servo::Setup& setup) {
+    Result<std::optional<TouchModels>> models = load_touch_models(assembly, setup);
+    if (!models) return fail(models.error());
+    if (!models->has_value()) return std::nullopt;
+    return std::optional<servo::Touch>(std::move((*models)->touch));
 }
 
 }  // namespace bolt::play

@@ -5,14 +5,21 @@
 #include "game/operators/operator.hpp"
 #include "game/play/servo_setup.hpp"
 #include "game/play/touch_models.hpp"
+#include "game/record/device_text.hpp"
 #include "game/record/session.hpp"
 
 namespace bolt::play {
 
 namespace {
 
-record::Header header_of(const content::Assembly& assembly, const TrainOptions& options) {
+record::Header header_of(const content::Assembly& assembly, const TrainOptions& options,
+                         const force::OutputLimits& device, const std::optional<TouchModels>& models) {
     record::Header header;
+    header.guide = options.guide && options.mode == lesson::Mode::guided ? "on" : "off";
+    header.obstacles = models ? models->files : "none";
+    if (models) header.obstacle_names = models->names;
+    header.device = record::text_of(device);
+    header.servo = "virtual time";
     header.assembly = assembly.name;
     header.assembly_file = assembly.file;
     header.assembly_text = assembly.text;
@@ -25,6 +32,21 @@ record::Header header_of(const content::Assembly& assembly, const TrainOptions& 
     header.dt = options.dt;
     header.program = "boltwright " BOLTWRIGHT_VERSION;
     return header;
+}
+
+Result<std::optional<TouchModels>> obstacles_of(const content::Assembly& assembly, const servo::Setup& setup,
+                                                Obstacles wanted) {
+    if (wanted == Obstacles::none) return std::nullopt;
+    Result<std::optional<TouchModels>> models = load_touch_models(assembly, setup);
+    if (models && !models->has_value() && wanted == Obstacles::required) {
+        Error none;
+        none.code = ErrorCode::bad_content;
+        none.what = "the assembly names no contact model, or its tool no model";
+        none.expected = "expected both: they are the obstacles and what meets them";
+        none.file = assembly.file;
+        return fail(none);
+    }
+    return models;
 }
 
 // What the lesson said in this tick goes to the file and to whoever watches.
@@ -46,9 +68,8 @@ Status pass_on_events(lesson::Lesson& lesson, const servo::State& state, record:
 
 }  // namespace
 
-Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOptions& options,
-                                   const std::filesystem::path& file,
-                                   const std::function<bool(const Progress&)>& watch) {
+Result<Played> train(const content::Assembly& given, const TrainOptions& options,
+                     const std::filesystem::path& file, const std::function<bool(const Progress&)>& watch) {
     const content::Assembly assembly = lesson::under_law(given, options.law);
     const force::OutputLimits device;  // the simulated device: what a 6-DoF arm of the Virtuose class renders
     const servo::Setup setup = make_setup(assembly, options.law, device, options.seed, options.dt);
@@ -56,24 +77,16 @@ Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOp
     if (options.task == lesson::Task::loosen)
         if (Status tight = pretighten(assembly, setup, state); !tight) return fail(tight.error());
 
-    if (options.obstacles) {
-        Result<std::optional<servo::Touch>> touch = load_touch(assembly, setup);
-        if (!touch) return fail(touch.error());
-        if (!touch->has_value()) {
-            Error none;
-            none.code = ErrorCode::bad_content;
-            none.what = "the assembly names no contact model, or its tool no model";
-            none.expected = "expected both: they are the obstacles and what meets them";
-            none.file = assembly.file;
-            return fail(none);
-        }
-        state.touch = std::move(*touch);
-    }
-    Result<record::Writer> created = record::Writer::create(file, header_of(assembly, options));
+    Result<std::optional<TouchModels>> models = obstacles_of(assembly, setup, options.obstacles);
+    if (!models) return fail(models.error());
+    Result<record::Writer> created =
+        record::Writer::create(file, header_of(assembly, options, device, *models));
     if (!created) return fail(created.error());
+    if (models->has_value()) state.touch = std::move((*models)->touch);
     record::Writer& writer = *created;
 
     lesson::Lesson lesson = lesson::begin(assembly, options.mode, options.task);
+    lesson.guides = lesson.guides && options.guide;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i)
         if (Status kept = writer.update(lesson::judge_joint(lesson, i, state)); !kept)
             return fail(kept.error());
@@ -101,9 +114,9 @@ Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOp
         }
         if (state.tick % second == 0) go_on = watch(progress) && go_on;
     }
-    lesson::LessonResult result = lesson::judge(lesson, state, options.dt);
-    if (Status finished = writer.finish(result); !finished) return fail(finished.error());
-    return result;
+    Played played{lesson::judge(lesson, state, options.dt), state.touch.has_value()};
+    if (Status finished = writer.finish(played.result); !finished) return fail(finished.error());
+    return played;
 }
 
 }  // namespace bolt::play

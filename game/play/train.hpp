@@ -13,6 +13,8 @@
 
 namespace bolt::play {
 
+enum class Obstacles : std::uint8_t { none, if_any, required };
+
 struct TrainOptions {
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
@@ -20,7 +22,9 @@ struct TrainOptions {
     operators::Profile trainee;
     std::uint64_t seed = 1;
     double dt = 0.001;
-    bool obstacles = false;    // the wrench meets casing, bolts and nuts (touch_models.hpp)
+    // Whether the wrench meets casing, bolts and nuts (touch_models.hpp); `if_any`: where they are modelled.
+    Obstacles obstacles = Obstacles::none;
+    bool guide = true;         // a guided lesson leads the hand to the nut
     double longest = 14400.0;  // s of virtual time after which the lesson is given up
     double patience = 900.0;   // s without a step done, likewise
 };
@@ -32,10 +36,15 @@ struct Progress {
     const lesson::Event* event = nullptr;  // what just happened; null: a second has passed
 };
 
+// How a lesson came out, and what it was played among.
+struct Played {
+    lesson::LessonResult result;
+    bool obstacles = false;
+};
+
 // Writes the session to `file` as it goes. `watch` may return false to stop: the session is then closed as
 // it is.
-Result<lesson::LessonResult> train(const content::Assembly& given, const TrainOptions& options,
-                                   const std::filesystem::path& file,
-                                   const std::function<bool(const Progress&)>& watch);
+Result<Played> train(const content::Assembly& given, const TrainOptions& options,
+                     const std::filesystem::path& file, const std::function<bool(const Progress&)>& watch);
 
 }  // namespace bolt::play

@@ -74,11 +74,11 @@ check "bad content leaves no folder behind" test ! -e never
 expect 0 'score' "$bin/boltwright" train --no-pictures pump-cover --headless --quiet --out pump
 
 # A lesson, its files, and what can be done with them.
-expect 0 'score [0-9.]+ of 100' "$bin/boltwright" train --no-pictures --headless --operator novice --seed 4 --out a
+expect 0 'score [0-9.]+ of 100' "$bin/boltwright" train --no-pictures --headless --no-obstacles --operator novice --seed 4 --out a
 for file in session.boltwright summary.json report.html; do check "train leaves $file" test -s "a/$file"; done
 expect 0 '"operator": "novice"' cat a/summary.json
-expect 0 'simulated trainee plays' "$bin/boltwright" train --no-pictures cover-m8 --out window
-expect 0 'score' "$bin/boltwright" train --no-pictures --headless --quiet --operator novice --seed 4 --out b
+expect 0 'simulated trainee plays' "$bin/boltwright" train --no-pictures cover-m8 --no-obstacles --out window
+expect 0 'score' "$bin/boltwright" train --no-pictures --headless --no-obstacles --quiet --operator novice --seed 4 --out b
 check "the same seed gives the same summary" cmp a/summary.json b/summary.json
 check "the same seed gives the same session, byte by byte, as CSV" bash -c "
     '$bin/boltwright' export a/session.boltwright --csv - | sha256sum > a.sum &&
@@ -91,8 +91,25 @@ expect 1 'full|written' bash -c "'$bin/boltwright' export a/session.boltwright -
 
 # Loosening, held against measured runs.
 expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --task loosen --out loose
-expect 0 'score 100' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --obstacles --out solid
-expect 3 'contact model' "$bin/boltwright" train --no-pictures "$sources/tests/data/cover.json" --headless --quiet --obstacles --out bare
+
+# Obstacles are met wherever they are modelled, and the files say whether and which. Two runs are one, to the last byte.
+expect 0 'score 100' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --out solid
+expect 0 '"obstacles": true' cat solid/summary.json
+expect 0 'score 100' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --out solid2
+check "the same seed gives the same session among obstacles" bash -c "
+    '$bin/boltwright' export solid/session.boltwright --csv - | sha256sum > s.sum &&
+    '$bin/boltwright' export solid2/session.boltwright --csv - | sha256sum > s2.sum && cmp s.sum s2.sum"
+check "what was touched is named" bash -c "'$bin/boltwright' export solid/session.boltwright --csv - | grep -q ',B1_washer_nut,none'"
+expect 0 '"obstacles": false' cat a/summary.json
+expect 0 '"guide": true' cat a/summary.json
+expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --no-obstacles --no-guide --out alone
+expect 0 '"guide": false' cat alone/summary.json
+bare="$sources/tests/data/cover.json"
+expect 0 'names no contact model' "$bin/boltwright" train --no-pictures "$bare" --headless --out bare
+expect 3 'contact model' "$bin/boltwright" train --no-pictures "$bare" --headless --quiet --obstacles --out bare
+expect 2 'obstacles' "$bin/boltwright" train cover-m8 --headless --obstacles --no-obstacles --out never
+expect 0 '' "$bin/boltwright" export "$sources/tests/data/format-1.boltwright" --csv old.csv
+expect 0 'old.html' "$bin/boltwright" report "$sources/tests/data/format-1.boltwright" --html old.html
 expect 0 'Al Assadi' "$bin/boltwright" compare loose/session.boltwright "$sources/tests/data/m8_releasable.csv" --html m8.html
 expect 0 'MAPE' "$bin/boltwright" compare loose/session.boltwright "$sources/tests/data/m8_releasable.csv" --html m8.html
 check "compare names the source on the page" grep -q 'Al Assadi' m8.html
@@ -108,7 +125,7 @@ expect 2 'whole number' "$bin/boltwright" train --no-pictures --seed -1
 expect 2 'whole number' "$bin/boltwright" train --no-pictures --seed 18446744073709551616
 expect 1 'standard output' bash -c "'$bin/bolt-author' torque --size M16 --class 8.8 > /dev/full"
 expect 1 'standard output' bash -c "'$bin/bolt-author' validate zq350 > /dev/full"
-expect 1 'standard output' bash -c "'$bin/boltwright' train --no-pictures cover-m8 --headless --quiet --out full > /dev/full"
+expect 1 'standard output' bash -c "'$bin/boltwright' train --no-pictures cover-m8 --no-obstacles --headless --quiet --out full > /dev/full"
 mkfifo pipe && (cat pipe > piped.html &) && expect 0 '' "$bin/boltwright" report a/session.boltwright --html pipe
 check "a pipe stays a pipe" test -p pipe
 
@@ -117,7 +134,7 @@ cp -r pump-cover plain
 sed -i '/^  "\(model\|model_far\|contact_model\)": /d; s/"node": "[^"]*", //' plain/assembly.json
 cp -r pump-cover locking
 sed -i 's/"lubrication": "oiled"/"lubrication": "oiled", "prevailing_torque_Nm": 4/' locking/assembly.json
-expect 0 'score' "$bin/boltwright" train --no-pictures locking --headless --quiet --out locked
+expect 0 'score' "$bin/boltwright" train --no-pictures locking --no-obstacles --headless --quiet --out locked
 
 # Pictures without a display, under validation: any message of the layers is an error. Drivers leak: not ours to tell.
 draw=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright")
@@ -126,10 +143,10 @@ expect 0 ': used' "${draw[@]}" doctor --seconds 0
 expect 0 'at 4000 ticks a second this machine is NOT good enough' "${draw[@]}" doctor --seconds 0.05
 expect 0 'only [0-9]+ ticks were timed' "${draw[@]}" doctor --seconds 0.05
 expect 2 '' "${draw[@]}" doctor --seconds -1
-expect 0 'seen/view-top.png' "${draw[@]}" train cover-m8 --headless --quiet --out seen
+expect 0 'seen/view-top.png' "${draw[@]}" train cover-m8 --no-obstacles --headless --quiet --out seen
 check "train draws every view" test -s seen/view-front.png
 expect 0 'score' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json \
-    "${draw[@]}" train cover-m8 --headless --quiet --out unseen
+    "${draw[@]}" train cover-m8 --no-obstacles --headless --quiet --out unseen
 check "without a GPU everything else is there" test -s unseen/report.html
 expect 0 'none: there is no desktop.*DISPLAY' env -u DISPLAY -u WAYLAND_DISPLAY "${draw[@]}" doctor --seconds 0
 expect 0 'pictures/cover-front.png' "${draw[@]}" render cover-m8 --view top --view front --size 96x64 --validate \
@@ -187,7 +204,7 @@ expect 1 'nowhere' "$bin/boltwright" report nowhere --html never.html
 # Killed in the middle: what was recorded opens, reports, and says that it was cut short.
 for delay in 0.05 0.15 0.3; do
     rm -rf killed
-    "$bin/boltwright" train --no-pictures --headless --quiet --operator novice --out killed >/dev/null 2>&1 &
+    "$bin/boltwright" train --no-pictures --no-obstacles --headless --quiet --operator novice --out killed >/dev/null 2>&1 &
     victim=$!
     sleep "$delay"
     kill -9 $victim 2>/dev/null

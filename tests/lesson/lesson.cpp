@@ -208,7 +208,8 @@ TEST_CASE("a recorded lesson replays from its inputs to the same bits") {
 }
 
 TEST_CASE("summary: the fields that were promised, and the table names every joint") {
-    LessonResult result;
+    play::Played played;
+    LessonResult& result = played.result;
     result.score = 87.5;
     for (const content::AssemblyJoint& joint : zq350().joints) {
         JointResult r;
@@ -221,11 +222,11 @@ TEST_CASE("summary: the fields that were promised, and the table names every joi
     }
     play::TrainOptions options;
     options.trainee = operators::find_profile("expert").value();
-    const std::string json = play::summary_json(zq350(), options, result);
+    const std::string json = play::summary_json(zq350(), options, played);
     for (const char* field :
          {"\"assembly\": \"zq350\"", "\"law\": \"mechanistic\"", "\"operator\": \"expert\"", "\"seed\": 1",
           "\"duration_s\"", "\"score\": 87.5", "\"torque_Nm\": 71.25", "\"angle_deg\": 33.5",
-          "\"clamp_N\": 28123.0", "\"verdict\": \"OK\""}) {
+          "\"clamp_N\": 28123.0", "\"guide\": true", "\"obstacles\": false", "\"verdict\": \"OK\""}) {
         CAPTURE(field);
         CHECK(json.find(field) != std::string::npos);
     }

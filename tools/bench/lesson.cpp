@@ -30,7 +30,7 @@ void headless_lesson(benchmark::State& state) {
             state.SkipWithError(result.error().message().c_str());
             break;
         }
-        seconds += result->duration;
+        seconds += result->result.duration;
     }
     state.counters["x_real_time"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
     std::error_code ignored;
