@@ -49,7 +49,8 @@ OutputCommand control(const OutputLimits& limits, PassivityState& s, const Motio
     const double power = b * glm::dot(motion.velocity, motion.velocity) +
                          b_angular * glm::dot(motion.angular_velocity, motion.angular_velocity);
     const double needed = std::max(0.0, -s.balance) / dt;
-    s.damping = needed < power ? needed / power : needed > 0.0 ? 1.0 : 0.0;
+    const double wants = needed < power ? needed / power : needed > 0.0 ? 1.0 : 0.0;
+    s.damping += std::clamp(wants - s.damping, -damping_goes * dt, damping_comes * dt);
     s.removed += s.damping * power * dt;
     // Taken off what the device can give: off a force far above that, damping would change nothing.
     return {r * wanted.command.force - s.damping * b * motion.velocity,

@@ -42,6 +42,10 @@ inline constexpr double damping_share = 0.9;
 inline constexpr double saved_at_most = 0.2e-3;
 inline constexpr double saved_for = 0.03;
 
+// 1/s: damping that comes or goes at once is itself a jolt, of as much as 2 N at 0.1 m/s. What is not taken
+// out now is taken out a few milliseconds later.
+inline constexpr double damping_comes = 60.0, damping_goes = 40.0;
+
 // The observer: what the motion since the last sample cost with the forces that were out then.
 void observe(const OutputLimits& limits, PassivityState& state, const Motion& motion, double ticks);
 
