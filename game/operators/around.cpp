@@ -1,28 +1,39 @@
 #include "game/operators/around.hpp"
 
 #include <array>
+#include <optional>
 
 namespace bolt::operators {
 
 namespace {
 
 constexpr double beyond_grip = 1.12;  // the wrench's length over that from jaw to grip
-constexpr double broad = 0.012;       // m to either side of the handle's middle
 constexpr double swing_step = to_radians(5.0);
 constexpr double margin = to_radians(3.0);  // kept from where a handle would meet something
 constexpr double yields = 4e-3;             // m that the hand lets the wrench stay behind
 constexpr double yields_turn = to_radians(4.0);
 constexpr std::array rises{0.05, 0.1, 0.15, 0.2, 0.3, 0.4};  // m
+constexpr std::array heights{0.03, 0.08, 0.15};              // m above a nut, where a wrench comes down to it
+constexpr double cramped = 2.0;  // rad that it would rather turn away than squeeze by
 
-}  // namespace
+struct Seen {
+    const servo::Setup& setup;
+    const servo::Touch& touch;
+    double length;       // m, of the wrench
+    double broad = 0.0;  // m, its handle's half width
 
-double rise_over(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
-                 const Vec3& up, double least) {
-    const double length = beyond_grip * setup.wrench.handle_length;
-    const auto free = [&](double rise) {
+    Seen(const servo::Setup& s, const servo::Touch& t)
+        : setup(s), touch(t), length(beyond_grip * s.wrench.handle_length) {
+        for (const auto& triangle : t.wrench.solid.corners)
+            for (const glm::vec3& p : triangle)
+                if (static_cast<double>(p.x) > 0.3 * length)
+                    broad = std::max(broad, std::abs(static_cast<double>(p.y)));
+    }
+
+    [[nodiscard]] bool way_is_free(const Pose& from, const Pose& to, const Vec3& bulge) const {
         Pose before = from;
         for (int i = 1; i <= 24; ++i) {
-            const Pose pose = along(from, to, static_cast<double>(i) / 24.0, up, rise);
+            const Pose pose = along(from, to, static_cast<double>(i) / 24.0, bulge);
             for (const double part : {0.0, 0.5, 1.0}) {
                 const Vec3 reach(part * length, 0.0, 0.0);
                 if (servo::hidden(touch, before.position + before.orientation * reach,
@@ -35,20 +46,14 @@ double rise_over(const servo::Setup& setup, const servo::Touch& touch, const Pos
             before = pose;
         }
         return true;
-    };
-    if (free(least)) return least;
-    for (const double rise : rises)
-        if (rise > least && free(rise)) return rise;
-    return rises.back();
-}
+    }
 
-double swing_room(const servo::Setup& setup, const servo::Touch& touch, std::size_t joint, double nut_angle,
-                  double angle, double sign, double most) {
-    const servo::NutPlace& nut = setup.nuts[joint];
-    const Vec3 centre = servo::nut_centre(nut, nut_angle);
-    const double length = beyond_grip * setup.wrench.handle_length;
-    const auto free = [&](double at) {
-        const Vec3 out = std::cos(-at) * nut.e1 + std::sin(-at) * nut.e2, across = glm::cross(nut.axis, out);
+    // Whether a handle at this angle, `above` the nut, has nothing in it; beside it and over it too.
+    [[nodiscard]] bool handle_is_free(std::size_t joint, double nut_angle, double angle, double above) const {
+        const servo::NutPlace& nut = setup.nuts[joint];
+        const Vec3 centre = servo::nut_centre(nut, nut_angle) + above * nut.axis;
+        const Vec3 out = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
+        const Vec3 across = glm::cross(nut.axis, out);
         for (const double side : {-broad, 0.0, broad})
             for (const double height : {-0.35, 0.0, 0.35}) {
                 const Vec3 beside = side * across + height * nut.height * nut.axis;
@@ -57,11 +62,63 @@ double swing_room(const servo::Setup& setup, const servo::Touch& touch, std::siz
                     return false;
             }
         return true;
-    };
-    if (!free(angle)) return -1.0;
-    double room = 0.0;
-    while (room < most && free(angle + sign * (room + margin))) room += swing_step;
-    return std::min(room, most);
+    }
+
+    // rad that a handle may swing before it meets something, at most `most`; below zero: not even there.
+    [[nodiscard]] double swing_room(std::size_t joint, double nut_angle, double angle, double sign,
+                                    double most) const {
+        if (!handle_is_free(joint, nut_angle, angle, 0.0)) return -1.0;
+        double room = 0.0;
+        while (room < most && handle_is_free(joint, nut_angle, angle + sign * (room + margin), 0.0))
+            room += swing_step;
+        return std::min(room, most);
+    }
+};
+
+}  // namespace
+
+Vec3 way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
+               const Vec3& up, double least) {
+    const Seen seen(setup, touch);
+    if (seen.way_is_free(from, to, least * up)) return least * up;
+    for (const double rise : rises)
+        if (rise > least && seen.way_is_free(from, to, rise * up)) return rise * up;
+    const Vec3 helper = std::abs(up.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+    const Vec3 e1 = glm::normalize(helper - up * glm::dot(helper, up)), e2 = glm::cross(up, e1);
+    for (const double rise : {0.1, 0.2, 0.4})
+        for (int i = 0; i < 8; ++i) {
+            const double angle = i * (pi / 4.0);
+            const Vec3 bulge = rise * (up + std::cos(angle) * e1 + std::sin(angle) * e2);
+            if (seen.way_is_free(from, to, bulge)) return bulge;
+        }
+    return rises.back() * up;
+}
+
+GripAngle choose_grip(const servo::Setup& setup, const servo::Touch* touch, std::size_t joint,
+                      double nut_angle, double wanted, double sign, double stroke) {
+    std::optional<Seen> seen;
+    if (touch != nullptr) seen.emplace(setup, *touch);
+    GripAngle best;
+    double least = 1e9;
+    for (const bool flip : {false, true}) {
+        const double head = flip ? setup.wrench.head_angle : -setup.wrench.head_angle;
+        const double nearest = wanted + wrap(nut_angle - head - wanted, pi / 3.0);
+        for (int sixth = -3; sixth < 3; ++sixth) {
+            const double candidate = nearest + (touch != nullptr ? sixth * pi / 3.0 : 0.0);
+            double swing = stroke, squeeze = 0.0;
+            if (seen) {
+                swing = seen->swing_room(joint, nut_angle, candidate, sign, stroke);
+                for (const double above : heights)
+                    if (!seen->handle_is_free(joint, nut_angle, candidate, above)) squeeze = cramped;
+            }
+            // Room for the pull counts more than where the arm would like to be.
+            const double cost = std::abs(candidate - wanted) + 4.0 * (stroke - swing) + squeeze;
+            if (cost >= least) continue;
+            least = cost;
+            best = {candidate, flip, std::max(swing, to_radians(15.0))};
+        }
+    }
+    return best;
 }
 
 Pose give_way(const Pose& wanted, const Pose& wrench) {

@@ -1,5 +1,5 @@
-// How a simulated hand gets round what is in the way: it sees where a handle has room and how high a reach
-// must go, and where the wrench stops it gives way. What it sees is asked of the same obstacles that hold the
+// How a simulated hand gets round what is in the way: it sees where a handle has room and which way a reach
+// can go, and a wrench that is stopped stops it. What it sees is asked of the same obstacles that hold the
 // wrench.
 #pragma once
 
@@ -9,15 +9,23 @@
 
 namespace bolt::operators {
 
-// m: the least rise along `up` of a reach from one pose to the other, from `least` on, in which the wrench
-// meets nothing that can be seen from it; the highest tried if there is none.
-double rise_over(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
-                 const Vec3& up, double least);
+// m: how far a reach from one pose to the other goes off the straight way (motion.hpp), so that the wrench
+// meets nothing that can be seen: along `up` by `least` or more, else to a side too; the highest tried over
+// the top if there is none.
+Vec3 way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
+               const Vec3& up, double least);
 
-// rad: how far a handle that stands at `angle` about a nut may swing in the sense of `sign` (tightening
-// positive) before it meets something; at most `most`. Below zero: it has no room where it stands.
-double swing_room(const servo::Setup& setup, const servo::Touch& touch, std::size_t joint, double nut_angle,
-                  double angle, double sign, double most);
+struct GripAngle {
+    double handle = 0.0;  // rad, about the bolt
+    bool flipped = false;
+    double room = 0.0;  // rad that the handle may swing from there
+};
+
+// Of the angles at which the jaw fits (every 60°, and 30° between with the wrench flipped), the one nearest
+// to `wanted` that has room for a pull of `stroke` in the sense of `sign` (tightening positive), and to get
+// there. Without obstacles all have.
+GripAngle choose_grip(const servo::Setup& setup, const servo::Touch* touch, std::size_t joint,
+                      double nut_angle, double wanted, double sign, double stroke);
 
 // A hand is not stronger than this: where the wrench stays behind, it does too.
 Pose give_way(const Pose& wanted, const Pose& wrench);

@@ -15,9 +15,10 @@ inline double minimum_jerk(double tau) {
     return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
 }
 
-// From one pose to another at share s of the way, on an arc that rises by `lift` along `up`.
-inline Pose along(const Pose& from, const Pose& to, double s, const Vec3& up, double lift) {
-    return {glm::mix(from.position, to.position, s) + up * (lift * 4.0 * s * (1.0 - s)),
+// From one pose to another at share s of the way, on an arc that is `bulge` off the straight way at its
+// middle.
+inline Pose along(const Pose& from, const Pose& to, double s, const Vec3& bulge) {
+    return {glm::mix(from.position, to.position, s) + bulge * (4.0 * s * (1.0 - s)),
             glm::slerp(from.orientation, to.orientation, s)};
 }
 

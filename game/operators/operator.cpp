@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/operators/arm.hpp"
 #include "game/operators/around.hpp"
 #include "game/operators/nerves.hpp"
 
@@ -21,9 +22,10 @@ constexpr double spin_stroke = 200.0;          // degrees of one finger twist
 constexpr double loose_free = 40.0;            // degrees turned at next to no torque: the nut is free
 constexpr double no_torque = 1.0;              // N·m, next to none at a wrench
 constexpr double seen_turn = to_radians(0.5);  // of a nut that can be seen
-constexpr double caught_at = 0.02;       // m that a wrench stays behind the hand's meaning: it is caught
-constexpr double caught_after = 0.5;     // s
-constexpr double retreat = 0.06;         // m
+constexpr double caught_at = 0.02;    // m that a wrench stays behind the hand's meaning: it is caught
+constexpr double caught_after = 0.5;  // s
+constexpr double retreat = 0.06;      // m
+constexpr int patient_misses = 3;
 constexpr double unwinding_time = 0.18;  // s to let the wrench spring back before it comes off
 
 // What the hand is doing. Each phase ends by choosing the next.
@@ -81,12 +83,16 @@ struct Operator::Mind {
     double begin_angle = 0.0;   // rad, of the nut when it came to it
     double free_turn = 0.0;     // rad turned without resistance, loosening
     Vec3 placed{0.0};           // m, how far off the centre it put the tool
-    double rise = 0.0;          // m, how high the reach goes above the straight way
+    Vec3 bulge{0.0};            // m, how far the reach goes off the straight way
     double room = 0.0;          // rad that the handle may swing in this pull
     bool holds_wrench = false;
     double caught = 0.0;  // s that the wrench has been kept from where the hand means to be
     int bumps = 0;        // times in a row that it was
-    Pose rest;            // before the assembly, where the wrench lies and nothing is in the way
+    int misses = 0;       // times in a row that the jaw did not slide on
+    Arm arm;
+    Pose hand;             // where it is
+    bool gripped = false;  // it had hold of a nut in the tick before
+    Pose rest;             // before the assembly, where the wrench lies and nothing is in the way
 
     // What can be seen at this tick.
     const servo::Setup* setup = nullptr;
@@ -130,6 +136,7 @@ struct Operator::Mind {
     void choose_joint_and_goal(const lesson::Step& due);
     void choose_grip_angle();
     void plan_reach();
+    void take_hold();
     void notice_caught(const Pose& meant, const Pose& wrench);
     void pull(const Feeling& felt);
     void spin(const Feeling& felt);
@@ -164,7 +171,7 @@ void Operator::Mind::decide() {
     placed = off_centre(profile.position_noise * (intent.fingers ? 3.0 : 1.0));
     // Among obstacles another tool is laid down or taken up where there are none.
     if (obstacles() != nullptr && holds_wrench == intent.fingers && from.position != rest.position) {
-        to = {rest.position, from.orientation};
+        to = rest;
         plan_reach();
         enter(Phase::fetch, profile.reach_time);
         return;
@@ -175,7 +182,7 @@ void Operator::Mind::decide() {
     const double far = std::min(1.0, 0.35 + glm::distance(from.position, to.position) / 0.3);
     plan_reach();
     enter(Phase::reach, far * profile.reach_time * random.uniform(0.85, 1.2) *
-                            (obstacles() != nullptr ? 1.0 + 2.0 * rise : 1.0));
+                            (obstacles() != nullptr ? 1.0 + 2.0 * glm::length(bulge) : 1.0));
 }
 
 void Operator::Mind::choose_joint_and_goal(const lesson::Step& due) {
@@ -214,42 +221,31 @@ void Operator::Mind::choose_joint_and_goal(const lesson::Step& due) {
         intent.goal = spec.torque.high * (std::min(0.98, stop - 0.04 * tries) + 0.04 * tries);
 }
 
-// Of the angles at which the jaw fits (every 60°, and 30° between with the wrench flipped), the one nearest
-// to where the arm would begin a pull: the handle ends its stroke about as far beyond the trainee's side as
-// it began before it.
+// The handle ends its stroke about as far beyond the trainee's side as it began before it.
 void Operator::Mind::choose_grip_angle() {
-    const double wanted = 0.5 * pi + (intent.loosening ? 0.5 : -0.5);
-    double best = 1e9;
-    room = profile.stroke;
-    for (const bool flip : {false, true}) {
-        const double head = flip ? setup->wrench.head_angle : -setup->wrench.head_angle;
-        const double fits =
-            joint().nut.angle - head;  // handle angle at which the jaw lies on the flats, modulo 60°
-        const double nearest = wanted + wrap(fits - wanted, pi / 3.0);
-        for (int sixth = -3; sixth < 3; ++sixth) {
-            const double candidate = nearest + (obstacles() != nullptr ? sixth * pi / 3.0 : 0.0);
-            double swing = profile.stroke;
-            if (obstacles() != nullptr)
-                swing = swing_room(*setup, *obstacles(), intent.joint, joint().nut.angle, candidate,
-                                   intent.loosening ? -1.0 : 1.0, profile.stroke);
-            // Room for the pull counts more than where the arm would like to be.
-            const double cost = std::abs(candidate - wanted) + 4.0 * (profile.stroke - swing);
-            if (cost < best) {
-                best = cost;
-                handle = candidate;
-                flipped = flip;
-                room = std::max(swing, to_radians(15.0));
-            }
-        }
-    }
-    handle += profile.angle_noise * random.normal();
+    const double sign = intent.loosening ? -1.0 : 1.0;
+    // Where it does not get on again and again, it tries from another side.
+    const double aside = misses > patient_misses ? random.uniform(-1.0, 1.0) * pi : 0.0;
+    const GripAngle grip = choose_grip(*setup, obstacles(), intent.joint, joint().nut.angle,
+                                       0.5 * pi - 0.5 * sign + aside, sign, profile.stroke);
+    handle = grip.handle + profile.angle_noise * random.normal();
+    flipped = grip.flipped;
+    room = grip.room;
 }
 
-// How high to go: as ever, or as the obstacles that can be seen make it.
+// Which way to go: as ever, or as the obstacles that can be seen make it.
 void Operator::Mind::plan_reach() {
-    rise = std::min(arc, 0.3 * glm::distance(from.position, to.position));
+    const double rise = std::min(arc, 0.3 * glm::distance(from.position, to.position));
+    bulge = rise * nut().axis;
     if (obstacles() != nullptr)
-        rise = rise_over(*setup, *obstacles(), from, to, nut().axis, rise + 0.05 * bumps);
+        bulge = way_round(*setup, *obstacles(), from, to, nut().axis, rise + 0.05 * std::min(bumps, 5));
+}
+
+// The jaw is on the nut: where the wrench is, there the hand means it to be from now on.
+void Operator::Mind::take_hold() {
+    const Vec3 x = hand.orientation * Vec3(1, 0, 0);
+    handle += wrap(-std::atan2(glm::dot(x, nut().e2), glm::dot(x, nut().e1)) - handle, 2.0 * pi);
+    placed = hand.position - servo::nut_centre(nut(), joint().nut.angle);
 }
 
 // A wrench that is caught on something is taken back and up, and the next way goes higher.
@@ -267,8 +263,8 @@ void Operator::Mind::notice_caught(const Pose& meant, const Pose& wrench) {
     ++bumps;
     from = wrench;
     const Vec3 back = rest.position - wrench.position;
-    to = {wrench.position +
-              retreat * (nut().axis + 0.3 * static_cast<double>(bumps) * back / (1e-3 + glm::length(back))),
+    to = {wrench.position + retreat * (nut().axis + 0.3 * static_cast<double>(std::min(bumps, 5)) * back /
+                                                        (1e-3 + glm::length(back))),
           wrench.orientation};
     enter(Phase::lift, 0.6);
 }
@@ -316,20 +312,20 @@ Pose Operator::Mind::move(const Feeling& felt, Grip& grip) {
             if (over()) decide();
             break;
         case Phase::fetch:
-            pose = along(from, to, minimum_jerk(progress()), nut().axis, rise);
+            pose = along(from, to, minimum_jerk(progress()), bulge);
             if (!over()) break;
             from = to;
             holds_wrench = !intent.fingers;
             enter(Phase::think, 0.2);
             break;
         case Phase::reach:
-            pose = along(from, to, minimum_jerk(progress()), nut().axis, rise);
+            pose = along(from, to, minimum_jerk(progress()), bulge);
             if (!over()) break;
             from = to;
             enter(Phase::lower, profile.placing_time * random.uniform(0.8, 1.3));
             break;
         case Phase::lower:
-            pose = along(from, at_nut(0.0), minimum_jerk(progress()), Vec3(0.0), 0.0);
+            pose = along(from, at_nut(0.0), minimum_jerk(progress()), Vec3(0.0));
             if (over()) enter(Phase::settle, 0.12);
             break;
         case Phase::settle:
@@ -337,9 +333,11 @@ Pose Operator::Mind::move(const Feeling& felt, Grip& grip) {
             pose = at_nut(0.0);
             if (state->engagement.joint == static_cast<int>(intent.joint)) {
                 stroke_begin = handle;
+                misses = 0;
                 enter(intent.fingers ? Phase::spin : Phase::pull);
             } else if (over()) {
                 // It does not slide on: place it again and turn it a little, as anybody would.
+                ++misses;
                 if (obstacles() != nullptr && !intent.fingers) {
                     lift_off(pose, 0.2);
                     break;
@@ -364,7 +362,7 @@ Pose Operator::Mind::move(const Feeling& felt, Grip& grip) {
             if (over()) lift_off(pose, 0.25);
             break;
         case Phase::lift: {
-            pose = along(from, to, minimum_jerk(progress()), Vec3(0.0), 0.0);
+            pose = along(from, to, minimum_jerk(progress()), Vec3(0.0));
             if (!over()) break;
             from = to;
             const bool done = intent.finished || step_is_past();
@@ -396,7 +394,7 @@ Operator::Operator(const Profile& profile, std::uint64_t seed, const servo::Setu
     Vec3 centre(0.0);
     for (const servo::NutPlace& nut : setup.nuts) centre += nut.seat / static_cast<double>(setup.nuts.size());
     mind_->from.position = centre + Vec3(0.0, 0.3, 0.4);  // the hand rests in front of the assembly
-    mind_->to = mind_->rest = mind_->from;
+    mind_->to = mind_->rest = mind_->hand = mind_->from;
 }
 
 Operator::Operator(Operator&&) noexcept = default;
@@ -415,6 +413,10 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
     input.enabled = true;
     const lesson::Step* due = lesson.due();
     if (due != nullptr && lesson.guides) input.guide = static_cast<std::int16_t>(due->joint);
+    // What has hold of a nut stays; a hand in the air is moved by what it feels, and by nothing else.
+    const bool grips = state.engagement.joint >= 0;
+    const bool takes = grips && !m.gripped;
+    if (takes && state.engagement.joint == static_cast<int>(m.intent.joint)) m.take_hold();
     Pose pose = m.move(m.nerves.feel(m.joint()), input.grip);
     if (m.phase != Phase::done) {
         pose.position += m.tremor.at(m.time) * m.profile.tremor;
@@ -423,15 +425,19 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
             pose.orientation = orientation_of(m.nut(), m.handle + sway, m.flipped);
         }
     }
+    if (grips != m.gripped) take_up(m.arm, m.hand, pose);
+    m.gripped = grips;
+    const force::OutputState& felt = state.output.output;
+    m.hand = follow(m.profile.hand, m.arm, pose, {felt.force, felt.torque}, grips, setup.dt);
     if (m.obstacles() != nullptr && m.holds_wrench) {
         input.grip = Grip::wrench;
         if (m.obstacles()->in_hand) {
             const Pose& wrench = m.obstacles()->god_object.tool;
             m.notice_caught(pose, wrench);
-            pose = give_way(pose, wrench);
+            if (grips) m.hand = give_way(m.hand, wrench);
         }
     }
-    input.device = sample_of(pose);
+    input.device = sample_of(m.hand);
     return input;
 }
 

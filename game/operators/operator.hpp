@@ -1,5 +1,6 @@
-// A simulated trainee: sees the assembly, feels the torque late, moves the tool as a hand does. It drives the
-// lesson through the same input as a person: a device pose and a grip, nothing else.
+// A simulated trainee: sees the assembly, feels the torque late, moves the tool as a hand does and gives way
+// to the device's force as a hand does. It drives the lesson through the same input as a person: a device
+// pose and a grip, nothing else.
 #pragma once
 
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.hpp"
+#include "game/operators/arm.hpp"
 
 namespace bolt::operators {
 
@@ -32,6 +33,7 @@ struct Profile {
     double wrong_joint;     // chance of going to another joint than the due one
     double stops_early;     // chance of letting go well below the target
     double overdoes;        // chance of pulling on well past it
+    Impedance hand{};       // how it gives way
 };
 
 // "expert", "novice", "clumsy"; the error names the nearest.
