@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "haptics/contact/edges.hpp"
 #include "haptics/contact/reduce.hpp"
 
 namespace bolt::contact {
@@ -12,7 +13,7 @@ namespace {
 // ask.
 constexpr double cluster_lookahead = 6e-3;
 constexpr double sample_lookahead = 2.5e-3;
-constexpr double edge_lookahead = 4e-3;
+constexpr double edge_lookahead = 3e-3;
 // So many spent samples of a cluster are asked one by one, more only if the cluster as a whole is near.
 constexpr std::size_t few = 4;
 // More than the rounding of poses and distances.
@@ -22,9 +23,10 @@ constexpr double nothing_proven = -1e9;
 constexpr std::uint32_t of_obstacle = 0x80000000U;
 
 void reset(Bounds& bounds, const Samples& samples) {
-    bounds.groups.assign(samples.groups.size(), nothing_proven);
-    bounds.clusters.assign(samples.clusters.size(), nothing_proven);
-    bounds.samples.assign(samples.samples.size(), {nothing_proven, nothing_proven, nothing_near});
+    constexpr Proven nothing{nothing_proven, nothing_near};
+    bounds.groups.assign(samples.groups.size(), nothing);
+    bounds.clusters.assign(samples.clusters.size(), nothing);
+    bounds.samples.assign(samples.samples.size(), {nothing, nothing_near});
 }
 
 // Any point at r from the tool's origin has moved by no more than moved + turned × |r|.
@@ -66,11 +68,12 @@ struct Collected {
 // Samples of one side against the surface of the other.
 class Sweep {
   public:
-    Sweep(const World& world, const Body& body, const Samples& samples, const Solid& surface,
-          const DistanceGrid& grid, const Pose& to_surface, const Pose& to_assembly, bool of_tool,
-          double band, Collected& collected)
+    Sweep(const World& world, const Body& body, const Solid& tool, const Samples& samples,
+          const Solid& surface, const DistanceGrid& grid, const Pose& to_surface, const Pose& to_assembly,
+          bool of_tool, double band, Collected& collected)
         : world_(world),
           body_(body),
+          tool_(tool),
           samples_(samples),
           surface_(surface),
           grid_(grid),
@@ -82,26 +85,27 @@ class Sweep {
 
     // `reach`: of the tool, for what belongs to an obstacle sees all of the tool move.
     void run(Bounds& bounds, const PairBounds& way, double reach) const {
+        const Proven nothing_in{nothing_near, nothing_near};
         for (std::size_t g = 0; g < samples_.groups.size(); ++g) {
             const Cluster& group = samples_.groups[g];
-            const double spent = way.moved + way.turned * (of_tool_ ? group.reach : reach);
-            if (bounds.groups[g] - spent > band_) continue;
-            double least = nothing_near;
-            for (std::uint32_t c = group.begin; c < group.end; ++c)
-                least = std::min(least, bounds.clusters[c]);
+            const Proven spent{way.moved + way.turned * (of_tool_ ? group.reach : reach), way.turned};
+            if (holds(bounds.groups[g], spent)) continue;
+            Proven least = nothing_in;
+            for (std::uint32_t c = group.begin; c < group.end; ++c) least = lesser(least, bounds.clusters[c]);
             // Clusters reach no further than their group, so `spent` is enough for them.
-            if (least - spent <= band_) {
-                const double all = far(group, bounds.groups[g] - spent);
+            if (!holds(least, spent)) {
+                const double all = far(group);
                 if (all > band_) {
-                    bounds.groups[g] = all + spent;
+                    bounds.groups[g] = {all + spent.lower, nothing_near};
                     continue;
                 }
-                least = nothing_near;
+                least = nothing_in;
                 for (std::uint32_t c = group.begin; c < group.end; ++c) {
-                    const double of_cluster =
-                        way.moved + way.turned * (of_tool_ ? samples_.clusters[c].reach : reach);
-                    if (bounds.clusters[c] - of_cluster <= band_) open(bounds, c, of_cluster);
-                    least = std::min(least, bounds.clusters[c] - of_cluster + spent);
+                    const Proven of_cluster{
+                        way.moved + way.turned * (of_tool_ ? samples_.clusters[c].reach : reach), way.turned};
+                    if (!holds(bounds.clusters[c], of_cluster)) open(bounds, c, of_cluster);
+                    least = lesser(least, {bounds.clusters[c].lower - of_cluster.lower + spent.lower,
+                                           bounds.clusters[c].turn});
                 }
             }
             bounds.groups[g] = least;
@@ -109,11 +113,17 @@ class Sweep {
     }
 
   private:
-    // A lower bound of the distance of all of a cluster or group without asking the surface.
-    [[nodiscard]] double far(const Cluster& all, double proven) const {
+    [[nodiscard]] bool holds(const Proven& proven, const Proven& spent) const {
+        return proven.lower - spent.lower > band_ && proven.turn > spent.turn;
+    }
+    static Proven lesser(const Proven& a, const Proven& b) {
+        return {std::min(a.lower, b.lower), std::min(a.turn, b.turn)};
+    }
+    // A lower bound of the signed distance of all of a cluster or group without asking the surface.
+    [[nodiscard]] double far(const Cluster& all) const {
         const Vec3 middle = to_surface_ * all.middle;
         const double lower = std::max(beside_box(middle), distance_bounds(grid_, middle).lower);
-        return std::max(proven, lower - all.radius - rounding);
+        return lower - all.radius - rounding;
     }
     [[nodiscard]] double beside_box(const Vec3& p) const {
         const double beside =
@@ -122,64 +132,62 @@ class Sweep {
     }
 
     // A cluster whose bound is spent.
-    void open(Bounds& bounds, std::uint32_t c, double spent) const {
+    void open(Bounds& bounds, std::uint32_t c, const Proven& spent) const {
         const Cluster& cluster = samples_.clusters[c];
         std::size_t asked = 0;
-        for (std::uint32_t i = cluster.begin; i < cluster.end; ++i) {
-            const SampleBounds& b = bounds.samples[i];
-            if (std::min(b.point, b.edge) - spent <= band_) ++asked;
-        }
-        double all = nothing_proven;
+        for (std::uint32_t i = cluster.begin; i < cluster.end; ++i)
+            if (!holds(bounds.samples[i].proven, spent)) ++asked;
         if (asked > few) {
-            all = ask_all(cluster, bounds.clusters[c] - spent);
+            const double all = ask_all(cluster, bounds.clusters[c].lower - spent.lower);
             if (all > band_) {
-                bounds.clusters[c] = all + spent;
+                bounds.clusters[c] = {all + spent.lower, nothing_near};
                 return;
             }
         }
-        double least = nothing_near;
+        Proven least{nothing_near, nothing_near};
         for (std::uint32_t i = cluster.begin; i < cluster.end; ++i) {
             SampleBounds& b = bounds.samples[i];
-            b.point = std::max(b.point, all + spent);
-            b.edge = std::max(b.edge, all + spent);
-            if (std::min(b.point, b.edge) - spent <= band_) ask(i, b, spent);
-            least = std::min({least, b.point, b.edge});
+            if (!holds(b.proven, spent)) ask(i, b, spent);
+            least = lesser(least, b.proven);
         }
         bounds.clusters[c] = least;
     }
 
     [[nodiscard]] double ask_all(const Cluster& cluster, double proven) const {
-        const double all = far(cluster, proven);
+        const double all = far(cluster);
         if (!grid_.nodes.empty() || all > band_ + cluster_lookahead) return all;
-        const double radius = all > 0.0 ? cluster.radius + band_ + cluster_lookahead : nothing_near;
+        const double radius =
+            std::max(all, proven) > 0.0 ? cluster.radius + band_ + cluster_lookahead : nothing_near;
         const double distance = near_point(surface_, to_surface_ * cluster.middle, radius, 0.0, {}).distance;
         return std::max(all, std::min(distance, radius) - cluster.radius - rounding);
     }
 
     // A sample whose bound is spent.
-    void ask(std::uint32_t index, SampleBounds& b, double spent) const {
+    void ask(std::uint32_t index, SampleBounds& b, const Proven& spent) const {
         const Sample& sample = samples_.samples[index];
         const Vec3 at = to_surface_ * sample.at;
         if (sample.half_length == 0.0) {
-            b.edge = nothing_near;
-            ask_point(index, at, b, spent);
-        } else {
-            b.point = nothing_near;
-            b.edge = std::max(b.edge, distance_bounds(grid_, at).lower - sample.half_length + spent);
-            if (b.edge - spent <= band_) ask_edge(index, at, b, spent);
+            ask_point(index, at, b, spent.lower);
+            return;
         }
+        const double far_from_all = distance_bounds(grid_, at).lower - sample.half_length - rounding;
+        if (far_from_all > band_)
+            b.proven = {far_from_all + spent.lower, nothing_near};
+        else
+            ask_edge(index, at, b.proven, spent);
     }
 
     void ask_point(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent) const {
         const DistanceBounds known = distance_bounds(grid_, at);
-        b.point = std::max(b.point, known.lower + spent);
-        if (b.point - spent > band_) return;
-        double radius = b.point - spent > 0.0 ? band_ + sample_lookahead : nothing_near;
+        double& lower = b.proven.lower;
+        lower = std::max(lower, known.lower + spent);
+        if (lower - spent > band_) return;
+        double radius = lower - spent > 0.0 ? band_ + sample_lookahead : nothing_near;
         radius = std::min(radius, std::max(band_, std::min(known.upper, b.upper + spent) + rounding));
         std::array<Side, most_sides> sides;
         const Near near = near_point(surface_, at, radius, band_, sides);
         collected_.complete = std::min(collected_.complete, near.complete);
-        b.point = std::min(near.distance, radius) - rounding + spent;
+        lower = std::min(near.distance, radius) - rounding + spent;
         if (std::abs(near.distance) < nothing_near) b.upper = std::abs(near.distance) - spent;
         for (std::size_t i = 0; i < near.sides; ++i) add_side(index, at, sides[i]);
     }
@@ -196,14 +204,16 @@ class Sweep {
                         .feature = of_tool_ ? index : index | of_obstacle});
     }
 
-    void ask_edge(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent) const {
+    void ask_edge(std::uint32_t index, const Vec3& at, Proven& proven, const Proven& spent) const {
         const Sample& sample = samples_.samples[index];
         const Quat& turn = to_surface_.orientation;
         const EdgePiece piece{at, turn * sample.half, {turn * sample.inward[0], turn * sample.inward[1]}};
         std::array<Crossing, most_sides> crossings;
-        const Crossings found = near_edges(surface_, piece, band_ + edge_lookahead, band_, crossings);
+        const double radius = std::max(band_, deepest_crossing) + edge_lookahead;
+        const Crossings found =
+            near_edges(surface_, piece, tool_, inverse(to_surface_), radius, band_, crossings);
         collected_.complete = std::min(collected_.complete, found.complete);
-        b.edge = found.nearest - rounding + spent;
+        proven = {found.clear - rounding + spent.lower, found.turn + spent.turn};
         for (std::size_t i = 0; i < found.count; ++i) {
             const Crossing& crossing = crossings[i];
             const std::uint32_t triangle = surface_.mesh.sharp_edges[crossing.edge].triangle;
@@ -218,6 +228,7 @@ class Sweep {
 
     const World& world_;
     const Body& body_;
+    const Solid& tool_;
     const Samples& samples_;
     const Solid& surface_;
     const DistanceGrid& grid_;  // of the surface; may be none
@@ -270,11 +281,11 @@ Found find_contacts(const World& world, const ToolShape& tool, const Pose& pose,
         PairBounds& pair = state.pairs[i];
         spend(pair, to_body);
         const Pose to_tool = inverse(to_body);
-        const Sweep of_tool{world,   body,      tool.samples, shape.solid, shape.grid,
-                            to_body, body.pose, true,         band,        collected};
+        const Sweep of_tool{world,   body,      tool.solid, tool.samples, shape.solid, shape.grid,
+                            to_body, body.pose, true,       band,         collected};
         of_tool.run(pair.of_tool, pair, tool.reach());
-        const Sweep of_body(world, body, shape.samples, tool.solid, tool.grid, to_tool, pose, false, band,
-                            collected);
+        const Sweep of_body(world, body, tool.solid, shape.samples, tool.solid, tool.grid, to_tool, pose,
+                            false, band, collected);
         of_body.run(pair.of_body, pair, tool.reach());
     }
     return reduce(std::span(state.near).first(collected.count), collected.complete, out);

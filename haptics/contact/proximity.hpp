@@ -14,16 +14,22 @@
 
 namespace bolt::contact {
 
-// What is proven of one sample. Lower bounds held when they were proven, and stand here plus the way that the
-// sample had made by then: less the way made by now, they hold now. The upper bound stands less the way made
-// by then.
+// What is proven of one sample, cluster or group. Bounds held when they were proven, and stand here plus the
+// way and the turn that were made by then: less those made by now, they hold now.
+struct Proven {
+    // Of points the signed distance; of edge pieces `Crossings::clear`.
+    double lower;
+    double turn;  // rad, `Crossings::turn`; infinite for points
+};
+
 struct SampleBounds {
-    double point, edge;  // signed distance of its point to the surface; distance of its edge to convex edges
-    double upper;        // of the point's unsigned distance
+    Proven proven;
+    // Of a point's unsigned distance; stands less the way made.
+    double upper;
 };
 
 struct Bounds {
-    std::vector<double> groups, clusters;  // lower bounds of all that is in them
+    std::vector<Proven> groups, clusters;  // of all that is in them
     std::vector<SampleBounds> samples;
 };
 

@@ -1,13 +1,12 @@
 #include "haptics/contact/solid.hpp"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cstring>
 
 #include "haptics/contact/closest.hpp"
+#include "haptics/contact/embree_query.hpp"
 
 namespace bolt::contact {
 namespace {
@@ -18,25 +17,6 @@ struct DeviceRelease {
 struct GeometryRelease {
     void operator()(RTCGeometryTy* geometry) const { rtcReleaseGeometry(geometry); }
 };
-
-// Surfaces that are no further apart are in one place (m).
-constexpr double one_place = 1e-7;
-
-// Embree looks in float: a radius that what is within `radius` in double is surely found with.
-float with_margin(double radius, const Vec3& p) {
-    if (!(radius < 1e30)) return FLT_MAX;
-    const double size = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + radius;
-    return static_cast<float>(radius + 1e-6 * size + 2.0 * one_place);
-}
-
-RTCPointQuery make_query(const Vec3& p, double radius) {
-    RTCPointQuery query{};
-    query.x = static_cast<float>(p.x);
-    query.y = static_cast<float>(p.y);
-    query.z = static_cast<float>(p.z);
-    query.radius = with_margin(radius, p);
-    return query;
-}
 
 struct Candidate {
     double squared;
@@ -79,7 +59,6 @@ struct Gathering {
     std::array<Candidate, room> kept;
     std::size_t count = 0;
     std::size_t furthest = 0;  // of the kept, once they fill the room
-    bool overflown = false;
 
     [[nodiscard]] double limit2() const { return count < room ? band2 : kept[furthest].squared; }
 
@@ -104,7 +83,6 @@ struct Gathering {
             if (count == room) find_furthest();
             return;
         }
-        overflown = true;
         if (!nearer(found, kept[furthest])) return;
         kept[furthest] = found;
         find_furthest();
@@ -164,58 +142,6 @@ bool is_behind(const ContactMesh& mesh, const Candidate& c, const Side& side, do
     // Nothing of the band is further from the closest point than this, within the triangle's plane.
     const double span = std::sqrt(std::max(0.0, band2 - c.squared)) + std::sqrt(c.squared);
     return height + slope * span <= side_tolerance;
-}
-
-struct EdgeGathering {
-    const Solid* solid;
-    const EdgePiece* piece;
-    double band;
-    std::span<Crossing> crossings;
-    std::size_t count = 0;
-    double nearest = std::numeric_limits<double>::infinity();
-    double dropped = std::numeric_limits<double>::infinity();
-};
-
-bool nearer_crossing(const Crossing& a, const Crossing& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.edge < b.edge;
-}
-
-bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
-    auto& g = *static_cast<EdgeGathering*>(arguments->userPtr);
-    const std::uint32_t index = g.solid->ridges[arguments->primID];
-    const SharpEdge& edge = g.solid->mesh.sharp_edges[index];
-    const Vec3 a(g.solid->mesh.vertices[edge.vertices[0]]);
-    const Vec3 b(g.solid->mesh.vertices[edge.vertices[1]]);
-    const Vec3 middle = 0.5 * (a + b);
-    const Vec3 half = 0.5 * (b - a);
-    const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
-    Crossing crossing;
-    crossing.on_piece = g.piece->middle + at.s * g.piece->half;
-    crossing.on_edge = middle + at.t * half;
-    g.nearest = std::min(g.nearest, glm::length(crossing.on_piece - crossing.on_edge));
-    if (!at.inner) return false;
-    crossing.normal = glm::normalize(glm::cross(g.piece->half, half));
-    if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)
-        crossing.normal = -crossing.normal;
-    // Both edges must face each other along the normal: it leads out of both solids. Else some face, vertex
-    // or other edge is nearer.
-    constexpr double slack = 1e-6;
-    for (std::size_t i = 0; i < 2; ++i)
-        if (glm::dot(crossing.normal, Vec3(edge.inward[i])) > slack ||
-            glm::dot(crossing.normal, g.piece->inward[i]) < -slack)
-            return false;
-    crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
-    crossing.edge = index;
-    if (std::abs(crossing.distance) > g.band) return false;
-    if (g.count < g.crossings.size()) {
-        g.crossings[g.count++] = crossing;
-        return false;
-    }
-    const auto last = std::max_element(g.crossings.begin(), g.crossings.end(), nearer_crossing);
-    if (last == g.crossings.end()) return false;
-    if (nearer_crossing(crossing, *last)) std::swap(crossing, *last);
-    g.dropped = std::min(g.dropped, crossing.distance);
-    return false;
 }
 
 void edge_box(const RTCBoundsFunctionArguments* arguments) {
@@ -322,7 +248,8 @@ Near near_point(const Solid& solid, const Vec3& point, double radius, double ban
     Near near;
     near.complete = band;
     if (!(g.nearest.squared <= g.radius2)) return near;
-    if (g.overflown) near.complete = std::sqrt(g.kept[g.furthest].squared);
+    // When the room is full Embree stops looking further: whether there was more is not known.
+    if (g.count == Gathering::room) near.complete = std::sqrt(g.kept[g.furthest].squared);
     std::sort(g.kept.begin(), g.kept.begin() + static_cast<std::ptrdiff_t>(g.count), nearer);
     const Side first = nearest_side(g);
     near.distance = first.distance;
@@ -350,20 +277,6 @@ Near near_point(const Solid& solid, const Vec3& point, double radius, double ban
         sides[near.sides++] = side;
     }
     return near;
-}
-
-Crossings near_edges(const Solid& solid, const EdgePiece& piece, double radius, double band,
-                     std::span<Crossing> crossings) {
-    if (!solid.edge_scene) return {0, band, nothing_near};
-    EdgeGathering g{&solid, &piece, band, crossings};
-    RTCPointQuery query = make_query(piece.middle, glm::length(piece.half) + radius);
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
-    std::sort(crossings.begin(), crossings.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
-    // Nearly parallel edges are compared at the piece's middle only: off by their angle at most.
-    const double slack = 1e-3 * glm::length(piece.half);
-    return {g.count, std::min(band, g.dropped), std::min(g.nearest - slack, radius)};
 }
 
 bool blocked(const Solid& solid, const Vec3& from, const Vec3& to) {

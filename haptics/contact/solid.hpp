@@ -1,6 +1,6 @@
-// A contact mesh that can be asked, in its own frame: what of it is near a point or an edge, and what a line
-// meets. Embree finds the candidates in float, with a margin; every answer is computed in double. Asking
-// allocates nothing, and the answer does not depend on the order in which Embree comes along.
+// A contact mesh that can be asked, in its own frame: what of it is near a point, and what a line meets.
+// Embree finds the candidates in float, with a margin; every answer is computed in double. Asking allocates
+// nothing, and the answer does not depend on the order in which Embree comes along.
 #pragma once
 
 #include <cstdint>
@@ -68,30 +68,6 @@ inline constexpr std::size_t most_sides = 8;
 // The surface within `radius` of `point` (infinite: wherever it is), and the sides within `band` <= radius,
 // the nearest first. A point whose nearest surface is further than `radius` is told to be outside.
 Near near_point(const Solid& solid, const Vec3& point, double radius, double band, std::span<Side> sides);
-
-// A straight piece of a convex edge of another solid, in this solid's frame.
-struct EdgePiece {
-    Vec3 middle{0.0}, half{0.0};   // from middle - half to middle + half
-    std::array<Vec3, 2> inward{};  // as SharpEdge has them
-};
-
-struct Crossing {
-    double distance = 0.0;  // m, signed: below 0 the edges have passed through each other
-    Vec3 on_piece{0.0}, on_edge{0.0};
-    Vec3 normal{0.0};        // unit, away from the solid
-    std::uint32_t edge = 0;  // of the solid's mesh.sharp_edges
-};
-
-struct Crossings {
-    std::size_t count = 0;
-    double complete = 0.0;  // as in Near
-    double nearest = 0.0;   // m, unsigned: no convex edge is nearer to the piece; at most the radius asked
-};
-
-// The convex edges within `radius`, and of them those within `band` <= radius that face the piece, edge to
-// edge; if there is no room for all, the nearest.
-Crossings near_edges(const Solid& solid, const EdgePiece& piece, double radius, double band,
-                     std::span<Crossing> crossings);
 
 // Whether a surface lies between two points.
 bool blocked(const Solid& solid, const Vec3& from, const Vec3& to);

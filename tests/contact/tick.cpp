@@ -3,13 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 
-#include "haptics/contact/proximity.hpp"
-#include "tests/contact/support.hpp"
+#include "tests/contact/reducer.hpp"
 #include "tests/support/forbidden.hpp"
-#include "tools/geometry/crossing.hpp"
 
 using namespace bolt;
 using namespace bolt::contact;
@@ -18,39 +15,6 @@ using namespace contact_test;
 namespace {
 
 constexpr double mm = 1e-3;
-
-struct Reducer {
-    std::vector<ContactMesh> casing = load_parts(content() / "assemblies/zq350/zq350.contact.glb", "casing_");
-    std::vector<ContactMesh> wrench = load_parts(content() / "tools/wrench-24.contact.glb");
-    ToolShape tool = make_tool(wrench).value();
-    World world;
-
-    Reducer() {
-        REQUIRE(casing.size() == 2);
-        std::vector<Obstacle> obstacles;
-        for (const ContactMesh& part : casing)
-            obstacles.push_back({static_cast<std::int32_t>(obstacles.size()), &part, {}, false});
-        world = make_world(obstacles).value();
-    }
-
-    static std::filesystem::path content() {
-        const char* set = std::getenv("BOLTWRIGHT_CONTENT");
-        REQUIRE(set != nullptr);
-        return set;
-    }
-
-    // Somewhere at the casing with some point of the wrench.
-    [[nodiscard]] Pose at_the_surface(Random& random) const {
-        const Solid& solid = world.shapes[0].solid;
-        const std::size_t t = random.bits() % solid.mesh.triangles.size();
-        const auto [a, b, c] = corners(solid.mesh, t);
-        const Vec3 on_tool = tool.samples.samples[random.bits() % tool.samples.samples.size()].at;
-        Pose pose{(a + b + c) / 3.0 + random.uniform(-0.1, 2.0) * mm * Vec3(solid.mesh.face_normals[t]),
-                  random_turn(random)};
-        pose.position -= pose.orientation * on_tool;
-        return pose;
-    }
-};
 
 }  // namespace
 
@@ -120,16 +84,6 @@ TEST_CASE("finding contacts allocates nothing, locks nothing, reads no clock") {
     // The counter counts.
     CHECK(test::forbidden_in([&] { (void)make_proximity(reducer.world, reducer.tool); }).allocations > 0);
 }
-
-namespace {
-
-geometry::Bvh tree(const ContactMesh& mesh, const Pose& pose) {
-    std::vector<geometry::Triangle> triangles;
-    for (const auto& t : soup(mesh, pose)) triangles.push_back({.a = t[0], .b = t[1], .c = t[2]});
-    return geometry::Bvh(std::move(triangles));
-}
-
-}  // namespace
 
 TEST_CASE("where the wrench first touches the reducer it is found, and deeper") {
     const Reducer reducer;

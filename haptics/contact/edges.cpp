@@ -1,0 +1,155 @@
+#include "haptics/contact/edges.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "haptics/contact/closest.hpp"
+#include "haptics/contact/embree_query.hpp"
+
+namespace bolt::contact {
+namespace {
+
+bool nearer_crossing(const Crossing& a, const Crossing& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.edge < b.edge;
+}
+
+struct EdgeGathering {
+    const Solid* solid;
+    const EdgePiece* piece;
+    double length;  // half the piece's
+    double radius, band;
+    std::array<Crossing, 32> found;
+    std::size_t count = 0;
+    double clear, turn = nothing_near;
+    double dropped = nothing_near;
+
+    void add(Crossing crossing) {
+        if (count < found.size()) {
+            found[count++] = crossing;
+            return;
+        }
+        const auto last = std::max_element(found.begin(), found.end(), nearer_crossing);
+        if (nearer_crossing(crossing, *last)) std::swap(crossing, *last);
+        dropped = std::min(dropped, crossing.distance);
+    }
+};
+
+// How far the common perpendicular is from leading out of both solids, as a cosine; at most 0: it does. Else
+// some face, vertex or other edge is nearer.
+double off_facing(const SharpEdge& edge, const EdgePiece& piece, const Vec3& normal) {
+    double off = -1.0;
+    for (std::size_t i = 0; i < 2; ++i)
+        off = std::max({off, glm::dot(normal, Vec3(edge.inward[i])), -glm::dot(normal, piece.inward[i])});
+    constexpr double slack = 1e-6;
+    return off - slack;
+}
+
+// One edge against the piece. Why the bounds hold: turning the piece by φ turns the perpendicular by 1.5 φ
+// over the sine between the edges at most, while φ is below a third of that sine.
+void meet(EdgeGathering& g, std::uint32_t index) {
+    const SharpEdge& edge = g.solid->mesh.sharp_edges[index];
+    const Vec3 a(g.solid->mesh.vertices[edge.vertices[0]]);
+    const Vec3 b(g.solid->mesh.vertices[edge.vertices[1]]);
+    const Vec3 middle = 0.5 * (a + b);
+    const Vec3 half = 0.5 * (b - a);
+    const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
+    Crossing crossing;
+    crossing.on_piece = g.piece->middle + at.s * g.piece->half;
+    crossing.on_edge = middle + at.t * half;
+    const double apart = glm::length(crossing.on_piece - crossing.on_edge);
+    if (apart > g.radius) return;
+
+    const Vec3 across = glm::cross(g.piece->half, half);
+    const double size = glm::length(across);
+    const double length = glm::length(half);
+    const double sine = size / (g.length * length);
+    // Edges that are nearly parallel are compared at their middles only: off by their angle at most.
+    const double beyond = apart - deepest_crossing - (at.inner ? 0.0 : 2e-3 * g.length);
+    if (!(sine > 1e-3)) {
+        g.clear = std::min(g.clear, beyond);
+        return;
+    }
+    crossing.normal = across / size;
+    const double off =
+        std::min(off_facing(edge, *g.piece, crossing.normal), off_facing(edge, *g.piece, -crossing.normal));
+    if (off > 0.0) {
+        g.turn = std::min(g.turn, off * sine / 3.0);
+        return;
+    }
+    if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)
+        crossing.normal = -crossing.normal;
+    if (!at.inner) {
+        // By how much the feet of the perpendicular lie beyond the ends. They move by 1.12 of the way and 4.8
+        // of the distance and turn, over the sine, at most.
+        const Vec3 between = middle - g.piece->middle;
+        const double on_piece = glm::dot(glm::cross(between, half), across) / (size * size);
+        const double on_edge = glm::dot(glm::cross(between, g.piece->half), across) / (size * size);
+        const double over =
+            std::max((std::abs(on_piece) - 1.0) * g.length, (std::abs(on_edge) - 1.0) * length);
+        const double until = std::min(apart, 0.4 * over * sine);
+        if (until > beyond) {
+            g.clear = std::min(g.clear, until);
+            g.turn = std::min({g.turn, 0.05 * sine, over * sine * sine / (10.0 * apart)});
+        } else {
+            g.clear = std::min(g.clear, beyond);
+        }
+        return;
+    }
+    crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
+    crossing.edge = index;
+    if (crossing.distance > 0.0) {
+        // The other way round only by coming through.
+        g.clear = std::min(g.clear, 0.9 * crossing.distance);
+        g.turn = std::min(g.turn, 0.1 * sine);
+    } else {
+        g.clear = std::min(g.clear, beyond);
+    }
+    if (crossing.distance > g.band || crossing.distance < -deepest_crossing) return;
+    g.add(crossing);
+}
+
+bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
+    auto& g = *static_cast<EdgeGathering*>(arguments->userPtr);
+    meet(g, g.solid->ridges[arguments->primID]);
+    return false;
+}
+
+bool is_inside(const Solid& solid, const Vec3& point) {
+    return near_point(solid, point, nothing_near, 0.0, {}).distance < 0.0;
+}
+
+}  // namespace
+
+Crossings near_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
+                     double radius, double band, std::span<Crossing> crossings) {
+    Crossings result{0, band, radius, nothing_near};
+    if (!solid.edge_scene) return {0, band, nothing_near, nothing_near};
+    EdgeGathering g;
+    g.solid = &solid;
+    g.piece = &piece;
+    g.length = glm::length(piece.half);
+    g.radius = g.clear = std::max({radius, band, deepest_crossing});
+    g.band = band;
+    g.clear -= deepest_crossing;
+    RTCPointQuery query = make_query(piece.middle, g.length + g.radius);
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
+    std::sort(g.found.begin(), g.found.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
+    result.complete = std::min(band, g.dropped);
+    result.clear = g.clear;
+    result.turn = g.turn;
+    for (const Crossing& c : std::span(g.found).first(g.count)) {
+        if (c.distance < -surely_through && !is_inside(solid, c.on_piece) &&
+            (c.distance < -band || !is_inside(other, to_other * c.on_edge)))
+            continue;
+        if (result.count == crossings.size()) {
+            result.complete = std::min(result.complete, c.distance);
+            break;
+        }
+        crossings[result.count++] = c;
+    }
+    return result;
+}
+
+}  // namespace bolt::contact

@@ -1,0 +1,54 @@
+// The shipped reducer's casing and the shipped wrench.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "haptics/contact/proximity.hpp"
+#include "tests/contact/support.hpp"
+#include "tools/geometry/crossing.hpp"
+
+namespace contact_test {
+
+struct Reducer {
+    std::vector<ContactMesh> casing = load_parts(content() / "assemblies/zq350/zq350.contact.glb", "casing_");
+    std::vector<ContactMesh> wrench = load_parts(content() / "tools/wrench-24.contact.glb");
+    bolt::contact::ToolShape tool = bolt::contact::make_tool(wrench).value();
+    bolt::contact::World world;
+
+    Reducer() {
+        REQUIRE(casing.size() == 2);
+        std::vector<bolt::contact::Obstacle> obstacles;
+        for (const ContactMesh& part : casing)
+            obstacles.push_back({static_cast<std::int32_t>(obstacles.size()), &part, {}, false});
+        world = bolt::contact::make_world(obstacles).value();
+    }
+
+    static std::filesystem::path content() {
+        const char* set = std::getenv("BOLTWRIGHT_CONTENT");
+        REQUIRE(set != nullptr);
+        return set;
+    }
+
+    // Somewhere at the casing with some point of the wrench.
+    [[nodiscard]] Pose at_the_surface(bolt::Random& random) const {
+        const bolt::contact::Solid& solid = world.shapes[0].solid;
+        const std::size_t t = random.bits() % solid.mesh.triangles.size();
+        const auto [a, b, c] = corners(solid.mesh, t);
+        const Vec3 on_tool = tool.samples.samples[random.bits() % tool.samples.samples.size()].at;
+        Pose pose{(a + b + c) / 3.0 + random.uniform(-0.1e-3, 2e-3) * Vec3(solid.mesh.face_normals[t]),
+                  random_turn(random)};
+        pose.position -= pose.orientation * on_tool;
+        return pose;
+    }
+};
+
+// For `first_crossing`.
+inline bolt::geometry::Bvh tree(const ContactMesh& mesh, const Pose& pose) {
+    std::vector<bolt::geometry::Triangle> triangles;
+    for (const auto& t : soup(mesh, pose)) triangles.push_back({.a = t[0], .b = t[1], .c = t[2]});
+    return bolt::geometry::Bvh(std::move(triangles));
+}
+
+}  // namespace contact_test
