@@ -13,7 +13,7 @@ namespace {
 constexpr double still = 1e-7;       // m: less motion than this is none
 constexpr double fine = 50e-6;       // m: what is left after so short a motion can wait for the next tick
 constexpr double least_share = 0.2;  // of the skin: nearer than this is a penetration to be
-constexpr double unseen = 100e-6;    // m: a feature is found before it is deeper than this
+constexpr double unseen = 250e-6;    // m: a feature is found before it is deeper than this
 constexpr int attempts = 4;          // motions tried from a pose
 constexpr int halvings = 24;
 
