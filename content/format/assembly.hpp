@@ -52,10 +52,13 @@ struct Pass {
 };
 
 struct WrenchDesign {
-    double jaw = 0.0;            // m, opening
-    double head_angle = 0.0;     // rad, between jaw and handle
-    double handle_length = 0.0;  // m, jaw centre to the grip
-    std::string model;           // path of its .glb; empty: none is named
+    double jaw = 0.0;             // m, opening
+    double head_thickness = 0.0;  // m; 0, also below: not given (contact/jaw.hpp has proportions)
+    double jaw_depth = 0.0;       // m, from the jaw's middle to its bottom
+    double jaw_tip = 0.0;         // m, and to its tips
+    double head_angle = 0.0;      // rad, between jaw and handle
+    double handle_length = 0.0;   // m, jaw centre to the grip
+    std::string model;            // path of its .glb; empty: none is named
 };
 
 // Paths of the .glb files that show an assembly; empty where the file names none.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "content/format/json_pointer.hpp"
@@ -33,6 +34,23 @@ WrenchDesign read_tool(Reader& reader, const std::vector<AssemblyJoint>& joints)
     wrench.head_angle = default_head_angle;
     if (const auto angle = tool.number("head_angle_deg")) wrench.head_angle = to_radians(*angle);
     wrench.handle_length = tool.number("handle_length_mm").value_or(0.0) * mm;
+    wrench.head_thickness = tool.number("head_thickness_mm").value_or(0.0) * mm;
+    const auto depth = tool.number("jaw_depth_mm"), tip = tool.number("jaw_tip_mm");
+    wrench.jaw_depth = depth.value_or(0.0) * mm;
+    wrench.jaw_tip = tip.value_or(0.0) * mm;
+    // The jaw's bottom leaves room for a corner, its tips reach past the flats' ends.
+    double widest = 0.0;
+    for (const AssemblyJoint& joint : joints)
+        widest = std::max(widest, joint.design.thread.size.across_flats);
+    const auto too_short = [&](const auto& value, double share, const char* what) {
+        if (!value || *value * mm >= share * widest - 1e-9) return;
+        reader.report(
+            value.pointer,
+            fmt::format("{} of {:g} mm is too short for {:g} mm across flats", what, *value, widest / mm),
+            fmt::format("expected at least {:.2f} mm", share * widest / mm));
+    };
+    too_short(depth, 1.0 / std::sqrt(3.0), "a jaw depth");
+    too_short(tip, 1.0 / std::sqrt(12.0), "a jaw tip");
     const auto jaw = tool.number("jaw_mm");
     wrench.jaw = jaw.value_or(0.0) * mm;
     if (!jaw) return wrench;

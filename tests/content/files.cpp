@@ -178,3 +178,23 @@ TEST_CASE("a new assembly brings its models with it, and names none that is not 
     }
     CHECK(copied == count);
 }
+
+TEST_CASE("the jaw's measures are read in millimetres; a nut has to fit between its tips and its bottom") {
+    const World world;
+    const auto given =
+        with(world.inside, "", R"("head_thickness_mm": 7.6, "jaw_depth_mm": 8, "jaw_tip_mm": 9.5, )");
+    REQUIRE(given.ok());
+    CHECK(given.assembly.wrench.head_thickness == doctest::Approx(7.6e-3));
+    CHECK(given.assembly.wrench.jaw_depth == doctest::Approx(8e-3));
+    CHECK(given.assembly.wrench.jaw_tip == doctest::Approx(9.5e-3));
+    const auto plain = with(world.inside, "");
+    CHECK(plain.assembly.wrench.head_thickness == 0.0);
+    CHECK(plain.assembly.wrench.jaw_tip == 0.0);
+    // 13/√3 and 13/√12.
+    CHECK(
+        only(with(world.inside, "", R"("jaw_depth_mm": 7, )")) ==
+        R"(3:56: /tool/jaw_depth_mm: a jaw depth of 7 mm is too short for 13 mm across flats; expected at least 7.51 mm)");
+    CHECK(
+        only(with(world.inside, "", R"("jaw_tip_mm": 3, )")) ==
+        R"(3:54: /tool/jaw_tip_mm: a jaw tip of 3 mm is too short for 13 mm across flats; expected at least 3.75 mm)");
+}
