@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -94,34 +95,58 @@ double least_along(std::span<const Vec3> points, const Vec3& n) {
     return least;
 }
 
-// Whether the arc of one edge's normals crosses the mirrored arc of the other's: only then is their cross
-// product a direction of which both are the outermost.
-bool arcs_cross(const Vec3& a, const Vec3& b, const Vec3& edge, const Vec3& c, const Vec3& d,
-                const Vec3& other) {
-    const double cba = -glm::dot(c, edge), dba = -glm::dot(d, edge);
-    if (cba * dba >= 0.0) return false;
-    const double adc = -glm::dot(a, other), bdc = -glm::dot(b, other);
-    return adc * bdc < 0.0 && cba * bdc > 0.0;
+// Which edges of the obstacle point along `n`.
+EdgeSet pointing(const Convex& obstacle, const Vec3& n) {
+    EdgeSet set{};
+    for (std::size_t k = 0; k < obstacle.edges.size(); ++k) {
+        const ConvexEdge& e = obstacle.edges[k];
+        const bool points = glm::dot(n, obstacle.points[e.to] - obstacle.points[e.from]) > 0.0;
+        set[k / 64] |= std::uint64_t{points} << (k % 64);
+    }
+    return set;
 }
 
+void try_pair(const Placed& tool, std::uint32_t i, const Convex& obstacle, std::uint32_t k,
+              Separation& best) {
+    const ConvexEdge& e = tool.solid->edges[i];
+    const ConvexEdge& f = obstacle.edges[k];
+    const Vec3 p = tool.points[e.from], along = tool.points[e.to] - p;
+    const Vec3 q = obstacle.points[f.from], other = obstacle.points[f.to] - q;
+    Vec3 n = glm::cross(along, other);
+    const double square_length = glm::dot(n, n);
+    if (square_length < parallel * glm::dot(along, along) * glm::dot(other, other)) return;
+    n /= std::sqrt(square_length);
+    if (glm::dot(n, q - obstacle.middle) < 0.0) n = -n;
+    const double distance = glm::dot(n, p - q);
+    if (distance > best.distance + by_a_little) best = {distance, n, Separation::Kind::edges, k, i};
+}
+
+// Of two edges the arcs between the normals of their faces cross, one of them mirrored, where each edge
+// parts the other's faces, and both the same way round: only then is their cross product a direction of
+// which both are the outermost. For one edge of the tool that is asked of all of the obstacle at once.
 void try_edges(const Placed& tool, const Convex& obstacle, Separation& best) {
+    std::array<EdgeSet, most_points> along_normal;  // by face of the tool
+    for (std::size_t t = 0; t < tool.solid->faces.size(); ++t)
+        along_normal[t] = pointing(obstacle, tool.normals[t]);
     for (std::uint32_t i = 0; i < tool.solid->edges.size(); ++i) {
         const ConvexEdge& e = tool.solid->edges[i];
-        const Vec3 p = tool.points[e.from], along = tool.points[e.to] - p;
-        const Vec3 a = tool.normals[e.left], b = tool.normals[e.right];
-        for (std::uint32_t k = 0; k < obstacle.edges.size(); ++k) {
-            const ConvexEdge& f = obstacle.edges[k];
-            const Vec3 q = obstacle.points[f.from], other = obstacle.points[f.to] - q;
-            if (!arcs_cross(a, b, along, -obstacle.faces[f.left].plane.normal,
-                            -obstacle.faces[f.right].plane.normal, other))
-                continue;
-            Vec3 n = glm::cross(along, other);
-            const double square_length = glm::dot(n, n);
-            if (square_length < parallel * glm::dot(along, along) * glm::dot(other, other)) continue;
-            n /= std::sqrt(square_length);
-            if (glm::dot(n, q - obstacle.middle) < 0.0) n = -n;
-            const double distance = glm::dot(n, p - q);
-            if (distance > best.distance + by_a_little) best = {distance, n, Separation::Kind::edges, k, i};
+        const EdgeSet &a = along_normal[e.left], &b = along_normal[e.right];
+        EdgeSet parted{a[0] ^ b[0], a[1] ^ b[1]};
+        if ((parted[0] | parted[1]) == 0) continue;
+        const Vec3 along = tool.points[e.to] - tool.points[e.from];
+        EdgeSet left{}, right{};  // edges whose face on that side looks along this one
+        for (std::size_t f = 0; f < obstacle.faces.size(); ++f) {
+            if (glm::dot(obstacle.faces[f].plane.normal, along) <= 0.0) continue;
+            for (std::size_t w = 0; w < 2; ++w) {
+                left[w] |= obstacle.left_of[f][w];
+                right[w] |= obstacle.right_of[f][w];
+            }
+        }
+        for (std::uint32_t w = 0; w < 2; ++w) {
+            std::uint64_t crossing = parted[w] & (left[w] ^ right[w]) & (left[w] ^ b[w]);
+            for (; crossing != 0; crossing &= crossing - 1)
+                try_pair(tool, i, obstacle, 64 * w + static_cast<std::uint32_t>(std::countr_zero(crossing)),
+                         best);
         }
     }
 }
@@ -200,6 +225,13 @@ Convex make_convex(std::span<const HalfSpace> half_spaces) {
             else
                 other->right = f;
         }
+    }
+    assert(solid.edges.size() <= most_edges);
+    solid.left_of.assign(solid.faces.size(), {});
+    solid.right_of.assign(solid.faces.size(), {});
+    for (std::size_t k = 0; k < solid.edges.size(); ++k) {
+        solid.left_of[solid.edges[k].left][k / 64] |= std::uint64_t{1} << (k % 64);
+        solid.right_of[solid.edges[k].right][k / 64] |= std::uint64_t{1} << (k % 64);
     }
     for (const Vec3& p : solid.points) solid.middle += p / static_cast<double>(solid.points.size());
     for (const Vec3& p : solid.points) solid.radius = std::max(solid.radius, glm::distance(p, solid.middle));

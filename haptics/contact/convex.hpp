@@ -8,6 +8,7 @@
 // (Gottschalk, Lin, Manocha, SIGGRAPH 1996; for the arcs: Gregorius, Game Developers Conference 2013).
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -31,11 +32,16 @@ struct ConvexEdge {
     std::uint32_t left = 0, right = 0;  // faces
 };
 
+// A set of a solid's edges.
+using EdgeSet = std::array<std::uint64_t, 2>;
+inline constexpr std::size_t most_edges = 128;
+
 struct Convex {
     std::vector<Vec3> points;
     std::vector<ConvexFace> faces;
     std::vector<ConvexEdge> edges;
     std::vector<std::uint32_t> loops;
+    std::vector<EdgeSet> left_of, right_of;  // by face: the edges that have it on that side
     Vec3 middle{0.0};
     double radius = 0.0;  // m, about the middle
 };
