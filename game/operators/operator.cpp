@@ -90,9 +90,10 @@ struct Operator::Mind {
     int bumps = 0;        // times in a row that it was
     int misses = 0;       // times in a row that the jaw did not slide on
     Arm arm;
-    Pose hand;             // where it is
-    bool gripped = false;  // it had hold of a nut in the tick before
-    Pose rest;             // before the assembly, where the wrench lies and nothing is in the way
+    Pose hand;                 // where it is
+    bool gripped = false;      // it had hold of a nut in the tick before
+    bool turned_back = false;  // it was caught and means to be where the wrench is
+    Pose rest;                 // before the assembly, where the wrench lies and nothing is in the way
 
     // What can be seen at this tick.
     const servo::Setup* setup = nullptr;
@@ -266,6 +267,7 @@ void Operator::Mind::notice_caught(const Pose& meant, const Pose& wrench) {
     to = {wrench.position + retreat * (nut().axis + 0.3 * static_cast<double>(std::min(bumps, 5)) * back /
                                                         (1e-3 + glm::length(back))),
           wrench.orientation};
+    turned_back = true;
     enter(Phase::lift, 0.6);
 }
 
@@ -425,8 +427,10 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
             pose.orientation = orientation_of(m.nut(), m.handle + sway, m.flipped);
         }
     }
-    if (grips != m.gripped) take_up(m.arm, m.hand, pose);
+    // It changed its mind, not its place.
+    if (grips != m.gripped || m.turned_back) take_up(m.arm, m.hand, pose);
     m.gripped = grips;
+    m.turned_back = false;
     const force::OutputState& felt = state.output.output;
     m.hand = follow(m.profile.hand, m.arm, pose, {felt.force, felt.torque}, grips, setup.dt);
     if (m.obstacles() != nullptr && m.holds_wrench) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/math.hpp"
+#include "game/report/feel_section.hpp"
 #include "game/report/html.hpp"
 #include "game/report/joint_plot.hpp"
 #include "game/report/plan.hpp"
@@ -47,6 +48,10 @@ void put_heading(std::string& out, const SessionData& s, std::size_t index) {
     out += fact("operator", s.header.operator_name);
     out += fact("task", s.header.task);
     out += fact("mode", s.header.mode);
+    if (s.feel.recorded) {
+        out += fact("guiding force", s.feel.guided ? "on" : "off");
+        out += fact("obstacles", s.feel.obstacles ? "met" : "none");
+    }
     out += fact("law", s.header.law);
     out += fact("variant", s.header.variant);
     out += fact("duration", duration_text(s.duration));
@@ -328,6 +333,7 @@ std::string session_section(const SessionData& session, std::size_t number) {
     put_order(out, session);
     if (session.direction() == joint::Direction::tighten) put_clamp(out, session);
     put_joint_figures(out, session);
+    out += feel_section(session);
     put_method(out, session);
     return out + "</section>\n";
 }

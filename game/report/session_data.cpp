@@ -80,10 +80,20 @@ Result<SessionData> read_session(const record::Reader& session) {
         if (event.kind == "pass_begin") data.pass_texts.push_back(event.text);
 
     CurveBuilder builder(request_for(data, *events));
-    const Status read = session.for_each_chunk(
-        [&](std::uint64_t first, std::span<const record::TickRecord> ticks) { builder.add(first, ticks); });
+    std::vector<Vec3> seats;
+    for (const content::AssemblyJoint& joint : data.assembly.joints) seats.push_back(joint.design.seat);
+    FeelBuilder feel(data.header, *events, std::move(seats));
+    const Status read =
+        session.for_each_chunk([&](std::uint64_t first, std::span<const record::TickRecord> ticks) {
+            builder.add(first, ticks);
+            feel.add(first, ticks);
+        });
     if (!read) return fail(read.error());
     data.curves = builder.finish();
+    data.feel = feel.finish();
+    Result<std::optional<servo::Timing>> timing = session.timing();
+    if (!timing) return fail(timing.error());
+    data.feel.timing = std::move(*timing);
     return data;
 }
 

@@ -9,6 +9,7 @@
 #include "game/lesson/result.hpp"
 #include "game/record/session.hpp"
 #include "game/report/curve.hpp"
+#include "game/report/feel.hpp"
 
 namespace bolt::report {
 
@@ -25,6 +26,7 @@ struct SessionData {
     std::vector<lesson::ScoreReason> reasons;
     std::vector<std::string> pass_texts;  // what the session's pass_begin events say, in order
     std::vector<JointCurve> curves;       // one for each of assembly.joints
+    Feel feel;
 
     [[nodiscard]] joint::Direction direction() const {
         return header.task == "loosen" ? joint::Direction::loosen : joint::Direction::tighten;

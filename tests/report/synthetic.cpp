@@ -127,9 +127,17 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     SessionData& data = session.data;
     data.assembly = synthetic_assembly();
     data.file = "out/session.bolt";
-    data.header = {
-        "flange", "flange/assembly.json", "",         "carbon",          "mechanistic", "practice", "tighten",
-        "expert", options.seed,           options.dt, "boltwright 0.1.0"};
+    record::Header& header = data.header;
+    header.assembly = "flange";
+    header.assembly_file = "flange/assembly.json";
+    header.variant = "carbon";
+    header.law = "mechanistic";
+    header.mode = "practice";
+    header.task = "tighten";
+    header.operator_name = "expert";
+    header.seed = options.seed;
+    header.dt = options.dt;
+    header.program = "boltwright 0.1.0";
     Random random(options.seed);
     const std::size_t count = data.assembly.joints.size();
     Hand hand{session, options.dt, std::vector<double>(count, 0.0), 360.0 * options.run_down_turns};

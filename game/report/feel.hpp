@@ -1,0 +1,126 @@
+// What a hand felt in a session beside the torque of its nuts: what it bumped into, how evenly the force
+// changed, how long it took to get onto the nuts, and when the output stage let go.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "game/lesson/result.hpp"
+#include "game/record/session.hpp"
+
+namespace bolt::report {
+
+// The wrench against something while it was on no nut. What it does to the nut it is going to, or has just
+// left, is work and no bump; neither is what began with a nut in its jaw.
+struct Bump {
+    double begin = 0.0, length = 0.0;  // s
+    std::int32_t obstacle = -1;        // the first one of it
+    double hardest = 0.0;              // N, of the force put out meanwhile
+};
+
+// A tick in which the force changed much, and what was going on.
+struct Moment {
+    double time = 0.0;    // s
+    double change = 0.0;  // N in a millisecond
+    record::TickRecord tick;
+    // s since each; NaN: never
+    double taken = nan, left = nan, touched = nan, lost_touch = nan;
+    std::int16_t last_joint = -1;  // engaged, or the last that was
+    std::int32_t last_touched = -1;
+    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct Changes {
+    double greatest = 0.0, p99 = 0.0;  // in a millisecond; p99 of the ticks in which anything was put out
+    std::uint64_t ticks = 0;           // of those
+    std::uint64_t above = 0;           // of those, more than a tenth of the device's greatest; 0: not known
+    std::uint64_t at_limit = 0;        // of those, as much as the output stage lets through
+};
+
+// What was going on in a tick, most telling first.
+enum class Doing : std::uint8_t { held_off, leaving, taking, on_nut, against, free };
+inline constexpr std::size_t doings = 6;
+
+// From a step's beginning until its nut was in the wrench or between the fingers.
+struct Arrival {
+    int joint = 0;
+    bool wrench = false;
+    double waited = 0.0;   // s
+    double placing = 0.0;  // s of them near the nut
+};
+
+struct Feel {
+    bool recorded = false;  // format 2; otherwise contacts and faults are not known
+    bool obstacles = false, guided = false;
+    std::optional<force::OutputLimits> device;
+    std::vector<Bump> bumps;  // in time
+    Changes force, torque;    // N, N·m
+    std::array<std::uint64_t, doings>
+        at_limit{};               // of the force: in which ticks it changed as fast as it may
+    std::vector<Moment> moments;  // the largest changes of the force, largest first
+    std::vector<Arrival> arrivals;
+    std::array<double, force::fault_kinds> faults{};  // s that each held the output off
+    std::string servo;                                // how it ran, in words
+    std::optional<servo::Timing> timing;
+};
+
+// Takes the ticks in order, in pieces of any size.
+class FeelBuilder {
+  public:
+    // `seats`: of the joints' nuts.
+    FeelBuilder(const record::Header& header, std::span<const lesson::Event> events, std::vector<Vec3> seats);
+
+    void add(std::uint64_t first_tick, std::span<const record::TickRecord> ticks);
+    Feel finish();
+
+  private:
+    struct StepBegin {
+        std::uint64_t tick = 0;
+        int joint = -1;
+    };
+    void take(std::uint64_t number, const record::TickRecord& tick);
+    void note_grip(double time, const record::TickRecord& tick);
+    void note_touch(double time, const record::TickRecord& tick);
+    void note_change(double time, const record::TickRecord& tick);
+    void keep_moment(const Moment& moment);
+    [[nodiscard]] bool own_nut(std::int32_t obstacle) const;
+
+    Feel feel_;
+    double dt_;
+    std::vector<Vec3> seats_;
+    std::vector<StepBegin> steps_;
+    std::size_t next_step_ = 0;
+    int due_ = -1;
+    bool arrived_ = true;
+    double step_begun_ = 0.0, placing_ = 0.0;
+    std::optional<record::TickRecord> before_;
+    Moment now_;  // what is known of the last times
+    double taken_ = Moment::nan, left_ = Moment::nan, touch_ = Moment::nan, lost_ = Moment::nan;  // s
+    bool working_touch_ = false;  // began with a nut in the jaw
+    bool in_bump_ = false;
+    std::vector<float> force_changes_, torque_changes_;
+};
+
+// Sorted into three by the quartiles of type 7 (Hyndman and Fan, Am. Stat. 50 (1996) 361; NumPy's and R's
+// default).
+struct Quartiles {
+    double low = Moment::nan, median = Moment::nan, high = Moment::nan;
+    std::size_t n = 0;
+};
+Quartiles quartiles(std::vector<double> values);
+double quantile(std::vector<double>& sorted, double share);
+
+Doing doing(const Moment& moment);
+
+// In words: "the wrench slides onto B3", "against casing_upper".
+std::string happening(const Moment& moment, const std::vector<lesson::JointResult>& joints,
+                      const std::vector<record::ObstacleName>& obstacles);
+std::string obstacle_text(std::int32_t id, const std::vector<record::ObstacleName>& obstacles);
+
+}  // namespace bolt::report

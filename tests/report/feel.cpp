@@ -1,0 +1,166 @@
+// What is said of a session's forces, bumps and times, held against ticks that were made up by hand.
+#include "game/report/feel.hpp"
+
+#include <doctest/doctest.h>
+
+#include "game/record/device_text.hpp"
+#include "game/report/feel_section.hpp"
+#include "game/report/html.hpp"
+#include "haptics/servo/touch.hpp"
+#include "tests/report/synthetic.hpp"
+#include "tests/report/well_formed.hpp"
+
+using namespace bolt;
+using namespace bolt::report;
+
+namespace {
+
+record::Header header_of(const char* guide = "on") {
+    record::Header header;
+    header.dt = 0.001;
+    header.mode = "guided";
+    header.guide = guide;
+    header.obstacles = "casing.glb";
+    header.device = record::text_of(force::OutputLimits{});
+    header.servo = "virtual time";
+    header.obstacle_names = {
+        {0, "casing"}, {1, "lid"}, {servo::first_nut, "J01_nut"}, {servo::first_nut + 1, "J02_nut"}};
+    return header;
+}
+
+// A second and a half of a hand with a wrench, a millimetre a tick towards the nut at the origin.
+struct Story {
+    std::vector<record::TickRecord> ticks = std::vector<record::TickRecord>(1500);
+    std::vector<lesson::Event> events = {{100, "step_begin", 0, 0.0, ""}};
+
+    Story() {
+        for (std::size_t i = 0; i < ticks.size(); ++i) {
+            ticks[i].grip = static_cast<std::uint8_t>(servo::Grip::wrench);
+            ticks[i].device.position[0] = 0.001F * static_cast<float>(ticks.size() - i);
+        }
+    }
+    void touch(std::size_t from, std::size_t to, std::int16_t obstacle) {
+        for (std::size_t i = from; i < to; ++i) ticks[i].touched = obstacle;
+    }
+    void hold(std::size_t from, std::size_t to, std::int16_t joint) {
+        for (std::size_t i = from; i < to; ++i) ticks[i].joint = joint;
+    }
+    void push(std::size_t from, std::size_t to, float force) {
+        for (std::size_t i = from; i < to; ++i) ticks[i].force[1] = force;
+    }
+    [[nodiscard]] Feel feel(std::size_t piece = 1500) const {
+        FeelBuilder builder(header_of(), events, {Vec3(0.0), Vec3(0.5, 0.0, 0.0)});
+        for (std::size_t i = 0; i < ticks.size(); i += piece)
+            builder.add(i, std::span(ticks).subspan(i, std::min(piece, ticks.size() - i)));
+        return builder.finish();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a bump is what the wrench meets on its way, not what it works on") {
+    Story story;
+    story.touch(200, 230, 0);
+    story.touch(270, 280, 1);  // 40 ms later: still the same bump
+    story.touch(600, 650, 1);
+    story.touch(900, 950, servo::first_nut);        // the nut that it is going to
+    story.touch(1000, 1010, servo::first_nut + 1);  // a neighbour's
+    story.hold(1200, 1300, 0);
+    story.touch(1250, 1400, 0);  // began with the nut in its jaw
+    story.push(610, 620, 4.0F);
+    for (const std::size_t piece : {1500U, 1U, 77U}) {
+        const Feel feel = story.feel(piece);
+        REQUIRE(feel.bumps.size() == 3);
+        CHECK(feel.bumps[0].begin == doctest::Approx(0.2));
+        CHECK(feel.bumps[0].length == doctest::Approx(0.08));
+        CHECK(feel.bumps[0].obstacle == 0);
+        CHECK(feel.bumps[1].length == doctest::Approx(0.05));
+        CHECK(feel.bumps[1].hardest == doctest::Approx(4.0));
+        CHECK(feel.bumps[2].obstacle == servo::first_nut + 1);
+    }
+}
+
+TEST_CASE("changes of the force: the greatest, where they were, and how many the output stage cut off") {
+    Story story;
+    story.push(300, 310, 1.5F);
+    story.push(500, 900, 2.0F);  // two newtons in a millisecond is what the device may do
+    story.hold(500, 880, 0);
+    const Feel feel = story.feel();
+    CHECK(feel.force.greatest == 2.0);
+    CHECK(feel.force.at_limit == 2);
+    CHECK(feel.force.above == 0);
+    CHECK(feel.force.ticks == 412);  // ticks with a force, and those in which it went
+    CHECK(feel.force.p99 == 0.0);    // four of 412
+    CHECK(feel.at_limit[static_cast<std::size_t>(Doing::taking)] == 1);
+    CHECK(feel.at_limit[static_cast<std::size_t>(Doing::free)] == 1);
+    REQUIRE(feel.moments.size() >= 3);
+    CHECK(feel.moments[0].change == 2.0);
+    CHECK(feel.moments[2].change == 1.5);
+    CHECK(happening(feel.moments[0], {{"J01"}}, {}) == "wrench taking hold of J01");
+    story.push(700, 800, 2.5F);
+    story.push(701, 702, 4.8F);  // 2.3 N: no device does that, but a page must say it
+    CHECK(story.feel().force.above == 2);
+    CHECK(happening(story.feel().moments[0], {{"J01"}}, {}) == "wrench on J01, navigation, 0.0 N·m");
+}
+
+TEST_CASE(
+    "the time to get onto a nut is from the step's beginning until it is held, part of it near the nut") {
+    Story story;
+    story.hold(1490, 1500, 0);
+    const Feel feel = story.feel();
+    REQUIRE(feel.arrivals.size() == 1);
+    CHECK(feel.arrivals[0].joint == 0);
+    CHECK(feel.arrivals[0].wrench);
+    CHECK(feel.arrivals[0].waited == doctest::Approx(1.39));
+    CHECK(feel.arrivals[0].placing ==
+          doctest::Approx(0.030).epsilon(0.05));  // the last 39 ticks but the held ones
+}
+
+TEST_CASE("how long the output was held off, and why") {
+    Story story;
+    for (std::size_t i = 100; i < 150; ++i)
+        story.ticks[i].fault = static_cast<std::uint8_t>(force::Fault::jumped);
+    const Feel feel = story.feel();
+    CHECK(feel.faults[static_cast<std::size_t>(force::Fault::jumped)] == doctest::Approx(0.05));
+    CHECK(feel.faults[0] == 0.0);
+}
+
+TEST_CASE("quartiles are those of type 7") {
+    const Quartiles q = quartiles({7.0, 1.0, 3.0, Moment::nan, 10.0, 4.0, 20.0});
+    CHECK(q.n == 6);
+    CHECK(q.low == doctest::Approx(3.25));  // numpy.percentile([1, 3, 4, 7, 10, 20], [25, 50, 75])
+    CHECK(q.median == doctest::Approx(5.5));
+    CHECK(q.high == doctest::Approx(9.25));
+    CHECK(quartiles({2.0}).high == 2.0);
+    CHECK_FALSE(std::isfinite(quartiles({}).median));
+}
+
+TEST_CASE("the page says all of it in words, and what an old session does not tell") {
+    Story story;
+    story.touch(200, 230, 0);
+    story.push(300, 310, 1.5F);
+    story.hold(1490, 1500, 0);
+    SessionData session = synthetic_session({}).data;
+    session.header.obstacle_names = header_of().obstacle_names;
+    session.header.obstacle_names[0].name = "casing <upper>";
+    session.feel = story.feel();
+    std::string html = feel_section(session);
+    CHECK(markup_fault(page("t", html)) == "");
+    const auto has = [&](const char* part) { return html.find(part) != std::string::npos; };
+    CHECK(has("✓ even"));
+    CHECK(has("7.5\u00a0%"));
+    CHECK(has("casing &lt;upper&gt;"));
+    CHECK(has("Wake-up, compute and period: none"));
+    session.feel.timing.emplace();
+    servo::add(session.feel.timing->wake_up, 12'000);
+    session.feel.force.above = 3;
+    html = feel_section(session);
+    CHECK(markup_fault(page("t", html)) == "");
+    CHECK(has("▲ jerked 3 times"));
+    CHECK(has("12.0"));
+    session.feel.recorded = false;
+    html = feel_section(session);
+    CHECK(has("older format"));
+    session.feel = {};
+    CHECK(feel_section(session).empty());
+}
