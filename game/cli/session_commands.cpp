@@ -18,7 +18,7 @@ namespace bolt::cli {
 
 namespace {
 
-int run_report(const std::vector<std::string>& files, const std::string& html) {
+int run_report(const std::vector<std::string>& files, const std::string& html, bool overview) {
     std::vector<record::Reader> readers;
     for (const std::string& file : files) {
         if (Status apart = keep_apart(file, html); !apart) return complain(apart.error());
@@ -33,7 +33,8 @@ int run_report(const std::vector<std::string>& files, const std::string& html) {
     std::vector<const record::Reader*> sessions;
     sessions.reserve(readers.size());
     for (const record::Reader& reader : readers) sessions.push_back(&reader);
-    Result<std::string> page = report::make_report(sessions);
+    Result<std::string> page =
+        report::make_report(sessions, overview ? report::Extent::overview : report::Extent::everything);
     if (!page) return complain(page.error());
     if (Status kept = write_file(html, *page); !kept) return complain(kept.error());
     const Status said = say(html + "\n");
@@ -75,13 +76,17 @@ void add_report(CLI::App& app, int& exit_code) {
     struct Options {
         std::vector<std::string> sessions;
         std::string html;
+        bool overview = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* report =
         app.add_subcommand("report", "A page that shows one session, or how several attempts compare");
     report->add_option("session", options->sessions, "Session files, oldest first")->required();
     report->add_option("--html", options->html, "Page to write")->required();
-    report->callback([options, &exit_code] { exit_code = run_report(options->sessions, options->html); });
+    report->add_flag("--overview", options->overview, "Of several sessions only how they compare");
+    report->callback([options, &exit_code] {
+        exit_code = run_report(options->sessions, options->html, options->overview);
+    });
 }
 
 void add_export(CLI::App& app, int& exit_code) {

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "game/report/guiding_study.hpp"
 #include "game/report/html.hpp"
 #include "game/report/plot.hpp"
 #include "game/report/section.hpp"
@@ -88,6 +89,30 @@ std::string percent(double share) {
     return std::isfinite(share) ? number(100.0 * share, 1) + " %" : number(share, 1);
 }
 
+std::string attempts_table(std::span<const Attempt> attempts, bool alone) {
+    std::string out =
+        "<div class=\"scroll\"><table><thead><tr><th "
+        "class=\"n\">#</th><th>assembly</th><th>task</th><th>variant</th><th>operator</th><th>mode</th>"
+        "<th>law</th><th class=\"n\">seed</th><th class=\"n\">score</th><th class=\"n\">joints OK</th>"
+        "<th class=\"n\">mean |torque<br/>error|</th><th class=\"n\">duration</th></tr></thead><tbody>\n";
+    for (std::size_t i = 0; i < attempts.size(); ++i) {
+        const Attempt& a = attempts[i];
+        const std::string number_text =
+            alone ? fmt::format("{}", i + 1) : fmt::format("<a href=\"#session-{0}\">{0}</a>", i + 1);
+        fmt::format_to(
+            std::back_inserter(out),
+            "<tr><td class=\"n\">{0}</td><td class=\"w\">{1}</td><td>{2}</td>"
+            "<td>{3}</td><td>{4}</td><td>{5}{6}</td><td>{7}</td><td class=\"n\">{8}</td>"
+            "<td class=\"n\">{9}</td><td class=\"n\">{10} <span class=\"of\">of {11}</span></td>"
+            "<td class=\"n\">{12}</td><td class=\"n\">{13}</td></tr>\n",
+            number_text, escape(a.title), escape(a.task), escape(a.variant), escape(a.operator_name),
+            escape(a.mode + (a.mode == "guided" && !a.guided ? ", no force" : "")),
+            a.complete ? "" : " (cut short)", escape(a.law), a.seed, number(a.score, 1), a.summary.ok,
+            a.summary.joints, percent(a.summary.mean_torque_error), duration_text(a.duration));
+    }
+    return out + "</tbody></table></div>\n";
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> attempts) {
@@ -116,33 +141,39 @@ Attempt attempt_of(const SessionData& session) {
     a.variant = session.header.variant;
     a.seed = session.header.seed;
     a.complete = session.complete;
+    a.finished = session.finished;
     a.score = session.score;
     a.duration = session.duration;
     a.summary = summarise(session);
+
+    const Feel& feel = session.feel;
+    constexpr double unknown = Moment::nan;
+    a.guided = feel.guided;
+    a.obstacles = feel.obstacles;
+    a.simulated = session.header.operator_name != "person";
+    std::vector<double> waited, placing;
+    for (const Arrival& arrival : feel.arrivals)
+        if (arrival.wrench) {
+            waited.push_back(arrival.waited);
+            placing.push_back(arrival.placing);
+        }
+    a.to_nut = quartiles(std::move(waited)).median;
+    a.near_nut = quartiles(std::move(placing)).median;
+    a.bumps = feel.recorded ? static_cast<double>(feel.bumps.size()) : unknown;
+    a.bump_time = feel.recorded ? 0.0 : unknown;
+    for (const Bump& bump : feel.bumps) a.bump_time += bump.length;
+    const double greatest = feel.device ? feel.device->force : unknown;
+    a.greatest_change = feel.force.greatest / greatest;
+    a.usual_change = feel.force.p99 / greatest;
     return a;
 }
 
-std::string attempts_section(std::span<const Attempt> attempts) {
+std::string attempts_section(std::span<const Attempt> attempts, bool alone) {
     std::string out = fmt::format("<p class=\"over\">Boltwright training report</p>\n<h1>{} attempts</h1>\n",
                                   attempts.size());
-    out +=
-        "<div class=\"scroll\"><table><thead><tr><th "
-        "class=\"n\">#</th><th>assembly</th><th>task</th><th>variant</th><th>operator</th><th>mode</th>"
-        "<th>law</th><th class=\"n\">seed</th><th class=\"n\">score</th><th class=\"n\">joints OK</th>"
-        "<th class=\"n\">mean |torque<br/>error|</th><th class=\"n\">duration</th></tr></thead><tbody>\n";
-    for (std::size_t i = 0; i < attempts.size(); ++i) {
-        const Attempt& a = attempts[i];
-        fmt::format_to(
-            std::back_inserter(out),
-            "<tr><td class=\"n\"><a href=\"#session-{0}\">{0}</a></td><td class=\"w\">{1}</td><td>{2}</td>"
-            "<td>{3}</td><td>{4}</td><td>{5}{6}</td><td>{7}</td><td class=\"n\">{8}</td>"
-            "<td class=\"n\">{9}</td><td class=\"n\">{10} <span class=\"of\">of {11}</span></td>"
-            "<td class=\"n\">{12}</td><td class=\"n\">{13}</td></tr>\n",
-            i + 1, escape(a.title), escape(a.task), escape(a.variant), escape(a.operator_name),
-            escape(a.mode), a.complete ? "" : " (cut short)", escape(a.law), a.seed, number(a.score, 1),
-            a.summary.ok, a.summary.joints, percent(a.summary.mean_torque_error), duration_text(a.duration));
-    }
-    out += "</tbody></table></div>\n";
+    const std::string study = guiding_study(attempts);
+    out += alone ? study + attempts_table(attempts, alone) : attempts_table(attempts, alone) + study;
+    if (alone && !study.empty()) return out;
     bool compared = false;
     for (const std::vector<std::size_t>& group : attempt_groups(attempts)) {
         if (group.size() < 2) continue;

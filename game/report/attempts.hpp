@@ -13,10 +13,17 @@ namespace bolt::report {
 struct Attempt {
     std::string assembly, title, operator_name, task, variant, law, mode;
     std::uint64_t seed = 0;
-    bool complete = true;
+    bool complete = true, finished = false;
     double score = 0.0;
     double duration = 0.0;  // s
     Summary summary;
+
+    // Of what was felt; NaN where it is not known.
+    bool guided = false, obstacles = false, simulated = true;
+    double to_nut = 0.0, near_nut = 0.0;  // s with the wrench, medians over the steps
+    double bumps = 0.0, bump_time = 0.0;  // count, s
+    // Of the force in a millisecond, as shares of the device's greatest; the latter the 99th percentile.
+    double greatest_change = 0.0, usual_change = 0.0;
 };
 Attempt attempt_of(const SessionData& session);
 
@@ -24,7 +31,8 @@ Attempt attempt_of(const SessionData& session);
 // each.
 std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> attempts);
 
-// The table, and the learning curves of every group of at least two attempts, as HTML.
-std::string attempts_section(std::span<const Attempt> attempts);
+// As HTML: the table, what guiding did (guiding_study.hpp), and the learning curves of every group of at
+// least two attempts. Alone on its page it names no sections to go to, and a study has no learning curves.
+std::string attempts_section(std::span<const Attempt> attempts, bool alone = false);
 
 }  // namespace bolt::report

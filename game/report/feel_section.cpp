@@ -24,6 +24,14 @@ std::string share_of(double change, double greatest) {
     return greatest > 0.0 ? fmt::format(" ({}\u00a0%)", number(100.0 * change / greatest, 1)) : "";
 }
 
+std::string evenness_mark(const Feel& f) {
+    if (f.force.above > 0)
+        return fmt::format("<span class=\"v vh\">▲ jerked {}</span> ", times(f.force.above));
+    if (f.force.at_limit > 0)
+        return fmt::format("<span class=\"v vl\">▲ held back {}</span> ", times(f.force.at_limit));
+    return "<span class=\"v vo\">✓ even</span> ";
+}
+
 void put_evenness(std::string& out, const SessionData& s) {
     const Feel& f = s.feel;
     const double greatest = f.device ? f.device->force : 0.0;
@@ -32,19 +40,14 @@ void put_evenness(std::string& out, const SessionData& s) {
         return;
     }
     put(out,
-        "<p>{}From one millisecond to the next the force on the hand changed by {}\u00a0N{} at most, and in "
-        "99\u00a0% "
-        "of the time by less than {}\u00a0N{}.",
-        greatest <= 0.0      ? ""
-        : f.force.above == 0 ? "<span class=\"v vo\">✓ even</span> "
-                             : fmt::format("<span class=\"v vh\">▲ jerked {}</span> ", times(f.force.above)),
-        number(f.force.greatest, 2), share_of(f.force.greatest, greatest), number(f.force.p99, 3),
-        share_of(f.force.p99, greatest));
+        "<p>{}From one millisecond to the next the force on the hand changed by {}\u00a0N{} at most, in "
+        "99\u00a0% of the time by less than {}\u00a0N{}.",
+        greatest > 0.0 ? evenness_mark(f) : "", number(f.force.greatest, 2),
+        share_of(f.force.greatest, greatest), number(f.force.p99, 3), share_of(f.force.p99, greatest));
     if (greatest > 0.0)
         put(out,
             " Percentages are of the {}\u00a0N that the device can give; more than 10\u00a0% in a "
-            "millisecond "
-            "is felt as a jerk.",
+            "millisecond is felt as a jerk.",
             number(greatest, 0));
     if (f.force.at_limit > 0)
         put(out,

@@ -14,30 +14,31 @@ struct Pages {
     std::vector<Attempt> attempts;
     std::string sections;
 
-    void add(const SessionData& session, bool alone) {
+    void add(const SessionData& session, bool alone, Extent extent = Extent::everything) {
         attempts.push_back(attempt_of(session));
-        sections += session_section(session, alone ? 0 : attempts.size());
+        if (alone || extent == Extent::everything)
+            sections += session_section(session, alone ? 0 : attempts.size());
     }
 
-    [[nodiscard]] std::string finish() const {
+    [[nodiscard]] std::string finish(Extent extent = Extent::everything) const {
         if (attempts.size() == 1) return page(attempts.front().title + " – training report", sections);
         return page(fmt::format("{} attempts – training report", attempts.size()),
-                    attempts_section(attempts) + sections);
+                    attempts_section(attempts, extent == Extent::overview) + sections);
     }
 };
 
 }  // namespace
 
-Result<std::string> make_report(std::span<const record::Reader* const> sessions) {
+Result<std::string> make_report(std::span<const record::Reader* const> sessions, Extent extent) {
     if (sessions.empty())
         return fail(ErrorCode::usage, "no session was given to report", "one or more session files");
     Pages pages;
     for (const record::Reader* session : sessions) {
         const Result<SessionData> data = read_session(*session);
         if (!data) return fail(data.error());
-        pages.add(*data, sessions.size() == 1);
+        pages.add(*data, sessions.size() == 1, extent);
     }
-    return pages.finish();
+    return pages.finish(extent);
 }
 
 std::string make_report(std::span<const SessionData> sessions) {

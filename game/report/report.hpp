@@ -2,6 +2,7 @@
 // else.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -11,8 +12,12 @@
 
 namespace bolt::report {
 
+// `overview`: of several sessions only how they compare.
+enum class Extent : std::uint8_t { everything, overview };
+
 // Sessions in the order given; at least one. Holds one session's curves at a time.
-Result<std::string> make_report(std::span<const record::Reader* const> sessions);
+Result<std::string> make_report(std::span<const record::Reader* const> sessions,
+                                Extent extent = Extent::everything);
 
 // The same from data that was read already.
 std::string make_report(std::span<const SessionData> sessions);

@@ -85,6 +85,8 @@ check "the same seed gives the same session, byte by byte, as CSV" bash -c "
     '$bin/boltwright' export b/session.boltwright --csv - | sha256sum > b.sum && cmp a.sum b.sum"
 expect 0 'report2.html' "$bin/boltwright" report a/session.boltwright b/session.boltwright --html report2.html
 check "two sessions make one page" grep -q '<html' report2.html
+expect 0 'study.html' env BIN="$bin" SEEDS=1 TRAINEES=clumsy JOBS=1 bash "$sources/tools/study.sh" "$work/study" cover-m8
+check "a study compares, and says of whom" bash -c "grep -q 'With and without guiding' study/study.html && grep -q 'are simulated' study/study.html"
 expect 0 '' "$bin/boltwright" export a/session.boltwright --csv ticks.csv
 check "a row a tick, and a header" bash -c '[[ $(wc -l < ticks.csv) -gt 300000 ]] && head -1 ticks.csv | grep -q wrench_torque_Nm'
 expect 1 'full|written' bash -c "'$bin/boltwright' export a/session.boltwright --csv - > /dev/full"

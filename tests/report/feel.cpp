@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "game/record/device_text.hpp"
+#include "game/report/attempts.hpp"
 #include "game/report/feel_section.hpp"
+#include "game/report/guiding_study.hpp"
 #include "game/report/html.hpp"
 #include "haptics/servo/touch.hpp"
 #include "tests/report/synthetic.hpp"
@@ -153,6 +155,8 @@ TEST_CASE("the page says all of it in words, and what an old session does not te
     CHECK(has("Wake-up, compute and period: none"));
     session.feel.timing.emplace();
     servo::add(session.feel.timing->wake_up, 12'000);
+    session.feel.force.at_limit = 2;
+    CHECK(feel_section(session).find("▲ held back 2 times") != std::string::npos);
     session.feel.force.above = 3;
     html = feel_section(session);
     CHECK(markup_fault(page("t", html)) == "");
@@ -163,4 +167,41 @@ TEST_CASE("the page says all of it in words, and what an old session does not te
     CHECK(has("older format"));
     session.feel = {};
     CHECK(feel_section(session).empty());
+}
+
+TEST_CASE("a study sets lessons beside each other that differ in the guiding and the seed only") {
+    std::vector<Attempt> attempts;
+    for (int i = 0; i < 8; ++i) {
+        Attempt a = attempt_of(synthetic_session({}).data);
+        a.guided = i % 2 == 0;
+        a.seed = static_cast<std::uint64_t>(i / 2);
+        a.duration = (a.guided ? 60.0 : 120.0) + 6.0 * i;
+        a.bumps = i;
+        a.finished = i != 7;
+        attempts.push_back(a);
+    }
+    attempts.push_back(attempts.front());
+    attempts.back().operator_name = "clumsy";  // only guided: nothing to set beside it
+    const std::string html = guiding_study(attempts);
+    CHECK(markup_fault(page("t", html)) == "");
+    const auto count = [&](std::string_view part) {
+        int n = 0;
+        for (std::size_t at = html.find(part); at != std::string::npos; at = html.find(part, at + 1)) ++n;
+        return n;
+    };
+    CHECK(count("<h2>") == 1);
+    CHECK(count("These trainees are simulated") == 1);
+    CHECK(count("n = 4 guided and 4 not guided; finished: 4 and 3.") == 1);
+    CHECK(count("1.30 <span class=\"of\">(1.15 to 1.45)</span>") == 1);  // 60, 72, 84, 96 s
+    CHECK(count("4.0 <span class=\"of\">(2.5 to 5.5)</span>") == 1);     // 1, 3, 5, 7
+    CHECK(count("class=\"mpeak\"") == 4 * count("<svg"));
+    const std::string overview = attempts_section(attempts, true);
+    CHECK(overview.find("Learning curve") == std::string::npos);
+    CHECK(overview.find("#session-") == std::string::npos);
+    CHECK(attempts_section(attempts).find("Learning curve") != std::string::npos);
+    for (Attempt& a : attempts) a.guided = true;
+    CHECK(guiding_study(attempts).empty());
+    attempts.front().guided = false;
+    for (Attempt& a : attempts) a.simulated = false;
+    CHECK(guiding_study(attempts).find("simulated") == std::string::npos);
 }

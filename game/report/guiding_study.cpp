@@ -1,0 +1,154 @@
+#include "game/report/guiding_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+#include "game/report/html.hpp"
+#include "game/report/svg.hpp"
+#include "game/report/text.hpp"
+
+namespace bolt::report {
+
+namespace {
+
+template <class... Values>
+void put(std::string& out, fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
+}
+
+struct Measure {
+    std::string_view name, unit;
+    double Attempt::*value;
+    double scale;
+    int decimals;
+};
+
+constexpr Measure measures[] = {
+    {"Time to get onto the nut", "s, median over the steps", &Attempt::to_nut, 1.0, 2},
+    {"Of that, near the nut", "s, median over the steps", &Attempt::near_nut, 1.0, 2},
+    {"Bumps", "in a lesson", &Attempt::bumps, 1.0, 1},
+    {"Time against something", "s in a lesson", &Attempt::bump_time, 1.0, 2},
+    {"Duration of the lesson", "min", &Attempt::duration, 1.0 / 60.0, 2},
+    {"Score", "points", &Attempt::score, 1.0, 1},
+    {"Largest change of force in 1 ms", "% of the device's greatest", &Attempt::greatest_change, 100.0, 2},
+    {"Usual change of force in 1 ms", "% of the device's greatest, 99th percentile", &Attempt::usual_change,
+     100.0, 3},
+};
+
+using Group = std::vector<const Attempt*>;
+
+std::vector<double> values_of(const Group& group, const Measure& measure) {
+    std::vector<double> values;
+    for (const Attempt* a : group) {
+        const double value = a->*measure.value * measure.scale;
+        if (std::isfinite(value)) values.push_back(value);
+    }
+    return values;
+}
+
+// Dots that would cover each other stand on top of each other, within the row.
+void draw_row(Svg& svg, const std::vector<double>& values, const Scale& x, double left, double middle,
+              std::string_view dot) {
+    constexpr double radius = 2.6, room = 11.0;
+    const Quartiles q = quartiles(values);
+    if (q.n == 0) return;
+    svg.rect({left + x(q.low), middle - room, x(q.high) - x(q.low), 2.0 * room}, "bf", 2.0);
+    svg.line({left + x(q.median), middle - room - 2.0}, {left + x(q.median), middle + room + 2.0}, "me1");
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<Point> drawn;
+    for (const double value : sorted) {
+        Point p{left + x(value), middle};
+        for (int step = 1; step < 9; ++step) {
+            const bool covered = std::any_of(drawn.begin(), drawn.end(), [&](const Point& d) {
+                return std::hypot(d.x - p.x, d.y - p.y) < 2.0 * radius;
+            });
+            if (!covered) break;
+            p.y = middle + (step % 2 == 1 ? 1.0 : -1.0) * std::ceil(0.5 * step) * radius;
+        }
+        drawn.push_back(p);
+        svg.circle(p, radius, dot);
+    }
+}
+
+std::string strip_plot(const Group& with, const Group& without, const Measure& measure) {
+    const std::vector<double> a = values_of(with, measure), b = values_of(without, measure);
+    if (a.empty() || b.empty()) return {};
+    const double high =
+        std::max(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
+    constexpr double width = 460.0, height = 112.0, left = 82.0, right = 22.0;
+    const Ticks ticks = covering_ticks(0.0, high * (1.0 + 1e-6), 5);
+    const Scale x{ticks.range, width - left - right, false};
+    Svg svg(width, height, fmt::format("{}, {}, with and without guiding", measure.name, measure.unit));
+    for (const double at : ticks.at) {
+        svg.line({left + x(at), 4.0}, {left + x(at), 80.0}, "gr");
+        svg.text({left + x(at), 93.0}, "tk mid", number(at, ticks.decimals));
+    }
+    svg.text({left - 8.0, 26.0}, "lb end", "guided");
+    svg.text({left - 8.0, 64.0}, "lb end", "not guided");
+    draw_row(svg, a, x, left, 22.0, "mpeak");
+    draw_row(svg, b, x, left, 60.0, "mclamp");
+    svg.text({left + 0.5 * x.length, 106.0}, "sm mid", measure.unit);
+    return figure(fmt::format("<h3>{}</h3>", measure.name), svg.finish(), "");
+}
+
+std::string quartile_text(const Quartiles& q, int decimals) {
+    return fmt::format("{} <span class=\"of\">({} to {})</span>", number(q.median, decimals),
+                       number(q.low, decimals), number(q.high, decimals));
+}
+
+std::string part(const Group& with, const Group& without) {
+    const Attempt& first = *with.front();
+    std::string out;
+    put(out, "<h2>With and without guiding: {}, {}{}</h2>\n", escape(first.title),
+        escape(first.operator_name), first.obstacles ? "" : ", without obstacles");
+    const auto finished = [](const Group& group) {
+        return std::count_if(group.begin(), group.end(), [](const Attempt* a) { return a->finished; });
+    };
+    put(out, "<p>{}n = {} guided and {} not guided; finished: {} and {}.</p>\n",
+        first.simulated
+            ? "<strong>These trainees are simulated:</strong> this shows what the program does to a model of "
+              "a hand, not what it does to people. "
+            : "",
+        with.size(), without.size(), finished(with), finished(without));
+    out +=
+        "<div class=\"scroll\"><table><thead><tr><th>median (quartiles)</th><th class=\"n\">guided</th><th "
+        "class=\"n\">not guided</th></tr></thead><tbody>\n";
+    for (const Measure& m : measures) {
+        const Quartiles a = quartiles(values_of(with, m)), b = quartiles(values_of(without, m));
+        if (a.n + b.n == 0) continue;
+        put(out, "<tr><td class=\"w\">{}, {}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+            m.name, m.unit, quartile_text(a, m.decimals), quartile_text(b, m.decimals));
+    }
+    out += "</tbody></table></div>\n<div class=\"grid\">\n";
+    for (const Measure& m : measures) out += strip_plot(with, without, m);
+    return out +
+           "</div>\n<p class=\"note\">Each dot is a lesson; the box is from the lower to the upper quartile "
+           "(type 7), the line is the median.</p>\n";
+}
+
+}  // namespace
+
+std::string guiding_study(std::span<const Attempt> attempts) {
+    const auto key = [](const Attempt& a) {
+        return std::tie(a.assembly, a.title, a.task, a.variant, a.law, a.mode, a.operator_name, a.obstacles);
+    };
+    std::string out;
+    Group seen;
+    for (const Attempt& attempt : attempts) {
+        const auto alike = [&](const Attempt* other) { return key(*other) == key(attempt); };
+        if (std::any_of(seen.begin(), seen.end(), alike)) continue;
+        seen.push_back(&attempt);
+        Group with, without;
+        for (const Attempt& a : attempts)
+            if (a.complete && alike(&a)) (a.guided ? with : without).push_back(&a);
+        if (!with.empty() && !without.empty()) out += part(with, without);
+    }
+    return out;
+}
+
+}  // namespace bolt::report
