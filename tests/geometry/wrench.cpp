@@ -33,7 +33,8 @@ Machine walled(double swing_deg, double low, double high) {
 
 std::string at_joint(const std::string& text) { return "16:5: /joints/0: " + text; }
 
-const content::WrenchDesign design{jaw * mm, to_radians(15.0), 140.0 * mm, {}};
+const content::WrenchDesign design{
+    .jaw = jaw * mm, .head_angle = to_radians(15.0), .handle_length = 140.0 * mm, .model = {}};
 
 }  // namespace
 
@@ -160,7 +161,8 @@ TEST_CASE("a corner at the end of the world does not keep the checks from ending
 
 TEST_CASE("an author's wrench is measured: its jaw, its place, its units") {
     const auto model_of = [](double opening, double shift, double scale, bool lies) {
-        const content::WrenchDesign other{opening * mm, to_radians(15.0), 140.0 * mm, {}};
+        const content::WrenchDesign other{
+            .jaw = opening * mm, .head_angle = to_radians(15.0), .handle_length = 140.0 * mm, .model = {}};
         Shape shape;
         for (const geometry::Triangle& t : geometry::plain_wrench(other).triangles) {
             const auto base = static_cast<std::uint32_t>(shape.points.size());
