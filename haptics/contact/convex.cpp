@@ -10,10 +10,11 @@
 namespace bolt::contact {
 namespace {
 
-constexpr double same = 1e-9;             // m: points closer than this are one
-constexpr double flush = 0.985;           // cos 10°: faces turned less count as lying on each other
-constexpr double by_a_little = 1e-12;     // m: among equals a face goes before edges
-constexpr double parallel = 1e-12;        // of the squared sine between edges
+constexpr double same = 1e-9;          // m: points closer than this are one
+constexpr double flush = 0.985;        // cos 10°: faces turned less count as lying on each other
+constexpr double by_a_little = 1e-12;  // m: among equals a face goes before edges
+constexpr double parallel = 1e-12;     // of the squared sine between edges
+constexpr std::uint32_t none = ~0U;
 constexpr std::size_t most_points = 64;   // of a solid
 constexpr std::size_t most_corners = 32;  // of a face that was cut by another
 
@@ -67,6 +68,24 @@ void add_face(const HalfSpace& plane, Convex& solid) {
     solid.faces.push_back({plane, begin, static_cast<std::uint32_t>(solid.loops.size())});
 }
 
+// Edges that are parallel point the same way and follow each other.
+void sort_by_direction(Convex& solid) {
+    std::vector<Vec3>& directions = solid.directions;
+    for (ConvexEdge& e : solid.edges) {
+        const Vec3 along = glm::normalize(solid.points[e.to] - solid.points[e.from]);
+        e.direction = 0;
+        while (e.direction < directions.size() &&
+               std::abs(glm::dot(along, directions[e.direction])) < 1.0 - 1e-12)
+            ++e.direction;
+        if (e.direction == directions.size()) directions.push_back(along);
+        if (glm::dot(along, directions[e.direction]) > 0.0) continue;
+        std::swap(e.from, e.to);
+        std::swap(e.left, e.right);
+    }
+    std::stable_sort(solid.edges.begin(), solid.edges.end(),
+                     [](const ConvexEdge& a, const ConvexEdge& b) { return a.direction < b.direction; });
+}
+
 std::span<const std::uint32_t> loop_of(const Convex& solid, std::uint32_t face) {
     const ConvexFace& f = solid.faces[face];
     return {solid.loops.data() + f.begin, f.end - f.begin};
@@ -90,20 +109,35 @@ struct Placed {
 };
 
 double least_along(std::span<const Vec3> points, const Vec3& n) {
-    double least = glm::dot(points[0], n);
-    for (const Vec3& p : points) least = std::min(least, glm::dot(p, n));
-    return least;
+    // Four at a time: one minimum need not wait for the other.
+    std::array<double, 4> least;
+    least.fill(glm::dot(points[0], n));
+    std::size_t i = 0;
+    for (; i + 4 <= points.size(); i += 4)
+        for (std::size_t k = 0; k < 4; ++k) least[k] = std::min(least[k], glm::dot(points[i + k], n));
+    for (; i < points.size(); ++i) least[0] = std::min(least[0], glm::dot(points[i], n));
+    return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
 }
 
 // Which edges of the obstacle point along `n`.
 EdgeSet pointing(const Convex& obstacle, const Vec3& n) {
     EdgeSet set{};
-    for (std::size_t k = 0; k < obstacle.edges.size(); ++k) {
-        const ConvexEdge& e = obstacle.edges[k];
-        const bool points = glm::dot(n, obstacle.points[e.to] - obstacle.points[e.from]) > 0.0;
-        set[k / 64] |= std::uint64_t{points} << (k % 64);
+    for (std::size_t d = 0; d < obstacle.directions.size(); ++d) {
+        const std::uint64_t all = 0 - std::uint64_t{glm::dot(n, obstacle.directions[d]) > 0.0};
+        for (std::size_t w = 0; w < 2; ++w) set[w] |= obstacle.in_direction[d][w] & all;
     }
     return set;
+}
+
+void facing_along(const Convex& obstacle, const Vec3& along, EdgeSet& left, EdgeSet& right) {
+    left = right = {};
+    for (std::size_t f = 0; f < obstacle.faces.size(); ++f) {
+        const std::uint64_t all = 0 - std::uint64_t{glm::dot(obstacle.faces[f].plane.normal, along) > 0.0};
+        for (std::size_t w = 0; w < 2; ++w) {
+            left[w] |= obstacle.left_of[f][w] & all;
+            right[w] |= obstacle.right_of[f][w] & all;
+        }
+    }
 }
 
 void try_pair(const Placed& tool, std::uint32_t i, const Convex& obstacle, std::uint32_t k,
@@ -115,8 +149,11 @@ void try_pair(const Placed& tool, std::uint32_t i, const Convex& obstacle, std::
     Vec3 n = glm::cross(along, other);
     const double square_length = glm::dot(n, n);
     if (square_length < parallel * glm::dot(along, along) * glm::dot(other, other)) return;
-    n /= std::sqrt(square_length);
     if (glm::dot(n, q - obstacle.middle) < 0.0) n = -n;
+    // Most are no better, and seen to be so without a root.
+    const double scaled = glm::dot(n, p - q);
+    if (scaled * std::abs(scaled) < best.distance * std::abs(best.distance) * square_length) return;
+    n /= std::sqrt(square_length);
     const double distance = glm::dot(n, p - q);
     if (distance > best.distance + by_a_little) best = {distance, n, Separation::Kind::edges, k, i};
 }
@@ -128,19 +165,16 @@ void try_edges(const Placed& tool, const Convex& obstacle, Separation& best) {
     std::array<EdgeSet, most_points> along_normal;  // by face of the tool
     for (std::size_t t = 0; t < tool.solid->faces.size(); ++t)
         along_normal[t] = pointing(obstacle, tool.normals[t]);
+    EdgeSet left{}, right{};  // edges whose face on that side looks along the one at hand
+    std::uint32_t known = none;
     for (std::uint32_t i = 0; i < tool.solid->edges.size(); ++i) {
         const ConvexEdge& e = tool.solid->edges[i];
         const EdgeSet &a = along_normal[e.left], &b = along_normal[e.right];
         EdgeSet parted{a[0] ^ b[0], a[1] ^ b[1]};
         if ((parted[0] | parted[1]) == 0) continue;
-        const Vec3 along = tool.points[e.to] - tool.points[e.from];
-        EdgeSet left{}, right{};  // edges whose face on that side looks along this one
-        for (std::size_t f = 0; f < obstacle.faces.size(); ++f) {
-            if (glm::dot(obstacle.faces[f].plane.normal, along) <= 0.0) continue;
-            for (std::size_t w = 0; w < 2; ++w) {
-                left[w] |= obstacle.left_of[f][w];
-                right[w] |= obstacle.right_of[f][w];
-            }
+        if (e.direction != known) {
+            known = e.direction;
+            facing_along(obstacle, tool.points[e.to] - tool.points[e.from], left, right);
         }
         for (std::uint32_t w = 0; w < 2; ++w) {
             std::uint64_t crossing = parted[w] & (left[w] ^ right[w]) & (left[w] ^ b[w]);
@@ -227,11 +261,14 @@ Convex make_convex(std::span<const HalfSpace> half_spaces) {
         }
     }
     assert(solid.edges.size() <= most_edges);
+    sort_by_direction(solid);
     solid.left_of.assign(solid.faces.size(), {});
     solid.right_of.assign(solid.faces.size(), {});
+    solid.in_direction.assign(solid.directions.size(), {});
     for (std::size_t k = 0; k < solid.edges.size(); ++k) {
         solid.left_of[solid.edges[k].left][k / 64] |= std::uint64_t{1} << (k % 64);
         solid.right_of[solid.edges[k].right][k / 64] |= std::uint64_t{1} << (k % 64);
+        solid.in_direction[solid.edges[k].direction][k / 64] |= std::uint64_t{1} << (k % 64);
     }
     for (const Vec3& p : solid.points) solid.middle += p / static_cast<double>(solid.points.size());
     for (const Vec3& p : solid.points) solid.radius = std::max(solid.radius, glm::distance(p, solid.middle));

@@ -30,6 +30,7 @@ struct ConvexFace {
 struct ConvexEdge {
     std::uint32_t from = 0, to = 0;     // points
     std::uint32_t left = 0, right = 0;  // faces
+    std::uint32_t direction = 0;        // the same for edges that point the same way; edges are in its order
 };
 
 // A set of a solid's edges.
@@ -42,6 +43,8 @@ struct Convex {
     std::vector<ConvexEdge> edges;
     std::vector<std::uint32_t> loops;
     std::vector<EdgeSet> left_of, right_of;  // by face: the edges that have it on that side
+    std::vector<Vec3> directions;            // that edges have
+    std::vector<EdgeSet> in_direction;       // and which
     Vec3 middle{0.0};
     double radius = 0.0;  // m, about the middle
 };
