@@ -210,6 +210,12 @@ void observe(Lesson& lesson, const servo::State& state, const servo::Output& out
     if (lesson.held >= 0 && (output.joint != lesson.held || other_grip)) release(lesson, state);
     if (output.joint >= 0 && lesson.held < 0) take(lesson, output.joint, state.engagement.grip, state);
     if (lesson.held >= 0) watch(lesson, static_cast<std::size_t>(lesson.held), state, output);
+    if (output.slipped >= 0) {
+        const std::string& id = lesson.joints[static_cast<std::size_t>(output.slipped)].result.id;
+        say(lesson, state.tick, "mistake", output.slipped, output.rounded,
+            fmt::format("{}: the wrench slipped, {:.2f} mm of the nut's corners are gone", id,
+                        1e3 * output.rounded));
+    }
     hand_in(lesson, state);
     // A broken bolt is never tight: its step cannot be done, and the lesson goes on to the next.
     const Step* due = lesson.due();

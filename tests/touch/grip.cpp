@@ -1,9 +1,11 @@
 // The wrench on the nut as contact and corners have it: play, tilt, which ways it comes off, slipping and
 // taking hold again. On the M8 cover and the ZQ350 with their own wrenches.
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "engine/base/random.hpp"
+#include "game/lesson/lesson.hpp"
 #include "haptics/joint/corner.hpp"
 #include "haptics/servo/jaw_grip.hpp"
 #include "tests/touch/support.hpp"
@@ -212,12 +214,18 @@ TEST_CASE(
     const double stood = bench.state.joints[0].nut.angle;
     const int first = 900;
     double most = 0.0, lost = 0.0;
+    lesson::Lesson lesson = lesson::begin(bench.assembly, lesson::Mode::guided, lesson::Task::tighten);
+    std::string said;
     int slipped_at = -1, again_at = -1;
     Watch way;
     for (int i = 1; i <= 2 * first; ++i) {  // 90 degrees at 50 degrees a second
         const double angle = to_radians(0.05) * i;
         const Output o = bench.step(turned(on, nut.axis, -angle));
         way(bench, o);
+        lesson::observe(lesson, bench.state, o);
+        for (const lesson::Event& event : lesson.events)
+            if (event.text.find("slipped") != std::string::npos) said = event.text;
+        lesson.events.clear();
         most = std::max(most, o.wrench_torque);
         if (o.slipped == 0) {
             CHECK(o.rounded > 0.0);
@@ -228,6 +236,7 @@ TEST_CASE(
     }
     CHECK(most == doctest::Approx(bears).epsilon(0.1));
     REQUIRE(slipped_at > 0);
+    CHECK(said.find("B1: the wrench slipped, 0.") == 0);
     CHECK(lost > 1e-6);
     CHECK(lost < side);
     CHECK(bench.state.rounded[0] >= lost);
