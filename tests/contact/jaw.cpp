@@ -59,8 +59,12 @@ Vec3 any_direction(Random& random) {
 TEST_CASE("the solids are what they are made of") {
     const Pair p;
     // Euler: corners - edges + faces.
-    for (const Convex* solid : {&p.parts[0], &p.parts[1], &p.parts[2], &p.nut})
+    for (const Convex* solid : {&p.parts[0], &p.parts[1], &p.parts[2], &p.nut}) {
+        CHECK(solid->edges.size() <= most_edges);
+        CHECK(solid->faces.size() <= 64);
+        CHECK(solid->points.size() <= 64);
         CHECK(solid->points.size() + solid->faces.size() == solid->edges.size() + 2);
+    }
     // A prism with twelve-sided ends: the flats' tops are at the cone, lowest at the corners.
     double highest_corner = 0.0;
     for (const Vec3& q : p.nut.points)

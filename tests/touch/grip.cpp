@@ -46,11 +46,17 @@ struct Watch {
         if (o.slipped >= 0) ++slips;
         const Touch& t = *bench.state.touch;
         for (std::size_t i = 0; i < t.hexagons.size() && t.in_hand; ++i) {
-            if (static_cast<int>(i) == t.around) continue;  // its hexagon turns with the jaw
+            Pose to_nut = inverse(t.places[i]) * t.god_object.tool;
+            if (static_cast<int>(i) == t.around) {  // its hexagon turns with the jaw beyond the play
+                const contact::Jaw& jaw = bench.setup.wrench.jaw;
+                const NutPlace& nut = bench.setup.nuts[i];
+                const double play = joint::rounded_half_play(jaw.opening, nut.across_flats, 0.0);
+                const double off = contact::seat_of(jaw, prism_of(nut), to_nut).misalignment;
+                const Quat back = glm::angleAxis(off - std::clamp(off, -play, play), Vec3(0, 0, 1));
+                to_nut = Pose{Vec3(0.0), back} * to_nut;
+            }
             for (const contact::Convex& part : t.jaw)
-                deepest = std::min(deepest, contact::separation(part, t.hexagons[i],
-                                                                inverse(t.places[i]) * t.god_object.tool, 0.1)
-                                                .distance);
+                deepest = std::min(deepest, contact::separation(part, t.hexagons[i], to_nut, 0.1).distance);
         }
         last = o;
     }
