@@ -11,6 +11,7 @@
 #include "game/report/guiding_study.hpp"
 #include "game/report/html.hpp"
 #include "game/report/plot.hpp"
+#include "game/report/quartiles.hpp"
 #include "game/report/section.hpp"
 #include "game/report/text.hpp"
 

@@ -168,20 +168,6 @@ Feel FeelBuilder::finish() {
     return std::move(feel_);
 }
 
-double quantile(std::vector<double>& sorted, double share) {
-    if (sorted.empty()) return Moment::nan;
-    const double at = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(at);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-Quartiles quartiles(std::vector<double> values) {
-    std::erase_if(values, [](double v) { return !std::isfinite(v); });
-    std::sort(values.begin(), values.end());
-    return {quantile(values, 0.25), quantile(values, 0.5), quantile(values, 0.75), values.size()};
-}
-
 std::string obstacle_text(std::int32_t id, const std::vector<record::ObstacleName>& obstacles) {
     const auto found = std::find_if(obstacles.begin(), obstacles.end(),
                                     [&](const record::ObstacleName& o) { return o.id == id; });

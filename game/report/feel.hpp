@@ -61,8 +61,8 @@ struct Feel {
     std::optional<force::OutputLimits> device;
     std::vector<Bump> bumps;  // in time
     Changes force, torque;    // N, N·m
-    std::array<std::uint64_t, doings>
-        at_limit{};               // of the force: in which ticks it changed as fast as it may
+    // Ticks in which the force changed as fast as the output stage lets it, by what was going on.
+    std::array<std::uint64_t, doings> at_limit{};
     std::vector<Moment> moments;  // the largest changes of the force, largest first
     std::vector<Arrival> arrivals;
     std::array<double, force::fault_kinds> faults{};  // s that each held the output off
@@ -106,15 +106,6 @@ class FeelBuilder {
     bool in_bump_ = false;
     std::vector<float> force_changes_, torque_changes_;
 };
-
-// Sorted into three by the quartiles of type 7 (Hyndman and Fan, Am. Stat. 50 (1996) 361; NumPy's and R's
-// default).
-struct Quartiles {
-    double low = Moment::nan, median = Moment::nan, high = Moment::nan;
-    std::size_t n = 0;
-};
-Quartiles quartiles(std::vector<double> values);
-double quantile(std::vector<double>& sorted, double share);
 
 Doing doing(const Moment& moment);
 

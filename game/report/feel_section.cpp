@@ -7,6 +7,7 @@
 #include <map>
 
 #include "game/report/html.hpp"
+#include "game/report/quartiles.hpp"
 #include "game/report/text.hpp"
 
 namespace bolt::report {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "game/report/html.hpp"
+#include "game/report/quartiles.hpp"
 #include "game/report/svg.hpp"
 #include "game/report/text.hpp"
 

@@ -8,6 +8,7 @@
 #include "game/report/feel_section.hpp"
 #include "game/report/guiding_study.hpp"
 #include "game/report/html.hpp"
+#include "game/report/quartiles.hpp"
 #include "haptics/servo/touch.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
