@@ -1,9 +1,12 @@
 // Lessons among obstacles: simulated trainees see them, reach round, bump, are guided and slide on.
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include "game/lesson/lesson.hpp"
 #include "game/operators/operator.hpp"
+#include "game/play/train.hpp"
+#include "game/record/device_text.hpp"
 #include "tests/touch/support.hpp"
 
 using namespace bolt;
@@ -22,8 +25,9 @@ struct Played {
     std::uint64_t faults = 0;  // of the watchdog
 };
 
-Played play_through(test::Workbench& bench, const char* trainee, std::uint64_t seed, lesson::Mode mode) {
-    lesson::Lesson lesson = lesson::begin(bench.assembly, mode, lesson::Task::tighten);
+Played play_through(test::Workbench& bench, const char* trainee, std::uint64_t seed, bool guides = true) {
+    lesson::Lesson lesson = lesson::begin(bench.assembly, lesson::Mode::guided, lesson::Task::tighten);
+    lesson.guides = guides;
     operators::Operator hand(operators::find_profile(trainee).value(), seed, bench.setup);
     Played played;
     Output before;
@@ -53,7 +57,7 @@ Played play_through(test::Workbench& bench, const char* trainee, std::uint64_t s
 TEST_CASE("trainees finish a lesson among obstacles, and no tick shocks the hand") {
     for (const std::string trainee : {"expert", "clumsy"}) {
         test::Workbench bench("cover-m8");
-        const Played played = play_through(bench, trainee.c_str(), 3, lesson::Mode::guided);
+        const Played played = play_through(bench, trainee.c_str(), 3);
         MESSAGE(trainee << ": " << played.seconds << " s, " << played.bumps << " bumps, greatest step "
                         << played.step << " N and " << played.torque_step << " N m, " << played.slips
                         << " slips");
@@ -65,4 +69,60 @@ TEST_CASE("trainees finish a lesson among obstacles, and no tick shocks the hand
         CHECK(played.deepest > -0.1e-3);
         CHECK(played.faults == 0);
     }
+}
+
+TEST_CASE("who places badly is drawn onto the nut where a force leads, and searches where none does") {
+    double led = 0.0, alone = 0.0;
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        test::Workbench first("cover-m8"), second("cover-m8");
+        led += play_through(first, "clumsy", seed).seconds;
+        alone += play_through(second, "clumsy", seed, false).seconds;
+    }
+    MESSAGE("guided " << led << " s, not guided " << alone << " s");
+    CHECK(led < 0.95 * alone);
+}
+
+TEST_CASE("a lesson among obstacles replays from its session and the models that it names to the same bits") {
+    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-solid.boltwright";
+    const content::Loaded loaded = content::load_assembly("cover-m8");
+    REQUIRE(loaded.ok());
+    play::TrainOptions options;
+    options.trainee = operators::find_profile("novice").value();
+    options.seed = 3;
+    options.obstacles = play::Obstacles::required;
+    options.longest = 60.0;
+    REQUIRE(play::train(loaded.assembly, options, file, [](const play::Progress&) { return true; }));
+    const auto reader = record::Reader::open(file);
+    REQUIRE(reader);
+    const record::Header& header = reader->header();
+    const auto device = record::limits_of(header.device);
+    REQUIRE(device);
+    const servo::Setup setup =
+        play::make_setup(loaded.assembly, joint::Law::mechanistic, *device, header.seed, header.dt);
+    auto models = play::load_touch_models(loaded.assembly, setup);
+    REQUIRE((models && models->has_value()));
+    CHECK((*models)->files == header.obstacles);
+    CHECK((*models)->names.size() == header.obstacle_names.size());
+    servo::State state = servo::initial_state(setup);
+    state.touch = std::move((*models)->touch);
+    std::uint64_t ticks = 0, wrong = 0, touched = 0;
+    REQUIRE(reader->for_each_chunk([&](std::uint64_t, std::span<const record::TickRecord> chunk) {
+        for (const record::TickRecord& tick : chunk) {
+            const Output output = servo::tick(setup, state, record::input_of(tick));
+            const record::TickRecord again = record::make_record(record::input_of(tick), output);
+            bool same = again.nut_angle == tick.nut_angle && again.joint == tick.joint &&
+                        again.contacts == tick.contacts && again.touched == tick.touched &&
+                        again.fault == tick.fault;
+            for (int i = 0; i < 3; ++i)
+                same = same && again.force[i] == tick.force[i] && again.torque[i] == tick.torque[i];
+            ++ticks;
+            wrong += same ? 0U : 1U;
+            touched += tick.touched >= 0 ? 1U : 0U;
+        }
+    }));
+    CHECK(ticks == reader->tick_count());
+    CHECK(ticks > 50'000);
+    CHECK(touched > 200);
+    CHECK(wrong == 0);
+    std::filesystem::remove(file);
 }
