@@ -8,8 +8,9 @@
 
 namespace bolt::operators {
 
-// Of a hand that holds a wrench. Chosen, not measured: within the ranges that tests/stability tries the device
-// with, damped at 0.7 of critical. The greatest force is meant for somebody who reaches and does not lean.
+// Of a hand that holds a wrench. Chosen, not measured: within the ranges that tests/stability tries the
+// device with, damped at 0.7 of critical. The greatest force is meant for somebody who reaches and does not
+// lean.
 struct Impedance {
     double mass = 0.5;               // kg
     double damping = 17.0;           // N·s/m
