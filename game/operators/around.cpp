@@ -19,30 +19,31 @@ constexpr double cramped = 2.0;  // rad that it would rather turn away than sque
 struct Seen {
     const servo::Setup& setup;
     const servo::Touch& touch;
-    double length;       // m, of the wrench
-    double broad = 0.0;  // m, its handle's half width
+    double length;                   // m, of the wrench
+    double head = 0.0, broad = 0.0;  // m, half widths of its head and its handle
 
     Seen(const servo::Setup& s, const servo::Touch& t)
         : setup(s), touch(t), length(beyond_grip * s.wrench.handle_length) {
         for (const auto& triangle : t.wrench.solid.corners)
-            for (const glm::vec3& p : triangle)
-                if (static_cast<double>(p.x) > 0.3 * length)
-                    broad = std::max(broad, std::abs(static_cast<double>(p.y)));
+            for (const Vec3 p : triangle) {
+                double& width = p.x > 0.3 * length ? broad : head;
+                width = std::max(width, std::abs(p.y));
+            }
     }
 
     [[nodiscard]] bool way_is_free(const Pose& from, const Pose& to, const Vec3& bulge) const {
         Pose before = from;
         for (int i = 1; i <= 24; ++i) {
             const Pose pose = along(from, to, static_cast<double>(i) / 24.0, bulge);
-            for (const double part : {0.0, 0.5, 1.0}) {
-                const Vec3 reach(part * length, 0.0, 0.0);
-                if (servo::hidden(touch, before.position + before.orientation * reach,
-                                  pose.position + pose.orientation * reach, -1))
+            for (const double side : {0.0, -1.0, 1.0}) {
+                const Vec3 jaw(0.0, side * head, 0.0), middle(0.5 * length, side * broad, 0.0),
+                    end(length, side * broad, 0.0);
+                for (const Vec3& point : {jaw, middle, end})
+                    if (servo::hidden(touch, before * point, pose * point, -1)) return false;
+                if (servo::hidden(touch, pose * jaw, pose * middle, -1) ||
+                    servo::hidden(touch, pose * middle, pose * end, -1))
                     return false;
             }
-            if (servo::hidden(touch, pose.position, pose.position + pose.orientation * Vec3(length, 0, 0),
-                              -1))
-                return false;
             before = pose;
         }
         return true;
@@ -77,21 +78,32 @@ struct Seen {
 
 }  // namespace
 
-Vec3 way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
-               const Vec3& up, double least) {
+Way way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
+              const Vec3& up, double least) {
     const Seen seen(setup, touch);
-    if (seen.way_is_free(from, to, least * up)) return least * up;
+    if (seen.way_is_free(from, to, least * up)) return {least * up, {}};
     for (const double rise : rises)
-        if (rise > least && seen.way_is_free(from, to, rise * up)) return rise * up;
+        if (rise > least && seen.way_is_free(from, to, rise * up)) return {rise * up, {}};
     const Vec3 helper = std::abs(up.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
     const Vec3 e1 = glm::normalize(helper - up * glm::dot(helper, up)), e2 = glm::cross(up, e1);
+    const auto aside = [&](int eighth) {
+        return std::cos(eighth * pi / 4.0) * e1 + std::sin(eighth * pi / 4.0) * e2;
+    };
     for (const double rise : {0.1, 0.2, 0.4})
-        for (int i = 0; i < 8; ++i) {
-            const double angle = i * (pi / 4.0);
-            const Vec3 bulge = rise * (up + std::cos(angle) * e1 + std::sin(angle) * e2);
-            if (seen.way_is_free(from, to, bulge)) return bulge;
-        }
-    return rises.back() * up;
+        for (int i = 0; i < 8; ++i)
+            if (const Vec3 bulge = rise * (up + aside(i)); seen.way_is_free(from, to, bulge))
+                return {bulge, {}};
+    const Vec3 middle = 0.5 * (from.position + to.position);
+    for (const double high : {0.2, 0.5})
+        for (const double far : {0.0, 0.3, 0.6})
+            for (int i = 0; i < (far > 0.0 ? 8 : 1); ++i) {
+                const Vec3 open = middle + high * up + far * aside(i);
+                const Pose as_it_is{open, from.orientation}, turned{open, to.orientation};
+                if (seen.way_is_free(from, as_it_is, Vec3(0.0)) &&
+                    seen.way_is_free(as_it_is, turned, Vec3(0.0)) && seen.way_is_free(turned, to, Vec3(0.0)))
+                    return {Vec3(0.0), {as_it_is, turned}};
+            }
+    return {rises.back() * up, {}};
 }
 
 GripAngle choose_grip(const servo::Setup& setup, const servo::Touch* touch, std::size_t joint,

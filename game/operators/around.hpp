@@ -3,17 +3,24 @@
 // wrench.
 #pragma once
 
+#include <vector>
+
 #include "game/operators/motion.hpp"
 #include "haptics/servo/engagement.hpp"
 #include "haptics/servo/touch.hpp"
 
 namespace bolt::operators {
 
-// m: how far a reach from one pose to the other goes off the straight way (motion.hpp), so that the wrench
-// meets nothing that can be seen: along `up` by `least` or more, else to a side too; the highest tried over
-// the top if there is none.
-Vec3 way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
-               const Vec3& up, double least);
+struct Way {
+    Vec3 bulge{0.0};             // m, off the straight way (motion.hpp)
+    std::vector<Pose> stations;  // poses to go to first, straight: where it cannot be reached in one go
+};
+
+// A reach from one pose to the other in which the wrench meets nothing that can be seen: off the straight way
+// along `up` by `least` or more, else to a side too, else by way of a place in the open where the wrench is
+// turned; over the top as high as was tried if there is none.
+Way way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
+              const Vec3& up, double least);
 
 struct GripAngle {
     double handle = 0.0;  // rad, about the bolt

@@ -78,13 +78,14 @@ struct Operator::Mind {
     double length = 0.0;  // s that the phase takes, where it has a length
     Pose from, to;        // of the movement
     bool flipped = false;
-    double handle = 0.0;        // rad, handle angle about the bolt now
-    double stroke_begin = 0.0;  // rad, where this pull began
-    double begin_angle = 0.0;   // rad, of the nut when it came to it
-    double free_turn = 0.0;     // rad turned without resistance, loosening
-    Vec3 placed{0.0};           // m, how far off the centre it put the tool
-    Vec3 bulge{0.0};            // m, how far the reach goes off the straight way
-    double room = 0.0;          // rad that the handle may swing in this pull
+    double handle = 0.0;         // rad, handle angle about the bolt now
+    double stroke_begin = 0.0;   // rad, where this pull began
+    double begin_angle = 0.0;    // rad, of the nut when it came to it
+    double free_turn = 0.0;      // rad turned without resistance, loosening
+    Vec3 placed{0.0};            // m, how far off the centre it put the tool
+    Vec3 bulge{0.0};             // m, how far the reach goes off the straight way
+    std::vector<Pose> stations;  // that it still goes to after `to`, the last first
+    double room = 0.0;           // rad that the handle may swing in this pull
     bool holds_wrench = false;
     double caught = 0.0;  // s that the wrench has been kept from where the hand means to be
     int bumps = 0;        // times in a row that it was
@@ -137,6 +138,8 @@ struct Operator::Mind {
     void choose_joint_and_goal(const lesson::Step& due);
     void choose_grip_angle();
     void plan_reach();
+    bool goes_on(Phase reaching);
+    [[nodiscard]] double reach_time() const;
     void take_hold();
     void notice_caught(const Pose& meant, const Pose& wrench);
     void pull(const Feeling& felt);
@@ -174,16 +177,13 @@ void Operator::Mind::decide() {
     if (obstacles() != nullptr && holds_wrench == intent.fingers && from.position != rest.position) {
         to = rest;
         plan_reach();
-        enter(Phase::fetch, profile.reach_time);
+        enter(Phase::fetch, stations.empty() ? profile.reach_time : reach_time());
         return;
     }
     holds_wrench = !intent.fingers;
-    // A short way takes less time than a long one, but never none (Fitts).
     to = at_nut(hover);
-    const double far = std::min(1.0, 0.35 + glm::distance(from.position, to.position) / 0.3);
     plan_reach();
-    enter(Phase::reach, far * profile.reach_time * random.uniform(0.85, 1.2) *
-                            (obstacles() != nullptr ? 1.0 + 2.0 * glm::length(bulge) : 1.0));
+    enter(Phase::reach, reach_time() * random.uniform(0.85, 1.2));
 }
 
 void Operator::Mind::choose_joint_and_goal(const lesson::Step& due) {
@@ -238,8 +238,31 @@ void Operator::Mind::choose_grip_angle() {
 void Operator::Mind::plan_reach() {
     const double rise = std::min(arc, 0.3 * glm::distance(from.position, to.position));
     bulge = rise * nut().axis;
-    if (obstacles() != nullptr)
-        bulge = way_round(*setup, *obstacles(), from, to, nut().axis, rise + 0.05 * std::min(bumps, 5));
+    stations.clear();
+    if (obstacles() == nullptr) return;
+    Way way = way_round(*setup, *obstacles(), from, to, nut().axis, rise + 0.05 * std::min(bumps, 5));
+    bulge = way.bulge;
+    if (way.stations.empty()) return;
+    stations.push_back(to);
+    stations.insert(stations.end(), way.stations.rbegin(), way.stations.rend());
+    to = stations.back();
+    stations.pop_back();
+}
+
+// A short way takes less time than a long one, but never none (Fitts).
+double Operator::Mind::reach_time() const {
+    const double far = std::min(1.0, 0.35 + glm::distance(from.position, to.position) / 0.3);
+    const double round = obstacles() != nullptr ? 1.0 + 2.0 * glm::length(bulge) : 1.0;
+    return far * profile.reach_time * round;
+}
+
+bool Operator::Mind::goes_on(Phase reaching) {
+    from = to;
+    if (stations.empty()) return false;
+    to = stations.back();
+    stations.pop_back();
+    enter(reaching, reach_time());
+    return true;
 }
 
 // The jaw is on the nut: where the wrench is, there the hand means it to be from now on.
@@ -315,15 +338,13 @@ Pose Operator::Mind::move(const Feeling& felt, Grip& grip) {
             break;
         case Phase::fetch:
             pose = along(from, to, minimum_jerk(progress()), bulge);
-            if (!over()) break;
-            from = to;
+            if (!over() || goes_on(Phase::fetch)) break;
             holds_wrench = !intent.fingers;
             enter(Phase::think, 0.2);
             break;
         case Phase::reach:
             pose = along(from, to, minimum_jerk(progress()), bulge);
-            if (!over()) break;
-            from = to;
+            if (!over() || goes_on(Phase::reach)) break;
             enter(Phase::lower, profile.placing_time * random.uniform(0.8, 1.3));
             break;
         case Phase::lower:
