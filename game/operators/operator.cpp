@@ -269,7 +269,9 @@ bool Operator::Mind::goes_on(Phase reaching) {
 void Operator::Mind::take_hold() {
     const Vec3 x = hand.orientation * Vec3(1, 0, 0);
     handle += wrap(-std::atan2(glm::dot(x, nut().e2), glm::dot(x, nut().e1)) - handle, 2.0 * pi);
-    placed = hand.position - servo::nut_centre(nut(), joint().nut.angle);
+    // Along the bolt it goes on: a jaw that only just has the nut is not on it yet.
+    const Vec3 off = hand.position - servo::nut_centre(nut(), joint().nut.angle);
+    placed = off + nut().axis * glm::dot(nut().axis, placed - off);
 }
 
 // A wrench that is caught on something is taken back and up, and the next way goes higher.
