@@ -18,7 +18,7 @@ struct EdgeGathering {
     const EdgePiece* piece;
     double length;  // half the piece's
     double radius, band;
-    std::array<Crossing, 32> found;
+    std::array<Crossing, 16> found;
     std::size_t count = 0;
     double clear, turn = nothing_near;
     double dropped = nothing_near;
@@ -44,6 +44,9 @@ double off_facing(const SharpEdge& edge, const EdgePiece& piece, const Vec3& nor
     return off - slack;
 }
 
+// A turn (rad) that lasts long enough not to ask how far the edge is.
+constexpr double worth_a_turn = 0.02;
+
 // One edge against the piece. Why the bounds hold: turning the piece by φ turns the perpendicular by 1.5 φ
 // over the sine between the edges at most, while φ is below a third of that sine.
 void meet(EdgeGathering& g, std::uint32_t index) {
@@ -52,28 +55,37 @@ void meet(EdgeGathering& g, std::uint32_t index) {
     const Vec3 b(g.solid->mesh.vertices[edge.vertices[1]]);
     const Vec3 middle = 0.5 * (a + b);
     const Vec3 half = 0.5 * (b - a);
-    const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
-    Crossing crossing;
-    crossing.on_piece = g.piece->middle + at.s * g.piece->half;
-    crossing.on_edge = middle + at.t * half;
-    const double apart = glm::length(crossing.on_piece - crossing.on_edge);
-    if (apart > g.radius) return;
-
     const Vec3 across = glm::cross(g.piece->half, half);
     const double size = glm::length(across);
     const double length = glm::length(half);
     const double sine = size / (g.length * length);
+    Crossing crossing;
+    if (sine > 1e-3) {
+        crossing.normal = across / size;
+        const double off = std::min(off_facing(edge, *g.piece, crossing.normal),
+                                    off_facing(edge, *g.piece, -crossing.normal));
+        const double turn = off * sine / 3.0;
+        if (turn >= g.turn) return;
+        if (turn > worth_a_turn) {
+            g.turn = turn;
+            return;
+        }
+        if (off > 0.0) {
+            const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
+            const Vec3 between = g.piece->middle + at.s * g.piece->half - middle - at.t * half;
+            if (glm::dot(between, between) <= g.radius * g.radius) g.turn = turn;
+            return;
+        }
+    }
+    const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
+    crossing.on_piece = g.piece->middle + at.s * g.piece->half;
+    crossing.on_edge = middle + at.t * half;
+    const double apart = glm::length(crossing.on_piece - crossing.on_edge);
+    if (apart > g.radius) return;
     // Edges that are nearly parallel are compared at their middles only: off by their angle at most.
     const double beyond = apart - deepest_crossing - (at.inner ? 0.0 : 2e-3 * g.length);
     if (!(sine > 1e-3)) {
         g.clear = std::min(g.clear, beyond);
-        return;
-    }
-    crossing.normal = across / size;
-    const double off =
-        std::min(off_facing(edge, *g.piece, crossing.normal), off_facing(edge, *g.piece, -crossing.normal));
-    if (off > 0.0) {
-        g.turn = std::min(g.turn, off * sine / 3.0);
         return;
     }
     if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)

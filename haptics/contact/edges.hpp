@@ -19,7 +19,7 @@ struct Crossing {
 };
 
 // Edges that have passed each other are told up to here (m). Further in, points along them are.
-inline constexpr double deepest_crossing = 3e-3;
+inline constexpr double deepest_crossing = 2e-3;
 // Of edges that have passed each other by more than this (m) one must really be in the other solid: past a
 // thin rib there is nothing.
 inline constexpr double surely_through = 0.1e-3;

@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 
 #include "haptics/contact/edges.hpp"
-#include "haptics/contact/reduce.hpp"
 
 namespace bolt::contact {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 // ask.
 constexpr double cluster_lookahead = 6e-3;
 constexpr double sample_lookahead = 2.5e-3;
-constexpr double edge_lookahead = 3e-3;
+constexpr double edge_lookahead = 5e-3;
 // So many spent samples of a cluster are asked one by one, more only if the cluster as a whole is near.
 constexpr std::size_t few = 4;
 // More than the rounding of poses and distances.
@@ -47,6 +46,14 @@ struct Collected {
     std::span<Contact> room;
     std::size_t count = 0;
     double complete;  // up to where they are all there are
+    std::span<Waiting> waiting;
+    std::size_t waiters = 0;
+
+    bool wait(const Waiting& one) {
+        if (waiters == waiting.size()) return false;
+        waiting[waiters++] = one;
+        return true;
+    }
 
     void add(const Contact& contact) {
         if (count < room.size()) {
@@ -68,15 +75,16 @@ struct Collected {
 // Samples of one side against the surface of the other.
 class Sweep {
   public:
-    Sweep(const World& world, const Body& body, const Solid& tool, const Samples& samples,
-          const Solid& surface, const DistanceGrid& grid, const Pose& to_surface, const Pose& to_assembly,
+    Sweep(const World& world, const Body& body, std::uint16_t pair, const Solid& tool, const Samples& samples,
+          const Solid& surface, const Vicinity& vicinity, const Pose& to_surface, const Pose& to_assembly,
           bool of_tool, double band, Collected& collected)
         : world_(world),
           body_(body),
+          pair_(pair),
           tool_(tool),
           samples_(samples),
           surface_(surface),
-          grid_(grid),
+          vicinity_(vicinity),
           to_surface_(to_surface),
           to_assembly_(to_assembly),
           of_tool_(of_tool),
@@ -112,6 +120,17 @@ class Sweep {
         }
     }
 
+    // What one waits for.
+    bool find(std::uint32_t index, Contact& contact) const {
+        const Vec3 at = to_surface_ * samples_.samples[index].at;
+        const Look known = look(vicinity_, at);
+        std::array<Side, 1> side;
+        const auto near = near_listed(surface_, vicinity_, *known.place, at, band_, side);
+        if (!near || near->sides == 0) return false;
+        contact = contact_of(index, at, side[0]);
+        return true;
+    }
+
   private:
     [[nodiscard]] bool holds(const Proven& proven, const Proven& spent) const {
         return proven.lower - spent.lower > band_ && proven.turn > spent.turn;
@@ -122,7 +141,7 @@ class Sweep {
     // A lower bound of the signed distance of all of a cluster or group without asking the surface.
     [[nodiscard]] double far(const Cluster& all) const {
         const Vec3 middle = to_surface_ * all.middle;
-        const double lower = std::max(beside_box(middle), distance_bounds(grid_, middle).lower);
+        const double lower = std::max(beside_box(middle), look(vicinity_, middle).lower);
         return lower - all.radius - rounding;
     }
     [[nodiscard]] double beside_box(const Vec3& p) const {
@@ -155,7 +174,7 @@ class Sweep {
 
     [[nodiscard]] double ask_all(const Cluster& cluster, double proven) const {
         const double all = far(cluster);
-        if (!grid_.nodes.empty() || all > band_ + cluster_lookahead) return all;
+        if (!vicinity_.nodes.empty() || all > band_ + cluster_lookahead) return all;
         const double radius =
             std::max(all, proven) > 0.0 ? cluster.radius + band_ + cluster_lookahead : nothing_near;
         const double distance = near_point(surface_, to_surface_ * cluster.middle, radius, 0.0, {}).distance;
@@ -170,7 +189,7 @@ class Sweep {
             ask_point(index, at, b, spent.lower);
             return;
         }
-        const double far_from_all = distance_bounds(grid_, at).lower - sample.half_length - rounding;
+        const double far_from_all = look(vicinity_, at).lower - sample.half_length - rounding;
         if (far_from_all > band_)
             b.proven = {far_from_all + spent.lower, nothing_near};
         else
@@ -178,30 +197,59 @@ class Sweep {
     }
 
     void ask_point(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent) const {
-        const DistanceBounds known = distance_bounds(grid_, at);
+        const Look known = look(vicinity_, at);
         double& lower = b.proven.lower;
-        lower = std::max(lower, known.lower + spent);
+        lower = std::max(lower, known.lower - rounding + spent);
         if (lower - spent > band_) return;
-        double radius = lower - spent > 0.0 ? band_ + sample_lookahead : nothing_near;
-        radius = std::min(radius, std::max(band_, std::min(known.upper, b.upper + spent) + rounding));
+        const bool outside = lower - spent > 0.0;
         std::array<Side, most_sides> sides;
+        if (known.place != nullptr && band_ <= vicinity_reach) {
+            if (known.plain && wait(index, at, known)) {
+                lower = std::max(lower, known.lower - rounding + spent);
+                return;
+            }
+            const std::optional<Near> near = near_listed(surface_, vicinity_, *known.place, at, band_, sides);
+            if (near) return note(index, at, b, spent, *near, near->distance, sides);
+        }
+        double radius = outside ? band_ + sample_lookahead : nothing_near;
+        radius = std::min(radius, std::max(band_, std::min(known.upper, b.upper + spent) + rounding));
         const Near near = near_point(surface_, at, radius, band_, sides);
-        collected_.complete = std::min(collected_.complete, near.complete);
-        lower = std::min(near.distance, radius) - rounding + spent;
-        if (std::abs(near.distance) < nothing_near) b.upper = std::abs(near.distance) - spent;
-        for (std::size_t i = 0; i < near.sides; ++i) add_side(index, at, sides[i]);
+        note(index, at, b, spent, near, std::min(near.distance, radius), sides);
     }
-    void add_side(std::uint32_t index, const Vec3& at, const Side& side) const {
+    void note(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent, const Near& near,
+              double distance, std::span<const Side> sides) const {
+        collected_.complete = std::min(collected_.complete, near.complete);
+        b.proven.lower = distance - rounding + spent;
+        if (std::abs(near.distance) < nothing_near) b.upper = std::abs(near.distance) - spent;
+        for (std::size_t i = 0; i < near.sides; ++i) collected_.add(contact_of(index, at, sides[i]));
+    }
+    [[nodiscard]] Contact contact_of(std::uint32_t index, const Vec3& at, const Side& side) const {
         const Vec3 on_surface = to_assembly_ * side.point;
         const Vec3 on_sample = to_assembly_ * at;
         const Vec3 normal = to_assembly_.orientation * side.normal;
-        const std::uint32_t triangle = of_tool_ ? side.triangle : samples_.samples[index].triangle;
-        collected_.add({.on_tool = of_tool_ ? on_sample : on_surface,
-                        .on_obstacle = of_tool_ ? on_surface : on_sample,
-                        .normal = of_tool_ ? normal : -normal,
-                        .distance = side.distance,
-                        .body = obstacle_of(world_, body_, triangle),
-                        .feature = of_tool_ ? index : index | of_obstacle});
+        return {.on_tool = of_tool_ ? on_sample : on_surface,
+                .on_obstacle = of_tool_ ? on_surface : on_sample,
+                .normal = of_tool_ ? normal : -normal,
+                .distance = side.distance,
+                .body = body_of(index, side.triangle),
+                .feature = of_tool_ ? index : index | of_obstacle};
+    }
+    [[nodiscard]] std::int32_t body_of(std::uint32_t index, std::uint32_t triangle) const {
+        return obstacle_of(world_, body_, of_tool_ ? triangle : samples_.samples[index].triangle);
+    }
+
+    // The point is outside and its contact, if it has one, is the one side of a plain place.
+    [[nodiscard]] bool wait(std::uint32_t index, const Vec3& at, const Look& known) const {
+        const Vec3 normal = to_assembly_.orientation * known.place->normal;
+        return collected_.wait({.lower = known.lower - rounding,
+                                .on_tool = to_assembly_ * at,
+                                .normal = of_tool_ ? normal : -normal,
+                                .blur = static_cast<float>(of_tool_ ? rounding : band_ + rounding),
+                                .spread = known.place->spread,
+                                .body = body_of(index, vicinity_.triangles[known.place->begin]),
+                                .sample = index,
+                                .pair = pair_,
+                                .of_tool = of_tool_});
     }
 
     void ask_edge(std::uint32_t index, const Vec3& at, Proven& proven, const Proven& spent) const {
@@ -228,10 +276,11 @@ class Sweep {
 
     const World& world_;
     const Body& body_;
+    std::uint16_t pair_;
     const Solid& tool_;
     const Samples& samples_;
     const Solid& surface_;
-    const DistanceGrid& grid_;  // of the surface; may be none
+    const Vicinity& vicinity_;  // of the surface; may be none
     const Pose& to_surface_;    // from the samples' frame
     const Pose& to_assembly_;   // from the surface's frame
     bool of_tool_;              // whose samples these are
@@ -256,6 +305,8 @@ ProximityState make_proximity(const World& world, const ToolShape& tool) {
         reset(pair.of_body, world.shapes[body.shape].samples);
     }
     state.near.resize(4096);
+    state.order.resize(state.near.size());
+    state.waiting.resize(8192);
     return state;
 }
 
@@ -271,24 +322,35 @@ void forget(ProximityState& state, const World& world, const ToolShape& tool) {
 
 Found find_contacts(const World& world, const ToolShape& tool, const Pose& pose, double band,
                     ProximityState& state, std::span<Contact> out) {
-    Collected collected{state.near, 0, band};
+    Collected collected{state.near, 0, band, state.waiting, 0};
+    const auto sweep = [&](std::size_t i, bool of_tool, const Pose& to_body, const Pose& to_tool) {
+        const Body& body = world.bodies[i];
+        const Shape& shape = world.shapes[body.shape];
+        const auto pair = static_cast<std::uint16_t>(i);
+        return of_tool ? Sweep(world, body, pair, tool.solid, tool.samples, shape.solid, shape.vicinity,
+                               to_body, body.pose, true, band, collected)
+                       : Sweep(world, body, pair, tool.solid, shape.samples, tool.solid, tool.vicinity,
+                               to_tool, pose, false, band, collected);
+    };
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         const Body& body = world.bodies[i];
         if (!body.on) continue;
-        const Shape& shape = world.shapes[body.shape];
         const Pose to_body = inverse(body.pose) * pose;
-        if (far_apart(tool.solid, shape.solid, to_body, band)) continue;
-        PairBounds& pair = state.pairs[i];
-        spend(pair, to_body);
+        if (far_apart(tool.solid, world.shapes[body.shape].solid, to_body, band)) continue;
+        PairBounds& known = state.pairs[i];
+        spend(known, to_body);
         const Pose to_tool = inverse(to_body);
-        const Sweep of_tool{world,   body,      tool.solid, tool.samples, shape.solid, shape.grid,
-                            to_body, body.pose, true,       band,         collected};
-        of_tool.run(pair.of_tool, pair, tool.reach());
-        const Sweep of_body(world, body, tool.solid, shape.samples, tool.solid, tool.grid, to_tool, pose,
-                            false, band, collected);
-        of_body.run(pair.of_body, pair, tool.reach());
+        sweep(i, true, to_body, to_tool).run(known.of_tool, known, tool.reach());
+        sweep(i, false, to_body, to_tool).run(known.of_body, known, tool.reach());
     }
-    return reduce(std::span(state.near).first(collected.count), collected.complete, out);
+    const auto find = [&](const Waiting& one, Contact& contact) {
+        const Pose& to_body = state.pairs[one.pair].last;
+        const Pose to_tool = inverse(to_body);
+        return sweep(one.pair, one.of_tool, to_body, to_tool).find(one.sample, contact);
+    };
+    return reduce({state.near, collected.count, state.order,
+                   std::span(state.waiting).first(collected.waiters), collected.complete},
+                  find, out);
 }
 
 }  // namespace bolt::contact

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "haptics/contact/contact.hpp"
+#include "haptics/contact/reduce.hpp"
 #include "haptics/contact/tool.hpp"
 #include "haptics/contact/world.hpp"
 
@@ -43,7 +43,10 @@ struct PairBounds {
 
 struct ProximityState {
     std::vector<PairBounds> pairs;  // in the order of the world's bodies
-    std::vector<Contact> near;      // working space
+    // Working space.
+    std::vector<Contact> near;
+    std::vector<std::uint32_t> order;
+    std::vector<Waiting> waiting;
 };
 
 // All memory that `find_contacts` needs for this world and tool.

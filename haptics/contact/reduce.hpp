@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "engine/base/function_ref.hpp"
 #include "haptics/contact/contact.hpp"
 
 namespace bolt::contact {
@@ -18,8 +19,32 @@ inline constexpr double furthest_merge = 32e-3;
 // An order of all contacts, by distance first.
 bool nearer(const Contact& a, const Contact& b);
 
-// Sorts `near` and writes what is kept. `clearance`: up to where `near` is all
-// there is.
-Found reduce(std::span<Contact> near, double clearance, std::span<Contact> out);
+// A contact of which so much is known that it may never have to be found: most are merged with nearer ones.
+struct Waiting {
+    double lower = 0.0;        // m: its distance is not less
+    Vec3 on_tool{0.0};         // m: its point on the tool is not further from here than `blur`
+    Vec3 normal{0.0};          // unit: its normal is not further from that than `spread`
+    float blur = 0.0F;         // m
+    float spread = 0.0F;       // rad
+    std::int32_t body = 0;     // as its contact has it
+    std::uint32_t sample = 0;  // for who finds it
+    std::uint16_t pair = 0;    // …
+    bool of_tool = false;      // …
+    bool found = false;        // it has become a contact, or none
+};
+
+// Writes the contact that somebody waits for; false: there is none.
+using FindWaiting = FunctionRef<bool(const Waiting&, Contact&)>;
+
+struct Reducing {
+    std::span<Contact> near;  // room for more behind the first `count`
+    std::size_t count = 0;
+    std::span<std::uint32_t> order;  // working space, as large as `near`
+    std::span<Waiting> waiting;
+    double clearance = 0.0;  // m: up to where all these are all there is
+};
+
+// Writes what is kept, as if all that wait had been found beforehand.
+Found reduce(Reducing all, FindWaiting find, std::span<Contact> out);
 
 }  // namespace bolt::contact

@@ -1,12 +1,10 @@
 #include "haptics/contact/solid.hpp"
 
+#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
-
-#include "haptics/contact/closest.hpp"
-#include "haptics/contact/embree_query.hpp"
 
 namespace bolt::contact {
 namespace {
@@ -17,132 +15,6 @@ struct DeviceRelease {
 struct GeometryRelease {
     void operator()(RTCGeometryTy* geometry) const { rtcReleaseGeometry(geometry); }
 };
-
-struct Candidate {
-    double squared;
-    std::uint32_t triangle;
-    Region region;
-    Vec3 point;
-};
-
-bool nearer(const Candidate& a, const Candidate& b) {
-    return a.squared != b.squared ? a.squared < b.squared : a.triangle < b.triangle;
-}
-
-Vec3 pseudonormal(const ContactMesh& mesh, const Candidate& c) {
-    if (c.region < 3) return Vec3(mesh.vertex_normals[mesh.triangles[c.triangle][c.region]]);
-    if (c.region < 6) return Vec3(mesh.edge_normals[c.triangle][c.region - 3U]);
-    const auto [a, b, d] = corners(mesh, c.triangle);
-    return glm::cross(b - a, d - a);
-}
-
-bool is_behind_surface(const ContactMesh& mesh, const Vec3& p, const Candidate& c) {
-    return glm::dot(p - c.point, pseudonormal(mesh, c)) < 0.0;
-}
-
-// What one point query has found so far. The set kept does not depend on the order of arrival: it is the
-// nearest ones by distance and triangle.
-struct Gathering {
-    static constexpr std::size_t room = 64;
-    const ContactMesh* mesh;
-    const std::array<glm::vec3, 3>* corners;
-    const std::uint16_t* part;
-    Vec3 p;
-    double band2, radius2;
-    double asked2;  // the square of the radius that is looked within now
-    glm::vec3 rounded;
-    float asked_in_float;  // the square of Embree's radius
-    static constexpr double limit = std::numeric_limits<double>::infinity();
-    Candidate nearest{limit, 0xffffffffU, 6, {}};
-    // Where surfaces of several parts are in one place: the nearest that the point is inside of.
-    Candidate inside = nearest;
-    std::array<Candidate, room> kept;
-    std::size_t count = 0;
-    std::size_t furthest = 0;  // of the kept, once they fill the room
-
-    [[nodiscard]] double limit2() const { return count < room ? band2 : kept[furthest].squared; }
-
-    void consider_inside(const Candidate& c) {
-        if (nearer(c, inside) && is_behind_surface(*mesh, p, c)) inside = c;
-    }
-    void find_furthest() {
-        furthest = 0;
-        for (std::size_t i = 1; i < count; ++i)
-            if (nearer(kept[furthest], kept[i])) furthest = i;
-    }
-    void add(const Candidate& found) {
-        if (nearest.squared < limit && part[found.triangle] != part[nearest.triangle] &&
-            std::sqrt(found.squared) <= std::sqrt(nearest.squared) + one_place) {
-            consider_inside(found);
-            consider_inside(nearest);
-        }
-        if (nearer(found, nearest)) nearest = found;
-        if (found.squared > band2) return;
-        if (count < room) {
-            kept[count++] = found;
-            if (count == room) find_furthest();
-            return;
-        }
-        if (!nearer(found, kept[furthest])) return;
-        kept[furthest] = found;
-        find_furthest();
-    }
-};
-
-bool gather(RTCPointQueryFunctionArguments* arguments) {
-    auto& g = *static_cast<Gathering*>(arguments->userPtr);
-    const auto& t = g.corners[arguments->primID];
-    // Embree asks for all triangles of a leaf; most are set aside by their box.
-    const glm::vec3 low = glm::min(glm::min(t[0], t[1]), t[2]);
-    const glm::vec3 high = glm::max(glm::max(t[0], t[1]), t[2]);
-    const glm::vec3 beside = glm::max(glm::max(low - g.rounded, g.rounded - high), glm::vec3(0.0F));
-    if (glm::dot(beside, beside) > g.asked_in_float) return false;
-    const auto [point, region] = closest_on_triangle(g.p, {Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
-    const Vec3 between = g.p - point;
-    g.add({glm::dot(between, between), arguments->primID, region, point});
-    const double needed2 = std::max(g.limit2(), std::min(g.nearest.squared, g.radius2));
-    if (!(needed2 < g.asked2)) return false;
-    g.asked2 = needed2;
-    const float radius = std::min(arguments->query->radius, with_margin(std::sqrt(needed2), g.p));
-    arguments->query->radius = radius;
-    g.asked_in_float = radius * radius;
-    return true;
-}
-
-Side make_side(const ContactMesh& mesh, const Vec3& p, const Candidate& c) {
-    const Vec3 pseudo = glm::normalize(pseudonormal(mesh, c));
-    const Vec3 between = p - c.point;
-    Side side{std::sqrt(c.squared), c.point, pseudo, c.triangle};
-    const bool inside = glm::dot(between, pseudo) < 0.0;
-    // On the surface itself, or over a face, the direction is the surface's own.
-    if (c.region < 6 && side.distance > 1e-9)
-        side.normal = between / (inside ? -side.distance : side.distance);
-    if (inside) side.distance = -side.distance;
-    return side;
-}
-
-// Of several surfaces in one place the one that the point is inside of counts: where parts touch, a point in
-// one of them is on the other's surface too, from outside.
-Side nearest_side(const Gathering& g) {
-    const bool inside = g.inside.squared < Gathering::limit &&
-                        std::sqrt(g.inside.squared) <= std::sqrt(g.nearest.squared) + one_place;
-    return make_side(*g.mesh, g.p, inside ? g.inside : g.nearest);
-}
-
-// Whether all of the triangle that is within the band lies behind the side's plane, but for the tolerance.
-bool is_behind(const ContactMesh& mesh, const Candidate& c, const Side& side, double band2) {
-    double highest = -std::numeric_limits<double>::infinity();
-    for (const Vec3& v : corners(mesh, c.triangle))
-        highest = std::max(highest, glm::dot(v - side.point, side.normal));
-    if (highest <= side_tolerance) return true;
-    const Vec3 face(mesh.face_normals[c.triangle]);
-    const double along = glm::dot(face, side.normal);
-    const double slope = std::sqrt(std::max(0.0, 1.0 - along * along));
-    const double height = glm::dot(c.point - side.point, side.normal);
-    // Nothing of the band is further from the closest point than this, within the triangle's plane.
-    const double span = std::sqrt(std::max(0.0, band2 - c.squared)) + std::sqrt(c.squared);
-    return height + slope * span <= side_tolerance;
-}
 
 void edge_box(const RTCBoundsFunctionArguments* arguments) {
     const auto& solid = *static_cast<const Solid*>(arguments->geometryUserPtr);
@@ -227,56 +99,6 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
     }
     if (const Status built = build_scenes(solid); !built) return fail(built.error());
     return solid;
-}
-
-Near near_point(const Solid& solid, const Vec3& point, double radius, double band, std::span<Side> sides) {
-    Gathering g;
-    g.mesh = &solid.mesh;
-    g.corners = solid.corners.data();
-    g.part = solid.part.data();
-    g.p = point;
-    g.band2 = band * band;
-    const double within = std::max(radius, band);
-    g.radius2 = g.asked2 = within * within;
-    RTCPointQuery query = make_query(point, within);
-    g.rounded = glm::vec3(point);
-    g.asked_in_float = query.radius < 1e18F ? query.radius * query.radius : FLT_MAX;
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(solid.scene.get(), &query, &context, gather, &g);
-
-    Near near;
-    near.complete = band;
-    if (!(g.nearest.squared <= g.radius2)) return near;
-    // When the room is full Embree stops looking further: whether there was more is not known.
-    if (g.count == Gathering::room) near.complete = std::sqrt(g.kept[g.furthest].squared);
-    std::sort(g.kept.begin(), g.kept.begin() + static_cast<std::ptrdiff_t>(g.count), nearer);
-    const Side first = nearest_side(g);
-    near.distance = first.distance;
-    if (first.distance > band) return near;
-    if (sides.empty()) {
-        near.complete = std::min(near.complete, first.distance);
-        return near;
-    }
-    sides[near.sides++] = first;
-    for (std::size_t i = 0; i < g.count; ++i) {
-        const Candidate& c = g.kept[i];
-        if (c.triangle == first.triangle) continue;
-        const auto written = sides.first(near.sides);
-        if (std::any_of(written.begin(), written.end(),
-                        [&](const Side& side) { return is_behind(solid.mesh, c, side, g.band2); }))
-            continue;
-        const Side side = make_side(solid.mesh, point, c);
-        // Seen from behind: inside, where the nearest surface alone leads out.
-        if (side.distance < 0.0 || glm::dot(point - c.point, Vec3(solid.mesh.face_normals[c.triangle])) < 0.0)
-            continue;
-        if (near.sides == sides.size()) {
-            near.complete = std::min(near.complete, side.distance);
-            break;
-        }
-        sides[near.sides++] = side;
-    }
-    return near;
 }
 
 bool blocked(const Solid& solid, const Vec3& from, const Vec3& to) {

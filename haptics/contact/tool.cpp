@@ -16,7 +16,7 @@ Result<ToolShape> make_tool(std::span<const ContactMesh> parts, const ToolOption
     Result<Solid> solid = make_solid(parts);
     if (!solid) return fail(solid.error());
     ToolShape tool{std::move(*solid), {}, {}};
-    tool.grid = make_distance_grid(tool.solid, options.cell);
+    tool.vicinity = make_vicinity(tool.solid, options.cell);
     tool.samples = make_samples(tool.solid, options.samples);
     return tool;
 }

@@ -1,19 +1,19 @@
 // The tool as contact sees it: a solid in the tool's own frame, and where its surface touches first.
 #pragma once
 
-#include "haptics/contact/distance_grid.hpp"
 #include "haptics/contact/samples.hpp"
+#include "haptics/contact/vicinity.hpp"
 
 namespace bolt::contact {
 
 struct ToolOptions {
     SampleOptions samples{.on_faces = 500};
-    double cell = 1.5e-3;  // m, of the tool's distance grid; 0: none
+    double cell = 0.75e-3;  // m, of its vicinity; 0: none
 };
 
 struct ToolShape {
     Solid solid;
-    DistanceGrid grid;
+    Vicinity vicinity;
     Samples samples;
     [[nodiscard]] double reach() const { return solid.reach; }  // m, of its furthest point from its origin
 };

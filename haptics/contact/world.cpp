@@ -14,7 +14,7 @@ Status add_shape(World& world, std::span<const ContactMesh> parts, std::vector<s
     if (!solid) return fail(solid.error());
     world.shapes.push_back({std::move(*solid), {}, {}, std::move(ids)});
     Shape& shape = world.shapes.back();
-    if (!shape.part_ids.empty()) shape.grid = make_distance_grid(shape.solid, options.cell);
+    shape.vicinity = make_vicinity(shape.solid, options.cell);
     shape.samples = make_samples(shape.solid, {.edges = false, .round = true});
     return {};
 }

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "haptics/contact/distance_grid.hpp"
 #include "haptics/contact/samples.hpp"
+#include "haptics/contact/vicinity.hpp"
 
 namespace bolt::contact {
 
@@ -17,13 +17,13 @@ struct Obstacle {
 };
 
 struct WorldOptions {
-    double cell = 3e-3;  // m, of the still obstacles' distance grid; 0: they get none
+    double cell = 3e-3;  // m, of vicinities; 0: there are none
 };
 
 // A solid of the world and the samples that are tested against the tool.
 struct Shape {
     Solid solid;
-    DistanceGrid grid;  // of the still obstacles
+    Vicinity vicinity;
     Samples samples;
     std::vector<std::int32_t> part_ids;  // of the still obstacles; empty for a body's shape
 };

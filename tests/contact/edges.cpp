@@ -42,7 +42,7 @@ TEST_CASE("edges that have passed each other further than the band are found, as
     ProximityState state = make_proximity(world, tool);
     std::array<Contact, 32> contacts;
     for (int i = 0; i < 60; ++i) {
-        const double deep = (0.15 + 0.04 * i) * mm;
+        const double deep = (0.15 + 0.03 * i) * mm;
         const Pose pose = across(-deep, 0.13 * i * mm, 0.9 + 0.02 * i);
         const Found found = find_contacts(world, tool, pose, 0.1 * mm, state, contacts);
         REQUIRE(found.count > 0);

@@ -1,0 +1,225 @@
+#include "haptics/contact/vicinity.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace bolt::contact {
+namespace {
+
+constexpr int levels = vicinity_levels;
+const double half_diagonal = 0.5 * std::sqrt(3.0);  // of a cell of size 1
+// Places whose normals spread further have no use of their plane (rad).
+constexpr float upright = 1.3F;
+// A cell with so few triangles is not divided further if they are nearly in a plane, or are next to none.
+constexpr std::size_t few = 8;
+constexpr std::size_t next_to_none = 3;
+const double flat = std::cos(to_radians(3.0));
+constexpr float nearly_flat = 0.061F;  // rad: 3.5 degrees
+// More than what coordinates in float are off by (m).
+constexpr double rounding = 1e-6;
+// Higher than this above each other's planes are triangles of a place that is not convex (m).
+constexpr double hardly_above = 0.4 * side_tolerance;
+constexpr std::size_t most_for_convex = 128;
+
+class Builder {
+  public:
+    Builder(const Solid& solid, Vicinity& made) : solid_(solid), made_(made) {}
+
+    // `within`: the surface is not further from the middle.
+    void fill(std::size_t node, std::span<const std::uint32_t> among, const Vec3& middle, double size,
+              int level, double within) {
+        std::vector<std::uint32_t> here;
+        for (const std::uint32_t t : among)
+            if (within_reach(t, middle, 0.5 * size)) here.push_back(t);
+        const double distance = near_point(solid_, middle, within, 0.0, {}).distance;
+        made_.nodes[node].distance = static_cast<float>(distance);
+        Place place = describe(here);
+        const bool plain = here.size() <= next_to_none ||
+                           (here.size() <= few && std::cos(static_cast<double>(place.spread)) > flat);
+        // Where nothing is listed, a cell whose corners are known to be clear by some of its size is good
+        // enough.
+        const bool clear = std::abs(distance) > 1.25 * half_diagonal * size;
+        if (level == levels || (here.empty() ? clear : plain)) {
+            if (here.empty()) return;
+            place.begin = static_cast<std::uint32_t>(made_.triangles.size());
+            made_.triangles.insert(made_.triangles.end(), here.begin(), here.end());
+            place.end = static_cast<std::uint32_t>(made_.triangles.size());
+            add_boxes(here, place);
+            place.convex = is_convex(here);
+            place.front = place.spread < upright && is_outside_before(place, middle, size, distance);
+            made_.nodes[node].next = -static_cast<std::int32_t>(made_.places.size());
+            made_.places.push_back(place);
+            return;
+        }
+        const std::size_t first = made_.nodes.size();
+        made_.nodes[node].next = static_cast<std::int32_t>(first);
+        made_.nodes.resize(first + 8, {0.0F, 0});
+        const double quarter = 0.25 * size;
+        for (unsigned i = 0; i < 8; ++i) {
+            const Vec3 child = middle + quarter * Vec3(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1);
+            fill(first + i, here, child, 0.5 * size, level + 1,
+                 std::abs(distance) + glm::length(child - middle) + made_.rounding);
+        }
+    }
+
+  private:
+    // Whether the triangle may be within reach of the cell: by its box and by its plane.
+    [[nodiscard]] bool within_reach(std::uint32_t t, const Vec3& middle, double half) const {
+        const auto& c = solid_.corners[t];
+        const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
+        const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
+        constexpr double reach = vicinity_reach + rounding;
+        const Vec3 beside = glm::max(glm::max(low - middle, middle - high) - half, Vec3(0.0));
+        if (glm::dot(beside, beside) > reach * reach) return false;
+        const Vec3 normal(solid_.mesh.face_normals[t]);
+        const Vec3 size = glm::abs(normal);
+        return std::abs(glm::dot(normal, middle - Vec3(c[0]))) <= half * (size.x + size.y + size.z) + reach;
+    }
+
+    void add_boxes(std::span<const std::uint32_t> here, Place& place) {
+        place.boxes = static_cast<std::uint32_t>(made_.boxes.size());
+        for (int side = 0; side < 2; ++side)
+            for (int k = 0; k < 3; ++k)
+                for (std::size_t i = 0; i < (here.size() + 3) / 4 * 4; ++i) {
+                    constexpr float nowhere = 1e9F;
+                    if (i >= here.size()) {
+                        made_.boxes.push_back(nowhere);
+                        continue;
+                    }
+                    const auto& c = solid_.corners[here[i]];
+                    made_.boxes.push_back(side == 0 ? std::min({c[0][k], c[1][k], c[2][k]})
+                                                    : std::max({c[0][k], c[1][k], c[2][k]}));
+                }
+    }
+
+    // What of the cell is before the plane is met by no surface: what is true of one of its points is true of
+    // all.
+    [[nodiscard]] bool is_outside_before(const Place& place, const Vec3& middle, double size,
+                                         double distance) const {
+        if (glm::dot(place.normal, middle) > place.height) return distance > 0.0;
+        const Vec3 way = glm::mix(Vec3(-1.0), Vec3(1.0), glm::greaterThan(place.normal, Vec3(0.0)));
+        const Vec3 corner = middle + 0.5 * size * way;
+        if (!(glm::dot(place.normal, corner) > place.height)) return false;
+        return near_point(solid_, corner, nothing_near, 0.0, {}).distance > 0.0;
+    }
+
+    [[nodiscard]] Place describe(std::span<const std::uint32_t> here) const {
+        Place place;
+        place.spread = static_cast<float>(pi);
+        Vec3 sum(0.0);
+        for (const std::uint32_t t : here) sum += Vec3(solid_.mesh.face_normals[t]);
+        if (!(glm::length(sum) > 1e-3)) return place;
+        place.normal = glm::normalize(sum);
+        double least = 1.0;
+        place.height = -nothing_near;
+        for (const std::uint32_t t : here) {
+            least = std::min(least, glm::dot(place.normal, Vec3(solid_.mesh.face_normals[t])));
+            for (const glm::vec3& v : solid_.corners[t])
+                place.height = std::max(place.height, glm::dot(place.normal, Vec3(v)));
+        }
+        place.height += 1e-9;
+        place.spread = static_cast<float>(std::acos(std::clamp(least, -1.0, 1.0)) + 1e-4);
+        return place;
+    }
+
+    [[nodiscard]] bool is_convex(std::span<const std::uint32_t> here) const {
+        if (here.size() > most_for_convex) return false;
+        for (const std::uint32_t t : here) {
+            if (solid_.part[t] != solid_.part[here[0]]) return false;
+            const Vec3 normal(solid_.mesh.face_normals[t]);
+            const double height = glm::dot(normal, Vec3(solid_.corners[t][0])) + hardly_above;
+            for (const std::uint32_t other : here)
+                for (const glm::vec3& v : solid_.corners[other])
+                    if (glm::dot(normal, Vec3(v)) > height) return false;
+        }
+        return true;
+    }
+
+    const Solid& solid_;
+    Vicinity& made_;
+};
+
+}  // namespace
+
+Vicinity make_vicinity(const Solid& solid, double cell) {
+    Vicinity made;
+    if (!(cell > 0.0)) return made;
+    made.root = cell * (1 << levels);
+    made.per_root = 1.0 / made.root;
+    for (std::size_t i = 0; i < made.sizes.size(); ++i)
+        made.sizes[i] = std::ldexp(made.root, -static_cast<int>(i));
+    made.low = solid.box.low - made.root;
+    const Vec3 size = (solid.box.high - solid.box.low) / made.root;
+    made.rounding = 1e-6 * (1.0 + glm::length(solid.box.high - solid.box.low) + 8.0 * made.root);
+    for (int k = 0; k < 3; ++k)
+        made.roots[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil(size[k])) + 2;
+    const auto [nx, ny, nz] = made.roots;
+    std::vector<std::vector<std::uint32_t>> among(static_cast<std::size_t>(nx * ny * nz));
+    for (std::uint32_t t = 0; t < solid.corners.size(); ++t) {
+        const auto& c = solid.corners[t];
+        const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
+        const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
+        const glm::ivec3 from((low - vicinity_reach - rounding - made.low) / made.root);
+        const glm::ivec3 to((high + vicinity_reach + rounding - made.low) / made.root);
+        for (int z = std::max(0, from.z); z <= std::min(nz - 1, to.z); ++z)
+            for (int y = std::max(0, from.y); y <= std::min(ny - 1, to.y); ++y)
+                for (int x = std::max(0, from.x); x <= std::min(nx - 1, to.x); ++x)
+                    among[static_cast<std::size_t>((z * ny + y) * nx + x)].push_back(t);
+    }
+    made.nodes.resize(among.size(), {0.0F, 0});
+    made.places.emplace_back();
+    Builder builder(solid, made);
+    std::size_t node = 0;
+    for (int z = 0; z < nz; ++z)
+        for (int y = 0; y < ny; ++y)
+            for (int x = 0; x < nx; ++x, ++node)
+                builder.fill(node, among[node], made.low + made.root * (Vec3(x, y, z) + 0.5), made.root, 0,
+                             nothing_near);
+    return made;
+}
+
+Look look(const Vicinity& vicinity, const Vec3& point) {
+    if (vicinity.nodes.empty()) return {};
+    const Vec3 from_low = point - vicinity.low;
+    const Vec3 at = from_low * vicinity.per_root;
+    for (int k = 0; k < 3; ++k)
+        if (!(at[k] >= 0.0 && at[k] < static_cast<double>(vicinity.roots[static_cast<std::size_t>(k)])))
+            return {};
+    const glm::ivec3 cell(at);
+    const Vicinity::Node* node = &vicinity.nodes[static_cast<std::size_t>(
+        (cell.z * vicinity.roots[1] + cell.y) * vicinity.roots[0] + cell.x)];
+    // In which of the smallest cells of the root cell, bit by bit from above.
+    const glm::uvec3 fine((at - Vec3(cell)) * static_cast<double>(1 << levels));
+    int level = 0;
+    while (node->next > 0) {
+        const auto shift = static_cast<unsigned>(levels - 1 - level++);
+        const unsigned child =
+            (fine.x >> shift & 1U) | (fine.y >> shift & 1U) << 1U | (fine.z >> shift & 1U) << 2U;
+        node = &vicinity.nodes[static_cast<std::size_t>(node->next) + child];
+    }
+    const double size = vicinity.sizes[static_cast<std::size_t>(level)];
+    const double half = 0.5 * size;
+    const glm::uvec3 whole(fine.x >> (levels - level), fine.y >> (levels - level),
+                           fine.z >> (levels - level));
+    const Vec3 off = from_low - vicinity.root * Vec3(cell) - size * (Vec3(whole) + 0.5);
+    const double way = glm::length(off) + vicinity.rounding;
+    const auto distance = static_cast<double>(node->distance);
+    Look seen{distance - way, std::abs(distance) + way, nullptr, false};
+    // No surface is nearer than that without being listed.
+    const Vec3 inward = half - glm::abs(off);
+    const double unlisted = std::min({inward.x, inward.y, inward.z}) + vicinity_reach - vicinity.rounding;
+    if (node->next == 0) {
+        if (distance > 0.0) seen.lower = std::max(seen.lower, unlisted);
+        return seen;
+    }
+    seen.place = &vicinity.places[static_cast<std::size_t>(-node->next)];
+    const double above = glm::dot(seen.place->normal, point) - seen.place->height;
+    if (seen.place->front && above > 0.0) {
+        seen.lower = std::max(seen.lower, std::min(above, unlisted));
+        seen.plain = seen.place->convex && seen.place->spread < nearly_flat;
+    }
+    return seen;
+}
+
+}  // namespace bolt::contact
