@@ -91,17 +91,25 @@ void meet(EdgeGathering& g, std::uint32_t index) {
     if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)
         crossing.normal = -crossing.normal;
     if (!at.inner) {
-        // By how much the feet of the perpendicular lie beyond the ends. They move by 1.12 of the way and 4.8
-        // of the distance and turn, over the sine, at most.
         const Vec3 between = middle - g.piece->middle;
         const double on_piece = glm::dot(glm::cross(between, half), across) / (size * size);
         const double on_edge = glm::dot(glm::cross(between, g.piece->half), across) / (size * size);
+        // By how much the feet of the perpendicular lie beyond the ends. They move by 1.12 of the way and 4.8
+        // of the distance and turn, over the sine, at most.
         const double over =
             std::max((std::abs(on_piece) - 1.0) * g.length, (std::abs(on_edge) - 1.0) * length);
-        const double until = std::min(apart, 0.4 * over * sine);
-        if (until > beyond) {
-            g.clear = std::min(g.clear, until);
-            g.turn = std::min({g.turn, 0.05 * sine, over * sine * sine / (10.0 * apart)});
+        double clear = std::min(apart, 0.4 * over * sine);
+        double turn = std::min(0.05 * sine, over * sine * sine / (10.0 * apart));
+        // The lines are apart, and cannot pass each other before they have come together: their distance
+        // falls by the way and by turn times how far the foot is, at most.
+        const double distance = -glm::dot(between, crossing.normal);
+        if (const double until = std::min(apart, 0.8 * distance); until > clear) {
+            clear = until;
+            turn = std::min(0.05 * sine, 0.15 * distance / (std::abs(on_piece) * g.length + 1e-9));
+        }
+        if (clear > beyond) {
+            g.clear = std::min(g.clear, clear);
+            g.turn = std::min(g.turn, turn);
         } else {
             g.clear = std::min(g.clear, beyond);
         }

@@ -249,8 +249,7 @@ std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, co
     g.p = point;
     g.band2 = band * band;
     const glm::vec3 rounded(point);
-    constexpr std::size_t room = 256;  // more are left to Embree
-    if (place.end - place.begin > room) return std::nullopt;
+    constexpr std::size_t room = most_listed;
     const std::span<const std::uint32_t> listed(&vicinity.triangles[place.begin], place.end - place.begin);
     std::array<float, room> beside;
     const std::size_t first =

@@ -23,8 +23,9 @@ constexpr std::uint32_t of_obstacle = 0x80000000U;
 
 void reset(Bounds& bounds, const Samples& samples) {
     constexpr Proven nothing{nothing_proven, nothing_near};
-    bounds.groups.assign(samples.groups.size(), nothing);
-    bounds.clusters.assign(samples.clusters.size(), nothing);
+    bounds.levels.resize(samples.levels.size());
+    for (std::size_t i = 0; i < samples.levels.size(); ++i)
+        bounds.levels[i].assign(samples.levels[i].size(), nothing);
     bounds.samples.assign(samples.samples.size(), {nothing, nothing_near});
 }
 
@@ -93,31 +94,9 @@ class Sweep {
 
     // `reach`: of the tool, for what belongs to an obstacle sees all of the tool move.
     void run(Bounds& bounds, const PairBounds& way, double reach) const {
-        const Proven nothing_in{nothing_near, nothing_near};
-        for (std::size_t g = 0; g < samples_.groups.size(); ++g) {
-            const Cluster& group = samples_.groups[g];
-            const Proven spent{way.moved + way.turned * (of_tool_ ? group.reach : reach), way.turned};
-            if (holds(bounds.groups[g], spent)) continue;
-            Proven least = nothing_in;
-            for (std::uint32_t c = group.begin; c < group.end; ++c) least = lesser(least, bounds.clusters[c]);
-            // Clusters reach no further than their group, so `spent` is enough for them.
-            if (!holds(least, spent)) {
-                const double all = far(group);
-                if (all > band_) {
-                    bounds.groups[g] = {all + spent.lower, nothing_near};
-                    continue;
-                }
-                least = nothing_in;
-                for (std::uint32_t c = group.begin; c < group.end; ++c) {
-                    const Proven of_cluster{
-                        way.moved + way.turned * (of_tool_ ? samples_.clusters[c].reach : reach), way.turned};
-                    if (!holds(bounds.clusters[c], of_cluster)) open(bounds, c, of_cluster);
-                    least = lesser(least, {bounds.clusters[c].lower - of_cluster.lower + spent.lower,
-                                           bounds.clusters[c].turn});
-                }
-            }
-            bounds.groups[g] = least;
-        }
+        const Way made{way.moved, way.turned, reach};
+        const std::size_t top = samples_.levels.size() - 1;
+        for (std::uint32_t i = 0; i < samples_.levels[top].size(); ++i) visit(bounds, made, top, i);
     }
 
     // What one waits for.
@@ -132,13 +111,43 @@ class Sweep {
     }
 
   private:
+    struct Way {
+        double moved, turned, reach;
+    };
+    [[nodiscard]] Proven spent_on(const Cluster& cluster, const Way& way) const {
+        return {way.moved + way.turned * (of_tool_ ? cluster.reach : way.reach), way.turned};
+    }
+
+    void visit(Bounds& bounds, const Way& way, std::size_t level, std::uint32_t i) const {
+        const Cluster& cluster = samples_.levels[level][i];
+        Proven& bound = bounds.levels[level][i];
+        const Proven spent = spent_on(cluster, way);
+        if (holds(bound, spent)) return;
+        if (level == 0) {
+            open(bounds, cluster, bound, spent);
+            return;
+        }
+        const double all = far(cluster);
+        if (all > band_) {
+            bound = {all + spent.lower, nothing_near};
+            return;
+        }
+        bound = {nothing_near, nothing_near};
+        for (std::uint32_t k = cluster.begin; k < cluster.end; ++k) {
+            visit(bounds, way, level - 1, k);
+            const Proven& of_one = bounds.levels[level - 1][k];
+            const double spent_on_one = spent_on(samples_.levels[level - 1][k], way).lower;
+            bound = lesser(bound, {of_one.lower - spent_on_one + spent.lower, of_one.turn});
+        }
+    }
+
     [[nodiscard]] bool holds(const Proven& proven, const Proven& spent) const {
         return proven.lower - spent.lower > band_ && proven.turn > spent.turn;
     }
     static Proven lesser(const Proven& a, const Proven& b) {
         return {std::min(a.lower, b.lower), std::min(a.turn, b.turn)};
     }
-    // A lower bound of the signed distance of all of a cluster or group without asking the surface.
+    // A lower bound of the signed distance of all of a cluster without asking the surface.
     [[nodiscard]] double far(const Cluster& all) const {
         const Vec3 middle = to_surface_ * all.middle;
         const double lower = std::max(beside_box(middle), look(vicinity_, middle).lower);
@@ -151,25 +160,23 @@ class Sweep {
     }
 
     // A cluster whose bound is spent.
-    void open(Bounds& bounds, std::uint32_t c, const Proven& spent) const {
-        const Cluster& cluster = samples_.clusters[c];
+    void open(Bounds& bounds, const Cluster& cluster, Proven& bound, const Proven& spent) const {
         std::size_t asked = 0;
         for (std::uint32_t i = cluster.begin; i < cluster.end; ++i)
             if (!holds(bounds.samples[i].proven, spent)) ++asked;
         if (asked > few) {
-            const double all = ask_all(cluster, bounds.clusters[c].lower - spent.lower);
+            const double all = ask_all(cluster, bound.lower - spent.lower);
             if (all > band_) {
-                bounds.clusters[c] = {all + spent.lower, nothing_near};
+                bound = {all + spent.lower, nothing_near};
                 return;
             }
         }
-        Proven least{nothing_near, nothing_near};
+        bound = {nothing_near, nothing_near};
         for (std::uint32_t i = cluster.begin; i < cluster.end; ++i) {
             SampleBounds& b = bounds.samples[i];
             if (!holds(b.proven, spent)) ask(i, b, spent);
-            least = lesser(least, b.proven);
+            bound = lesser(bound, b.proven);
         }
-        bounds.clusters[c] = least;
     }
 
     [[nodiscard]] double ask_all(const Cluster& cluster, double proven) const {
@@ -210,6 +217,10 @@ class Sweep {
             }
             const std::optional<Near> near = near_listed(surface_, vicinity_, *known.place, at, band_, sides);
             if (near) return note(index, at, b, spent, *near, near->distance, sides);
+            if (outside) {
+                lower = std::max(lower, vicinity_reach - rounding + spent);
+                return;
+            }
         }
         double radius = outside ? band_ + sample_lookahead : nothing_near;
         radius = std::min(radius, std::max(band_, std::min(known.upper, b.upper + spent) + rounding));

@@ -14,7 +14,7 @@
 
 namespace bolt::contact {
 
-// What is proven of one sample, cluster or group. Bounds held when they were proven, and stand here plus the
+// What is proven of one sample or cluster. Bounds held when they were proven, and stand here plus the
 // way and the turn that were made by then: less those made by now, they hold now.
 struct Proven {
     // Of points the signed distance; of edge pieces `Crossings::clear`.
@@ -29,7 +29,7 @@ struct SampleBounds {
 };
 
 struct Bounds {
-    std::vector<Proven> groups, clusters;  // of all that is in them
+    std::vector<std::vector<Proven>> levels;  // of all that is in the clusters of each level
     std::vector<SampleBounds> samples;
 };
 

@@ -287,8 +287,9 @@ void cluster(std::vector<Sample>& samples, std::size_t begin, std::size_t end, s
     const Vec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t clusters = (end - begin + cluster_size - 1) / cluster_size;
-    // Whole groups as long as there are several.
-    const std::size_t unit = clusters > cluster_size ? cluster_size * cluster_size : cluster_size;
+    // Whole clusters of the highest level of which there are several.
+    std::size_t unit = cluster_size;
+    while (clusters * cluster_size > unit * cluster_size) unit *= cluster_size;
     const std::size_t units = (end - begin + unit - 1) / unit;
     const std::size_t middle = begin + units / 2 * unit;
     std::stable_sort(samples.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -331,8 +332,9 @@ Samples make_samples(const Solid& solid, const SampleOptions& options) {
         made.samples.insert(made.samples.end(), points.taken().begin(), points.taken().end());
     }
     if (options.edges) add_edges(solid, options.longest_piece, made.samples);
-    cluster(made.samples, 0, made.samples.size(), made.clusters);
-    made.groups = group(made.clusters);
+    made.levels.emplace_back();
+    cluster(made.samples, 0, made.samples.size(), made.levels[0]);
+    while (made.levels.back().size() > cluster_size) made.levels.push_back(group(made.levels.back()));
     return made;
 }
 

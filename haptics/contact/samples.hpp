@@ -26,15 +26,16 @@ struct Cluster {
     Vec3 middle{0.0};
     double radius = 0.0;
     double reach = 0.0;                // of its samples from the origin of the frame
-    std::uint32_t begin = 0, end = 0;  // its samples; of a group: its clusters
+    std::uint32_t begin = 0, end = 0;  // its samples, or the clusters of the level below that it holds
 };
 
 inline constexpr std::size_t cluster_size = 16;
 
 struct Samples {
-    std::vector<Sample> samples;    // cluster after cluster
-    std::vector<Cluster> clusters;  // group after group, each with the samples that follow
-    std::vector<Cluster> groups;    // of clusters
+    std::vector<Sample> samples;  // cluster after cluster
+    // Of samples first, then of clusters, up to a level of few; in each those of one cluster follow each
+    // other.
+    std::vector<std::vector<Cluster>> levels;
 };
 
 struct SampleOptions {

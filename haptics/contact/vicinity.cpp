@@ -13,7 +13,7 @@ const double half_diagonal = 0.5 * std::sqrt(3.0);  // of a cell of size 1
 constexpr float upright = 1.3F;
 // A cell with so few triangles is not divided further if they are nearly in a plane, or are next to none.
 constexpr std::size_t few = 8;
-constexpr std::size_t next_to_none = 3;
+constexpr std::size_t next_to_none = 10;
 const double flat = std::cos(to_radians(3.0));
 constexpr float nearly_flat = 0.061F;  // rad: 3.5 degrees
 // More than what coordinates in float are off by (m).
@@ -42,12 +42,14 @@ class Builder {
         const bool clear = std::abs(distance) > 1.25 * half_diagonal * size;
         if (level == levels || (here.empty() ? clear : plain)) {
             if (here.empty()) return;
+            if (here.size() > most_listed) here.clear();
             place.begin = static_cast<std::uint32_t>(made_.triangles.size());
             made_.triangles.insert(made_.triangles.end(), here.begin(), here.end());
             place.end = static_cast<std::uint32_t>(made_.triangles.size());
             add_boxes(here, place);
             place.convex = is_convex(here);
-            place.front = place.spread < upright && is_outside_before(place, middle, size, distance);
+            place.front =
+                !here.empty() && place.spread < upright && is_outside_before(place, middle, size, distance);
             made_.nodes[node].next = -static_cast<std::int32_t>(made_.places.size());
             made_.places.push_back(place);
             return;
@@ -214,6 +216,10 @@ Look look(const Vicinity& vicinity, const Vec3& point) {
         return seen;
     }
     seen.place = &vicinity.places[static_cast<std::size_t>(-node->next)];
+    if (seen.place->begin == seen.place->end) {
+        seen.place = nullptr;
+        return seen;
+    }
     const double above = glm::dot(seen.place->normal, point) - seen.place->height;
     if (seen.place->front && above > 0.0) {
         seen.lower = std::max(seen.lower, std::min(above, unlisted));

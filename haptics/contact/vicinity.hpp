@@ -14,6 +14,9 @@ inline constexpr double vicinity_reach = 0.7e-3;
 
 inline constexpr int vicinity_levels = 5;  // below the root cells
 
+// Where more would be listed, none are.
+inline constexpr std::size_t most_listed = 256;
+
 // A leaf that lists triangles.
 struct Place {
     std::uint32_t begin = 0, end = 0;  // of `Vicinity::triangles`
@@ -53,15 +56,14 @@ Vicinity make_vicinity(const Solid& solid, double cell);
 // Of a point: `lower` <= signed distance, |signed distance| <= `upper`. Beyond the octree nothing is told.
 struct Look {
     double lower = -nothing_near, upper = nothing_near;
-    // Null: no surface is within reach, or nothing is told.
+    // Null: nothing is listed.
     const Place* place = nullptr;
     // The point is outside, before a place that is convex and nearly flat.
     bool plain = false;
 };
 Look look(const Vicinity& vicinity, const Vec3& point);
 
-// As `near_point` where the nearest surface is within reach; nothing where it is not, or where more triangles
-// are listed than are worth it. `band` <= reach.
+// As `near_point` where the nearest surface is within reach; nothing where it is not. `band` <= reach.
 std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, const Place& place,
                                 const Vec3& point, double band, std::span<Side> sides);
 

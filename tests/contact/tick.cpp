@@ -91,7 +91,7 @@ TEST_CASE("where the wrench first touches the reducer it is found, and deeper") 
     ProximityState state = make_proximity(reducer.world, reducer.tool);
     Random random(44);
     int met = 0;
-    for (int i = 0; i < 240; ++i) {
+    for (int i = 0; i < 320; ++i) {
         const Pose start = reducer.at_the_surface(random);
         const Vec3 way = random_direction(random);
         const auto at = [&](double s) { return Pose{start.position + s * way, start.orientation}; };

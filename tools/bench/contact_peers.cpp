@@ -8,7 +8,7 @@ std::vector<PeerEntry> peers() {
         {"fcl", make_fcl, 10},
 #endif
 #ifdef BOLT_BULLET
-        {"bullet", make_bullet, 200},
+        {"bullet", make_bullet, 1000},
 #endif
     };
 }
