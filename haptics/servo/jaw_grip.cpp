@@ -75,7 +75,8 @@ void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> join
         const double nut_angle = joints[i].nut.angle;
         if (glm::length(tool.position - nut_centre(nut, nut_angle)) > near) continue;
         const contact::JawSeat seat = seat_on(i);
-        if (!seat.around(jaw.opening)) continue;
+        // By more than its bevel: a hand that trembles at the edge is not on the nut and off it again.
+        if (!seat.around(jaw.opening) || seat.overlap < jaw.bevel) continue;
         if (std::abs(seat.misalignment) > play_of(setup, nut, lost[i]) + tolerance) continue;
         e.joint = static_cast<int>(i);
         e.grip = Grip::wrench;

@@ -19,8 +19,8 @@ Pose on_nut(const NutPlace& nut, double nut_angle, const ToolPose& tool);
 
 contact::HexagonPrism prism_of(const NutPlace& nut);
 
-// Takes hold where the jaw is around a hexagon that lies between its flats, lets go where it is not any more.
-// `lost`: m of the flats that are rounded off, by joint.
+// Takes hold where the jaw is around a hexagon that lies between its flats, by more than its bevel, and lets
+// go where it is not around it any more. `lost`: m of the flats that are rounded off, by joint.
 void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> joints,
                      std::span<const double> lost, const ToolPose& tool, Engagement& engagement);
 

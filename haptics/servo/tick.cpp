@@ -177,11 +177,10 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
         const joint::JointState& joint = state.joints[i];
         if (state.engagement.grip == Grip::fingers) let_slip(setup, state.engagement, joint.nut.angle);
         wanted = held(setup, state, tool, engaged_before == engaged);
-        if (by_contact(state) &&
-            round_corners(setup, setup.nuts[i], joint, state.rounded[i], state.engagement))
-            output.slipped = static_cast<std::int16_t>(engaged);
+        const bool slips = by_contact(state) &&
+                           round_corners(setup, setup.nuts[i], joint, state.rounded[i], state.engagement);
+        (slips ? output.slipped : output.joint) = static_cast<std::int16_t>(engaged);
         output.rounded = state.rounded[i];
-        output.joint = static_cast<std::int16_t>(engaged);
         output.stage = joint.stage;
         output.wrench_torque = joint.torque;
         output.nut_angle = joint.nut.angle;

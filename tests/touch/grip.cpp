@@ -19,8 +19,8 @@ namespace {
 constexpr double leap = 0.095;  // of the greatest force, in a tick
 
 // True depth that contact lets the jaw into a hexagon for a tick, m: a turn within a tick is taken for
-// straight, and a god-object is asked at most five times.
-constexpr double deepest_allowed = 60e-6;
+// straight, and what is within the skin is not turned back before the next.
+constexpr double deepest_allowed = 0.1e-3;
 
 struct Watch {
     double step = 0.0, torque_step = 0.0, greatest = 0.0, deepest = 1.0;
