@@ -439,7 +439,8 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
     const lesson::Step* due = lesson.due();
     if (due != nullptr && lesson.guides) input.guide = static_cast<std::int16_t>(due->joint);
     // What has hold of a nut stays; a hand in the air is moved by what it feels, and by nothing else.
-    const bool grips = state.engagement.joint >= 0;
+    // While it still lowers the wrench the jaw may have the nut, but the hand does not hold yet.
+    const bool grips = state.engagement.joint >= 0 && m.phase != Phase::lower;
     const bool takes = grips && !m.gripped;
     if (takes && state.engagement.joint == static_cast<int>(m.intent.joint)) m.take_hold();
     Pose pose = m.move(m.nerves.feel(m.joint()), input.grip);
