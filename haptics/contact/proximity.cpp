@@ -76,7 +76,7 @@ struct Collected {
 // Samples of one side against the surface of the other.
 class Sweep {
   public:
-    Sweep(const World& world, const Body& body, std::uint16_t pair, const Solid& tool, const Samples& samples,
+    Sweep(const World& world, const Body& body, std::uint32_t pair, const Solid& tool, const Samples& samples,
           const Solid& surface, const Vicinity& vicinity, const Pose& to_surface, const Pose& to_assembly,
           bool of_tool, double band, Collected& collected)
         : world_(world),
@@ -287,7 +287,7 @@ class Sweep {
 
     const World& world_;
     const Body& body_;
-    std::uint16_t pair_;
+    std::uint32_t pair_;
     const Solid& tool_;
     const Samples& samples_;
     const Solid& surface_;
@@ -337,7 +337,7 @@ Found find_contacts(const World& world, const ToolShape& tool, const Pose& pose,
     const auto sweep = [&](std::size_t i, bool of_tool, const Pose& to_body, const Pose& to_tool) {
         const Body& body = world.bodies[i];
         const Shape& shape = world.shapes[body.shape];
-        const auto pair = static_cast<std::uint16_t>(i);
+        const auto pair = static_cast<std::uint32_t>(i);
         return of_tool ? Sweep(world, body, pair, tool.solid, tool.samples, shape.solid, shape.vicinity,
                                to_body, body.pose, true, band, collected)
                        : Sweep(world, body, pair, tool.solid, shape.samples, tool.solid, tool.vicinity,

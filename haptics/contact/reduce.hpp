@@ -21,16 +21,18 @@ bool nearer(const Contact& a, const Contact& b);
 
 // A contact of which so much is known that it may never have to be found: most are merged with nearer ones.
 struct Waiting {
-    double lower = 0.0;        // m: its distance is not less
-    Vec3 on_tool{0.0};         // m: its point on the tool is not further from here than `blur`
-    Vec3 normal{0.0};          // unit: its normal is not further from that than `spread`
-    float blur = 0.0F;         // m
-    float spread = 0.0F;       // rad
-    std::int32_t body = 0;     // as its contact has it
-    std::uint32_t sample = 0;  // for who finds it
-    std::uint16_t pair = 0;    // …
-    bool of_tool = false;      // …
-    bool found = false;        // it has become a contact, or none
+    double lower = 0.0;     // m: its distance is not less
+    Vec3 on_tool{0.0};      // m: its point on the tool is not further from here than `blur`
+    Vec3 normal{0.0};       // unit: its normal is not further from that than `spread`
+    float blur = 0.0F;      // m
+    float spread = 0.0F;    // rad
+    std::int32_t body = 0;  // as its contact has it
+    // Where it comes from, for who finds it.
+    std::uint32_t sample = 0;
+    std::uint32_t pair = 0;
+    bool of_tool = false;
+    // It has become a contact, or none.
+    bool found = false;
 };
 
 // Writes the contact that somebody waits for; false: there is none.
