@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/random.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/touch/support.hpp"
 
 using namespace bolt;
@@ -45,7 +46,8 @@ struct Puller {
 TEST_CASE("a wrench that is pulled through the reducer is not caught for long, and never gets in") {
     Puller puller;
     // Each of these was caught for a second or more once, by features that the finder saw from one side only.
-    for (const std::uint64_t seed : {1U, 10U}) {
+    for (const std::uint64_t seed : {10U, 1U}) {
+        if (test::sanitized && seed != 10) continue;
         CAPTURE(seed);
         puller.random = Random(seed, 5);
         Pose here = puller.anywhere();
