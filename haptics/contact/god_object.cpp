@@ -63,15 +63,12 @@ class Stepper {
         const Twist own = twist_between(before.device, device);
         // As far as the device came in this tick: where nothing is near, one query does. Wide bands are dear.
         band_ = std::clamp(travel(own, p_.radius), p_.stride, p_.reach) + 2.0 * p_.skin;
-        const double ms = dt / 1e-3;
-        const auto limit = [&](double present, double greatest, double hand) {
-            const double event = std::max(p_.quiet.of_present * present, p_.quiet.of_greatest * greatest);
-            return std::min(p_.quiet.at_most * greatest * ms, event * ms + hand);
-        };
         const force::Coupling& c = p_.coupling;
-        force_limit_ = limit(glm::length(before.felt.force), c.force, c.stiffness * glm::length(own.linear));
-        torque_limit_ =
-            limit(glm::length(before.felt.torque), c.torque, c.torsion * glm::length(own.angular));
+        // What the hand alone would change, were the tool held where it is.
+        const force::OutputCommand held =
+            force::coupling_force(c, force::offset_between(device, before.tool), before.offset, dt);
+        force_ = budget(held.force - before.felt.force, glm::length(before.felt.force), c.force);
+        torque_ = budget(held.torque - before.felt.torque, glm::length(before.felt.torque), c.torque);
     }
 
     GodObjectStep run() {
@@ -157,18 +154,35 @@ class Stepper {
         }
     }
 
-    [[nodiscard]] double too_loud(const Pose& tool) const {
-        const force::OutputCommand felt =
-            force::coupling_force(p_.coupling, force::offset_between(device_, tool), before_.offset, dt_);
-        const double force = glm::length(felt.force - before_.felt.force) / std::max(force_limit_, 1e-9);
-        const double torque = glm::length(felt.torque - before_.felt.torque) / std::max(torque_limit_, 1e-9);
-        return std::max(force, torque);
+    // How the felt force or torque may change in this tick: by what the hand's own motion changes, or by any
+    // part of it (contacts that take some directions and leave others bring its projections, which lie in the
+    // ball over it: Thales), and a little in any direction besides.
+    struct Budget {
+        Vec3 hand{0.0};
+        double event = 0.0;
+        double whole = 0.0;
+
+        [[nodiscard]] double used(const Vec3& change) const {
+            const double beyond = glm::length(change - 0.5 * hand) - 0.5 * glm::length(hand);
+            return std::max(beyond / std::max(event, 1e-9), glm::length(change) / std::max(whole, 1e-9));
+        }
+    };
+    [[nodiscard]] Budget budget(const Vec3& hand, double present, double greatest) const {
+        const double ms = dt_ / 1e-3;
+        const double event = ms * std::max(p_.quiet.of_present * present, p_.quiet.of_greatest * greatest);
+        return {hand, event, std::min(p_.quiet.at_most * greatest * ms, event + glm::length(hand))};
     }
 
-    // The largest share of the motion after which the force has not leapt; if there is none, the quietest.
-    [[nodiscard]] double quiet_share(const Twist& motion, double share) const {
-        const auto loud = [&](double s) { return too_loud(moved(pose_, s * motion)); };
-        if (recovering_ || loud(share) <= 1.0) return share;
+    [[nodiscard]] force::OutputCommand change(const Twist& motion) const {
+        const force::OutputCommand felt = force::coupling_force(
+            p_.coupling, force::offset_between(device_, moved(pose_, motion)), before_.offset, dt_);
+        return {felt.force - before_.felt.force, felt.torque - before_.felt.torque};
+    }
+
+    // The largest share that is not loud; if there is none, the quietest. Loudness has one valley.
+    template <class Loud>
+    static double quiet_share(double share, const Loud& loud) {
+        if (loud(share) <= 1.0) return share;
         double low = 0.0, high = share;
         for (int i = 0; i < halvings; ++i) {
             const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
@@ -188,6 +202,23 @@ class Stepper {
         return low;
     }
 
+    // The part of a motion, at most `share` of it, after which neither force nor torque has leapt. Way and
+    // turn each go as far as they may where contacts let them: what a turn holds back would pull at the hand.
+    [[nodiscard]] Twist quiet_part(const Twist& motion, double share, const Rows& rows) const {
+        const auto force = [&](double s) { return force_.used(change(s * motion).force); };
+        const auto torque = [&](double s) { return torque_.used(change(s * motion).torque); };
+        if (recovering_ || std::max(force(share), torque(share)) <= 1.0) return share * motion;
+        const Twist apart{quiet_share(share, force) * motion.linear,
+                          quiet_share(share, torque) * motion.angular};
+        const auto all = std::span(rows.rows).first(rows.count);
+        const bool allowed = std::all_of(all.begin(), all.end(), [&](const Constraint& row) {
+            return glm::dot(row.normal, apart.linear + glm::cross(apart.angular, row.arm)) >=
+                   -std::max(row.slack, 0.0);
+        });
+        if (allowed) return apart;
+        return quiet_share(share, [&](double s) { return std::max(force(s), torque(s)); }) * motion;
+    }
+
     void arrive(const Pose& there) {
         recovery_left_ -= std::clamp(p_.skin - here_.nearest, 0.0, recovery_left_);
         pose_ = there;
@@ -204,13 +235,14 @@ class Stepper {
             const double length = travel(motion, p_.radius);
             if (length < still) return Advance::nowhere;
             const double share = std::min(1.0, longest / length);
-            const double quiet = quiet_share(motion, share);
-            const bool held = quiet < share;
-            const Pose there = moved(pose_, quiet * motion);
+            const Twist part = quiet_part(motion, share, rows);
+            const double way = travel(part, p_.radius);
+            const bool held = way < share * length * (1.0 - 1e-12);
+            const Pose there = moved(pose_, part);
             const bool with_device = travel(twist_between(there, device_), p_.radius) < still;
-            if (quiet * length <= certified) {
+            if (way <= certified) {
                 arrive(there);
-                here_.nearest -= quiet * length;
+                here_.nearest -= way;
                 if (held) return Advance::held;
                 if (with_device) return Advance::nowhere;
                 if (!may_ask()) return Advance::spent;
@@ -222,7 +254,7 @@ class Stepper {
             if (!too_near(seen, there)) {
                 arrive(there);
                 here_ = seen;
-                const bool close = quiet == 1.0 && length < fine;
+                const bool close = !held && share == 1.0 && length < fine;
                 return held ? Advance::held : with_device || close ? Advance::nowhere : Advance::moved;
             }
             cut(seen, there, rows);
@@ -237,8 +269,7 @@ class Stepper {
     Finder finder_;
     double dt_;
     double band_ = 0.0;
-    double force_limit_ = 0.0;
-    double torque_limit_ = 0.0;
+    Budget force_, torque_;
     Pose pose_;
     Look here_;
     bool recovering_ = false;

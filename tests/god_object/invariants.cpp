@@ -200,7 +200,7 @@ TEST_CASE("the tip of a tool in a gap of 1 mm stays in it, however it is pulled 
         }
         CHECK(deepest <= 0.0);
         CHECK(aside < 0.1e-3);
-        CHECK(along > 1e-3);  // but along the gap it moves
+        CHECK(along > 0.5e-3);  // but along the gap it moves
     }
 }
 
@@ -225,7 +225,8 @@ TEST_CASE("without friction a wall pushes along its normal and nowhere else, and
             device.orientation = rotation(ease * rotation_vector(device.orientation));
             const GodObjectStep step = step_god_object(p, state, device, scene, dt);
             const double push = glm::dot(state.felt.force, n);
-            REQUIRE(push >= -1e-3);
+            // But for what a turn that waits for its torque holds back on the way off: half a per cent.
+            REQUIRE(push >= -0.005 * p.coupling.force);
             // What settles is still on its way.
             if (!step.settled && !step.spent)
                 REQUIRE(glm::length(state.felt.force - push * n) < 0.02 + 0.01 * push);
