@@ -63,17 +63,12 @@ class Stepper {
         const Twist own = twist_between(before.device, device);
         // As far as the device came in this tick: where nothing is near, one query does. Wide bands are dear.
         band_ = std::clamp(travel(own, p_.radius), p_.stride, p_.reach) + 2.0 * p_.skin;
-        const force::Coupling& c = p_.coupling;
-        // What the hand alone would change, were the tool held where it is.
-        const force::OutputCommand held =
-            force::coupling_force(c, force::offset_between(device, before.tool), before.offset, dt);
-        force_ = budget(held.force - before.felt.force, glm::length(before.felt.force), c.force);
-        torque_ = budget(held.torque - before.felt.torque, glm::length(before.felt.torque), c.torque);
     }
 
     GodObjectStep run() {
         here_ = ask(pose_);
         recovering_ = here_.nearest < 0.0;
+        set_budgets();
         bool settled = false, arrived = false;
         while (!settled && !arrived) {
             const Advance advance = advance_once();
@@ -162,7 +157,8 @@ class Stepper {
         double event = 0.0;
         double whole = 0.0;
 
-        [[nodiscard]] double used(const Vec3& change) const {
+        [[nodiscard]] double used(const Vec3& change, bool recovering) const {
+            if (recovering) return glm::length(change) / std::max(whole, 1e-9);
             const double beyond = glm::length(change - 0.5 * hand) - 0.5 * glm::length(hand);
             return std::max(beyond / std::max(event, 1e-9), glm::length(change) / std::max(whole, 1e-9));
         }
@@ -170,7 +166,18 @@ class Stepper {
     [[nodiscard]] Budget budget(const Vec3& hand, double present, double greatest) const {
         const double ms = dt_ / 1e-3;
         const double event = ms * std::max(p_.quiet.of_present * present, p_.quiet.of_greatest * greatest);
-        return {hand, event, std::min(p_.quiet.at_most * greatest * ms, event + glm::length(hand))};
+        // Out of what has moved into the tool it goes as fast as what is felt may change at all.
+        const double most = p_.quiet.at_most * greatest * ms;
+        return {hand, event, recovering_ ? most : std::min(most, event + glm::length(hand))};
+    }
+
+    void set_budgets() {
+        const force::Coupling& c = p_.coupling;
+        // What the hand alone would change, were the tool held where it is.
+        const force::OutputCommand held =
+            force::coupling_force(c, force::offset_between(device_, before_.tool), before_.offset, dt_);
+        force_ = budget(held.force - before_.felt.force, glm::length(before_.felt.force), c.force);
+        torque_ = budget(held.torque - before_.felt.torque, glm::length(before_.felt.torque), c.torque);
     }
 
     [[nodiscard]] force::OutputCommand change(const Twist& motion) const {
@@ -205,9 +212,9 @@ class Stepper {
     // The part of a motion, at most `share` of it, after which neither force nor torque has leapt. Way and
     // turn each go as far as they may where contacts let them: what a turn holds back would pull at the hand.
     [[nodiscard]] Twist quiet_part(const Twist& motion, double share, const Rows& rows) const {
-        const auto force = [&](double s) { return force_.used(change(s * motion).force); };
-        const auto torque = [&](double s) { return torque_.used(change(s * motion).torque); };
-        if (recovering_ || std::max(force(share), torque(share)) <= 1.0) return share * motion;
+        const auto force = [&](double s) { return force_.used(change(s * motion).force, recovering_); };
+        const auto torque = [&](double s) { return torque_.used(change(s * motion).torque, recovering_); };
+        if (std::max(force(share), torque(share)) <= 1.0) return share * motion;
         const Twist apart{quiet_share(share, force) * motion.linear,
                           quiet_share(share, torque) * motion.angular};
         const auto all = std::span(rows.rows).first(rows.count);
