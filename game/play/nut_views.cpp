@@ -11,15 +11,6 @@ constexpr std::size_t spots = 400;  // 5 % is enough to choose a view
 
 constexpr double narrowest = 4.0 / 3.0;  // of pictures
 
-double surface(const contact::ContactMesh& mesh) {
-    double area = 0.0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const auto [a, b, c] = contact::corners(mesh, t);
-        area += 0.5 * glm::length(glm::cross(b - a, c - a));
-    }
-    return area;
-}
-
 // Not those of the bore, which the bolt fills.
 std::vector<contact::Spot> outside(const contact::Solid& nut) {
     std::vector<contact::Spot> all = contact::spread_spots(nut.mesh, spots);
@@ -54,11 +45,9 @@ std::vector<NutView> views_of_nut(const content::Assembly& assembly, const servo
     const std::size_t body = *touch.nuts[joint];
     const std::vector<contact::Spot> on_nut =
         outside(touch.world.shapes[touch.world.bodies[body].shape].solid);
-    const double area = surface(touch.world.shapes[touch.world.bodies[body].shape].solid.mesh);
     for (const content::View& view : assembly.views) {
         const contact::Seen seen = contact::look_at(touch.world, body, on_nut, view.eye);
-        all.push_back({seen.share,
-                       seen.share * seen.alone * area / square(2.0 * std::tan(0.5 * view.field_of_view)),
+        all.push_back({seen.share, seen.angle / square(2.0 * std::tan(0.5 * view.field_of_view)),
                        in_picture(view, touch.world.bodies[body].pose.position)});
     }
     return all;

@@ -20,7 +20,8 @@ using Finder = FunctionRef<Found(const Pose&, double band, std::span<Contact>)>;
 inline constexpr std::size_t most_contacts = 32;  // asked of the finder
 
 // How fast the felt force may change because of what the god-object does (falls off an edge, slips), in a
-// millisecond, beyond what the hand's own motion changes. A step of 7 % is noticed.
+// millisecond, beyond what the hand's own motion would change with the tool held, or any part of that. A step
+// of 7 % is noticed. Pushed out of what moved into it, it is held to `at_most` alone.
 struct Quiet {
     double of_present = 0.05;    // of the force that is felt
     double of_greatest = 0.005;  // of the greatest force, when little is felt
@@ -61,8 +62,9 @@ struct GodObjectStep {
 GodObjectState start_god_object(const Pose& pose);
 
 // One tick of dt. A motion is only carried out if the finder certified it beforehand (no point of the tool
-// travels farther than the nearest obstacle) or finds no penetration after it, at strides of at most
-// `stride`. A pose that is not finite is ignored: the god-object keeps everything as it is. No allocation.
+// travels farther than the nearest obstacle) or, at strides of at most `stride`, finds after it nothing too
+// near that the motion came nearer to: what a finder sees late, up to 0.25 mm, was as near before. A pose
+// that is not finite is ignored: the god-object keeps everything as it is. No allocation.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& device, Finder finder, double dt);
 

@@ -175,15 +175,20 @@ Near conclude(Gathering& g, const Side& first, double band, std::span<Side> side
     return near;
 }
 
-}  // namespace
-
-Near near_point(const Solid& solid, const Vec3& point, double radius, double band, std::span<Side> sides) {
+Gathering gathering(const Solid& solid, const Vec3& point, double band) {
     Gathering g;
     g.mesh = &solid.mesh;
     g.corners = solid.corners.data();
     g.part = solid.part.data();
     g.p = point;
     g.band2 = band * band;
+    return g;
+}
+
+}  // namespace
+
+Near near_point(const Solid& solid, const Vec3& point, double radius, double band, std::span<Side> sides) {
+    Gathering g = gathering(solid, point, band);
     const double within = std::max(radius, band);
     g.radius2 = g.asked2 = within * within;
     RTCPointQuery query = make_query(point, within);
@@ -242,12 +247,7 @@ bool rises(const std::array<glm::vec3, 3>& t, const Vec3& normal, double height)
 
 std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, const Place& place,
                                 const Vec3& point, double band, std::span<Side> sides) {
-    Gathering g;
-    g.mesh = &solid.mesh;
-    g.corners = solid.corners.data();
-    g.part = solid.part.data();
-    g.p = point;
-    g.band2 = band * band;
+    Gathering g = gathering(solid, point, band);
     const glm::vec3 rounded(point);
     constexpr std::size_t room = most_listed;
     const std::span<const std::uint32_t> listed(&vicinity.triangles[place.begin], place.end - place.begin);

@@ -31,7 +31,8 @@ std::vector<Spot> spread_spots(const ContactMesh& mesh, std::size_t count) {
         const auto t = std::min(mesh.triangles.size() - 1, static_cast<std::size_t>(above - sums.begin()));
         const auto [a, b, c] = corners(mesh, t);
         const double u = std::sqrt(fraction(step / plastic)), v = fraction(step / (plastic * plastic));
-        spots.push_back({a * (1.0 - u) + b * (u * (1.0 - v)) + c * (u * v), Vec3(mesh.face_normals[t])});
+        spots.push_back({a * (1.0 - u) + b * (u * (1.0 - v)) + c * (u * v), Vec3(mesh.face_normals[t]),
+                         area / static_cast<double>(count)});
     }
     return spots;
 }
@@ -46,12 +47,11 @@ Seen look_at(const World& world, std::size_t body, std::span<const Spot> spots, 
         const double distance2 = glm::dot(to_eye, to_eye);
         const double facing = glm::dot(spot.normal, to_eye);
         if (facing <= 0.0 || blocked(world.shapes[own.shape].solid, eye_there, at)) continue;
-        const double size = facing / (distance2 * std::sqrt(distance2));
+        const double size = spot.area * facing / (distance2 * std::sqrt(distance2));
         alone += size;
         if (!occluded(world, eye, own.pose * at, body)) seen += size;
     }
-    return {alone > 0.0 ? seen / alone : 0.0,
-            spots.empty() ? 0.0 : alone / static_cast<double>(spots.size())};
+    return {alone > 0.0 ? seen / alone : 0.0, seen};
 }
 
 }  // namespace bolt::contact

@@ -10,8 +10,9 @@ namespace bolt::contact {
 
 // Of a surface, in the frame of its body.
 struct Spot {
-    Vec3 at{0.0};      // m
-    Vec3 normal{0.0};  // unit, outward
+    Vec3 at{0.0};       // m
+    Vec3 normal{0.0};   // unit, outward
+    double area = 0.0;  // m² that it stands for
 };
 
 // Spots spread evenly over a mesh, by area. The same for the same mesh.
@@ -19,7 +20,7 @@ std::vector<Spot> spread_spots(const ContactMesh& mesh, std::size_t count);
 
 struct Seen {
     double share = 0.0;  // 0…1 of what would be seen if the body stood alone; 0 if nothing would be
-    double alone = 0.0;  // per m², how large the body alone appears: solid angle by surface
+    double angle = 0.0;  // sr of it that are seen
 };
 
 // Of the body with this index, as the world stands now. Bodies that are off hide nothing; the body itself may
