@@ -16,9 +16,16 @@ struct Contact {
     Vec3 normal{0.0};       // unit, from the obstacle towards where the tool may be
     double distance = 0.0;  // m, signed: below 0 the tool is inside
     std::int32_t body = 0;  // which obstacle
-    std::uint32_t feature =
-        0;  // which feature of the tool (or, top bit set, of the obstacle): stays the same while both move
+    // Which feature of the tool (or, top bit set, of the obstacle): stays the same while both move.
+    std::uint32_t feature = 0;
+    // Of a mesh that was met: a triangle that the closest point lies on, of whoever the feature is not of.
+    std::uint32_t triangle = 0;
+    // Unit: the normal, were the facets there the round surface that they stand for (smooth_normals.hpp);
+    // zero: no other than `normal`.
+    Vec3 smooth{0.0};
 };
+
+inline constexpr std::uint32_t of_obstacle = 0x80000000U;  // in `Contact::feature`
 
 struct Found {
     std::size_t count = 0;  // contacts written

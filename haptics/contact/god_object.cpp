@@ -84,6 +84,10 @@ class Stepper {
     }
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
+    [[nodiscard]] force::OutputCommand event_of(const force::OutputCommand& felt) const {
+        return {force_.event_of(felt.force - before_.felt.force),
+                torque_.event_of(felt.torque - before_.felt.torque)};
+    }
 
   private:
     enum class Advance { moved, held, nowhere, spent };
@@ -106,7 +110,8 @@ class Stepper {
         Rows rows;
         for (std::size_t i = 0; i < here_.count; ++i) {
             const Contact& c = here_.contacts[i];
-            rows.add({c.on_tool - pose_.position, c.normal, std::max(c.distance - p_.skin, -recovery_left_),
+            const Vec3& normal = c.smooth == Vec3(0.0) ? c.normal : c.smooth;
+            rows.add({c.on_tool - pose_.position, normal, std::max(c.distance - p_.skin, -recovery_left_),
                       p_.friction});
         }
         return rows;
@@ -151,24 +156,40 @@ class Stepper {
 
     // How the felt force or torque may change in this tick: by what the hand's own motion changes, or by any
     // part of it (contacts that take some directions and leave others bring its projections, which lie in the
-    // ball over it: Thales), and a little in any direction besides.
+    // ball over it: Thales), a little in any direction besides, and more where it has been going.
     struct Budget {
         Vec3 hand{0.0};
+        Vec3 going{0.0};
         double event = 0.0;
         double whole = 0.0;
 
+        // What of a change is neither the hand's own nor on the way that the force is going.
+        [[nodiscard]] double beyond(const Vec3& change) const {
+            const Vec3 from = change - 0.5 * hand;
+            const double along = glm::dot(going, going);
+            const double t = along > 0.0 ? std::clamp(glm::dot(from, going) / along, 0.0, 1.0) : 0.0;
+            return glm::length(from - t * going) - 0.5 * glm::length(hand);
+        }
         [[nodiscard]] double used(const Vec3& change, bool recovering) const {
             if (recovering) return glm::length(change) / std::max(whole, 1e-9);
-            const double beyond = glm::length(change - 0.5 * hand) - 0.5 * glm::length(hand);
-            return std::max(beyond / std::max(event, 1e-9), glm::length(change) / std::max(whole, 1e-9));
+            return std::max(beyond(change) / std::max(event, 1e-9),
+                            glm::length(change) / std::max(whole, 1e-9));
+        }
+        [[nodiscard]] Vec3 event_of(const Vec3& change) const {
+            const Vec3 from = change - 0.5 * hand;
+            const double way = glm::length(from), own = 0.5 * glm::length(hand);
+            return way > own ? from * (1.0 - own / way) : Vec3(0.0);
         }
     };
-    [[nodiscard]] Budget budget(const Vec3& hand, double present, double greatest) const {
+    [[nodiscard]] Budget budget(const Vec3& hand, const Vec3& before, double present, double greatest) const {
         const double ms = dt_ / 1e-3;
         const double event = ms * std::max(p_.quiet.of_present * present, p_.quiet.of_greatest * greatest);
         // Out of what has moved into the tool it goes as fast as what is felt may change at all.
         const double most = p_.quiet.at_most * greatest * ms;
-        return {hand, event, recovering_ ? most : std::min(most, event + glm::length(hand))};
+        const double at_once = p_.quiet.at_once * event, along = event - at_once;
+        const double was = glm::length(before);
+        return {hand, was > along ? before * (along / was) : before, at_once,
+                recovering_ ? most : std::min(most, event + glm::length(hand))};
     }
 
     void set_budgets() {
@@ -176,8 +197,10 @@ class Stepper {
         // What the hand alone would change, were the tool held where it is.
         const force::OutputCommand held =
             force::coupling_force(c, force::offset_between(device_, before_.tool), before_.offset, dt_);
-        force_ = budget(held.force - before_.felt.force, glm::length(before_.felt.force), c.force);
-        torque_ = budget(held.torque - before_.felt.torque, glm::length(before_.felt.torque), c.torque);
+        force_ = budget(held.force - before_.felt.force, before_.event.force, glm::length(before_.felt.force),
+                        c.force);
+        torque_ = budget(held.torque - before_.felt.torque, before_.event.torque,
+                         glm::length(before_.felt.torque), c.torque);
     }
 
     [[nodiscard]] force::OutputCommand change(const Twist& motion) const {
@@ -300,7 +323,9 @@ GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectSt
     const GodObjectStep step = stepper.run();
     state.tool = stepper.pose();
     const force::Offset offset = force::offset_between(device, state.tool);
-    state.felt = force::coupling_force(parameters.coupling, offset, state.offset, dt);
+    const force::OutputCommand felt = force::coupling_force(parameters.coupling, offset, state.offset, dt);
+    state.event = stepper.event_of(felt);
+    state.felt = felt;
     state.offset = offset;
     state.device = device;
     return step;

@@ -26,6 +26,9 @@ struct Quiet {
     double of_present = 0.05;    // of the force that is felt
     double of_greatest = 0.005;  // of the greatest force, when little is felt
     double at_most = 0.08;       // of the greatest force, the hand's own motion included
+    // So much of that at once; the rest only on the way that the force has been going: what goes to and fro
+    // from tick to tick would be felt as trembling.
+    double at_once = 0.3;
 };
 
 struct GodObjectParameters {
@@ -46,6 +49,7 @@ struct GodObjectState {
     Pose device;
     force::Offset offset;
     force::OutputCommand felt;
+    force::OutputCommand event;  // what of its change was not the hand's own
 };
 
 // What a step did.

@@ -141,6 +141,108 @@ void join_vertices(ContactMesh& mesh) {
     mesh.vertex_normals.assign(normals.begin(), normals.end());
 }
 
+// The corners about each vertex, in the order of triangles.
+struct Fans {
+    std::vector<std::uint32_t> first;    // by vertex, and one more
+    std::vector<std::uint32_t> corners;  // triangle × 3 + corner
+};
+
+Fans fans_of(const ContactMesh& mesh) {
+    Fans fans;
+    fans.first.assign(mesh.vertices.size() + 1, 0);
+    for (const auto& t : mesh.triangles)
+        for (const std::uint32_t v : t) ++fans.first[v + 1];
+    std::partial_sum(fans.first.begin(), fans.first.end(), fans.first.begin());
+    fans.corners.resize(3 * mesh.triangles.size());
+    std::vector<std::uint32_t> next(fans.first.begin(), fans.first.end() - 1);
+    for (std::uint32_t i = 0; i < fans.corners.size(); ++i)
+        fans.corners[next[mesh.triangles[i / 3][i % 3]]++] = i;
+    return fans;
+}
+
+bool is_creased(const glm::vec3& a, const glm::vec3& b) {
+    static const double least = std::cos(crease);
+    return glm::dot(Vec3(a), Vec3(b)) < least;
+}
+
+// Of one vertex: which corners belong to one smooth surface, and its normal there.
+class Smoother {
+  public:
+    explicit Smoother(ContactMesh& mesh) : mesh_(mesh) {}
+
+    void run(std::span<const std::uint32_t> corners_here) {
+        group_.resize(corners_here.size());
+        std::iota(group_.begin(), group_.end(), 0U);
+        bool ends_crease = false;
+        for (std::uint32_t i = 0; i < corners_here.size(); ++i) {
+            // The edge that leaves the vertex here comes to it in the next triangle about it.
+            const std::uint32_t t = corners_here[i] / 3, leaving = corners_here[i] % 3;
+            const std::uint32_t to = mesh_.triangles[t][(leaving + 1) % 3];
+            std::size_t neighbours = 0;
+            std::uint32_t other = 0;
+            for (std::uint32_t k = 0; k < corners_here.size(); ++k) {
+                const std::uint32_t coming = corners_here[k] % 3;
+                if (mesh_.triangles[corners_here[k] / 3][(coming + 2) % 3] != to) continue;
+                ++neighbours;
+                other = k;
+            }
+            const bool crease_here =
+                neighbours != 1 ||
+                is_creased(mesh_.face_normals[t], mesh_.face_normals[corners_here[other] / 3]);
+            if (crease_here) {
+                ends_crease = true;
+                mark(t, 3 + leaving);
+                if (neighbours == 1) mark(corners_here[other] / 3, 3 + (corners_here[other] + 2) % 3);
+            } else {
+                join(i, other);
+            }
+        }
+        sums_.assign(corners_here.size(), Vec3(0.0));
+        for (std::uint32_t i = 0; i < corners_here.size(); ++i)
+            sums_[root(i)] += weighted_normal(corners_here[i]);
+        for (std::uint32_t i = 0; i < corners_here.size(); ++i) {
+            const std::uint32_t t = corners_here[i] / 3, corner = corners_here[i] % 3;
+            if (ends_crease) mark(t, corner);
+            const Vec3& sum = sums_[root(i)];
+            const double length = glm::length(sum);
+            mesh_.smooth_normals[t][corner] = length > 0.0 ? glm::vec3(sum / length) : mesh_.face_normals[t];
+        }
+    }
+
+  private:
+    void mark(std::uint32_t triangle, std::uint32_t region) {
+        mesh_.creased[triangle] = static_cast<std::uint8_t>(mesh_.creased[triangle] | 1U << region);
+    }
+    [[nodiscard]] std::uint32_t root(std::uint32_t i) const {
+        while (group_[i] != i) i = group_[i];
+        return i;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t of_a = root(a), of_b = root(b);
+        group_[std::max(of_a, of_b)] = std::min(of_a, of_b);
+    }
+    [[nodiscard]] Vec3 weighted_normal(std::uint32_t corner) const {
+        const auto face = corners(mesh_, corner / 3);
+        const std::size_t i = corner % 3;
+        const Vec3 a = face[(i + 1) % 3] - face[i], b = face[(i + 2) % 3] - face[i];
+        const double across = glm::length(glm::cross(a, b));
+        return std::atan2(across, glm::dot(a, b)) * across * Vec3(mesh_.face_normals[corner / 3]);
+    }
+
+    ContactMesh& mesh_;
+    std::vector<std::uint32_t> group_;
+    std::vector<Vec3> sums_;
+};
+
+void smooth(ContactMesh& mesh) {
+    mesh.smooth_normals.resize(mesh.triangles.size());
+    mesh.creased.assign(mesh.triangles.size(), 0);
+    const Fans fans = fans_of(mesh);
+    Smoother smoother(mesh);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+        smoother.run(std::span(fans.corners).subspan(fans.first[v], fans.first[v + 1] - fans.first[v]));
+}
+
 }  // namespace
 
 Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
@@ -181,6 +283,7 @@ Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
         return fail(ErrorCode::bad_content, "the contact mesh has no triangle with an area");
     join_edges(mesh);
     join_vertices(mesh);
+    smooth(mesh);
     return mesh;
 }
 
@@ -190,6 +293,7 @@ ContactMesh moved(ContactMesh mesh, const Pose& pose) {
     for (glm::vec3& v : mesh.face_normals) turn(v);
     for (auto& edges : mesh.edge_normals) std::for_each(edges.begin(), edges.end(), turn);
     for (glm::vec3& v : mesh.vertex_normals) turn(v);
+    for (auto& corners : mesh.smooth_normals) std::for_each(corners.begin(), corners.end(), turn);
     for (SharpEdge& edge : mesh.sharp_edges) {
         std::for_each(edge.normals.begin(), edge.normals.end(), turn);
         std::for_each(edge.inward.begin(), edge.inward.end(), turn);
@@ -205,6 +309,8 @@ void append(ContactMesh& whole, const ContactMesh& mesh) {
     add(whole.face_normals, mesh.face_normals);
     add(whole.edge_normals, mesh.edge_normals);
     add(whole.vertex_normals, mesh.vertex_normals);
+    add(whole.smooth_normals, mesh.smooth_normals);
+    add(whole.creased, mesh.creased);
     for (const auto& t : mesh.triangles)
         whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     for (SharpEdge edge : mesh.sharp_edges) {

@@ -51,6 +51,14 @@ struct ContactMesh {
     std::vector<SharpEdge> sharp_edges;
     std::vector<RoundEdge> round_edges;
 
+    // Of each triangle's corners the unit normals of the round surface that the facets stand for: of the
+    // faces that follow each other about the vertex across edges duller than `crease`, weighted by angle and
+    // area.
+    std::vector<std::array<glm::vec3, 3>> smooth_normals;
+    // Where there is no such surface, by Region (closest.hpp): a bit each for corners that a crease ends at
+    // and for edges that are one.
+    std::vector<std::uint8_t> creased;
+
     // What was wrong with the triangles given. Where edges are open, the side of a point near them is a
     // guess.
     std::size_t without_area = 0;  // left out
@@ -61,6 +69,8 @@ struct ContactMesh {
 };
 
 inline constexpr double edge_rise = 30e-6;  // m
+// Facets that meet more bluntly than this stand for a round surface.
+inline constexpr double crease = 30.0 * pi / 180.0;
 // Between neighbouring points a round surface rises by no more than this (m).
 inline constexpr double round_rise = 60e-6;
 // Surfaces that are less round (1/m) get no points for it.

@@ -19,8 +19,6 @@ constexpr std::size_t few = 4;
 constexpr double rounding = 1e-9;
 constexpr double nothing_proven = -1e9;
 
-constexpr std::uint32_t of_obstacle = 0x80000000U;
-
 void reset(Bounds& bounds, const Samples& samples) {
     constexpr Proven nothing{nothing_proven, nothing_near};
     bounds.levels.resize(samples.levels.size());
@@ -243,7 +241,8 @@ class Sweep {
                 .normal = of_tool_ ? normal : -normal,
                 .distance = side.distance,
                 .body = body_of(index, side.triangle),
-                .feature = of_tool_ ? index : index | of_obstacle};
+                .feature = of_tool_ ? index : index | of_obstacle,
+                .triangle = side.triangle};
     }
     [[nodiscard]] std::int32_t body_of(std::uint32_t index, std::uint32_t triangle) const {
         return obstacle_of(world_, body_, of_tool_ ? triangle : samples_.samples[index].triangle);
@@ -281,7 +280,8 @@ class Sweep {
                             .normal = to_assembly_.orientation * crossing.normal,
                             .distance = crossing.distance,
                             .body = obstacle_of(world_, body_, triangle),
-                            .feature = index});
+                            .feature = index,
+                            .triangle = triangle});
         }
     }
 

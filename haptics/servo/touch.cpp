@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "haptics/contact/smooth_normals.hpp"
 #include "haptics/joint/corner.hpp"
 #include "haptics/servo/jaw_grip.hpp"
 
@@ -92,6 +93,7 @@ contact::Found find(const Setup& setup, Touch& touch, const Pose& pose, double b
     const auto rest = out.subspan(found.count);
     const contact::Found meshes =
         contact::find_contacts(touch.world, touch.wrench, pose, band, touch.proximity, rest);
+    contact::smooth_normals(touch.world, touch.wrench, pose, rest.first(meshes.count));
     for (std::size_t k = 0; k < meshes.count; ++k) {
         const bool said = rest[k].body >= first_nut && is_jaw(setup.wrench.jaw, pose, rest[k].on_tool);
         if (!said) out[found.count++] = rest[k];
