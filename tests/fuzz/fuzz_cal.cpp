@@ -1,0 +1,21 @@
+// Calibration files: any bytes end in a calibration or in an error that names a line, never in a crash.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "haptics/glove/cal_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const auto calibration = bolt::glove::parse_cal(text, "fuzz.cal");
+    if (!calibration) {
+        if (calibration.error().line < 1) std::abort();
+        return 0;
+    }
+    for (const auto& line : calibration->lines)
+        if (line && !std::isfinite(bolt::glove::angle(*line, 255.0))) std::abort();
+    return 0;
+}

@@ -1,0 +1,35 @@
+// A glove's line: whatever comes in, however it is cut, is greeted and read without a crash, and every frame
+// that is told is one.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "haptics/glove/conversation.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace bolt::glove;
+    Conversation conversation;
+    std::span<const std::uint8_t> left(data, size);
+    double now = 0.0;
+    while (!left.empty()) {
+        // The first byte of each cut says how many come, and how long after those before.
+        const std::size_t n = std::min<std::size_t>(1 + left[0] % 24, left.size());
+        now += (left[0] & 0x80) != 0 ? 0.1 : 0.002;
+        const auto cut = left.subspan(1, n - 1);
+        left = left.subspan(n);
+        conversation.go_on(cut, now, [&](const Frame& frame) {
+            for (const Sensor s : sensors_of(conversation.identity().sensors))
+                if (frame.raw[index(s)] == 0) std::abort();
+        });
+    }
+
+    FrameReader reader{.layout = {22, size % 2 == 1, size % 3 == 1}};
+    read_frames(reader, {data, size}, [&](const Frame& frame) {
+        for (const std::uint8_t raw : frame.raw)
+            if (raw == 0) std::abort();
+    });
+    if (reader.lost + reader.frames > size) std::abort();
+    return 0;
+}

@@ -1,0 +1,95 @@
+// The driver on a real line, a pseudo-terminal with the emulated glove at its other end. Waits are for things
+// to happen, however long that takes; how soon they do is tested in virtual time (conversation.cpp).
+#include "haptics/glove/driver.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "haptics/glove/serial_line.hpp"
+#include "tools/emulate/glove_line.hpp"
+
+using namespace bolt;
+using namespace bolt::glove;
+
+namespace {
+
+template <class Is>
+bool eventually(const Is& is) {
+    for (int i = 0; i < 12000; ++i) {
+        if (is()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("driver: gloves of both sizes and hands, over a real line") {
+    for (const std::size_t sensors : {18U, 22U})
+        for (const Hand hand : {Hand::left, Hand::right}) {
+            auto line = emulate::GloveLine::start({.sensors = sensors, .hand = hand, .streaming = true}, 0.5);
+            REQUIRE(line);
+            Driver driver = Driver::start(line->port());
+            std::uint64_t last = 0;
+            bool in_order = true;
+            REQUIRE(eventually([&] {
+                const std::uint64_t number = driver.sample().number;
+                in_order = in_order && number >= last;
+                last = number;
+                return number > 40;
+            }));
+            CHECK(in_order);
+            CHECK(driver.report().identity.sensors == sensors);
+            CHECK(driver.report().identity.hand == hand);
+            CHECK(driver.report().lost_bytes == 0);
+            CHECK((driver.sample().frame.raw[index(Sensor::ring_dij)] == 0) == (sensors == 18));
+        }
+}
+
+TEST_CASE("driver: a glove that stalls, and one whose port goes and comes back under the same name") {
+    const auto name =
+        std::filesystem::temp_directory_path() /
+        ("boltwright-glove-" + std::to_string(std::hash<std::thread::id>{}(std::this_thread::get_id())));
+    const auto plug_in = [&](const emulate::GloveLine& line) {
+        std::filesystem::remove(name);
+        std::filesystem::create_symlink(line.port(), name);
+    };
+    auto line = emulate::GloveLine::start({}, 0.5);
+    REQUIRE(line);
+    plug_in(*line);
+    Driver driver = Driver::start(name);
+    REQUIRE(eventually([&] { return driver.sample().number > 5; }));
+
+    line->stall(true);
+    REQUIRE(eventually([&] { return driver.report().state == State::silent; }));
+    CHECK(std::strlen(driver.report().trouble.data()) > 0);
+    const std::uint64_t at = driver.sample().number;
+    line->stall(false);
+    REQUIRE(eventually([&] { return driver.sample().number > at + 5; }));
+
+    { const emulate::GloveLine pulled = std::move(*line); }
+    REQUIRE(eventually([&] { return !driver.report().open; }));
+    CHECK(std::strlen(driver.report().trouble.data()) > 0);
+    auto again = emulate::GloveLine::start({.sensors = 22}, 0.5);
+    REQUIRE(again);
+    plug_in(*again);
+    REQUIRE(eventually([&] { return driver.report().identity.sensors == 22; }));
+    const std::uint64_t then = driver.sample().number;
+    REQUIRE(eventually([&] { return driver.sample().number > then + 5; }));
+    CHECK(driver.report().openings >= 2);
+    std::filesystem::remove(name);
+}
+
+TEST_CASE("a port that is none says so, and what to do") {
+    const auto none = SerialLine::open("/nonexistent/glove");
+    REQUIRE(!none);
+    CHECK(none.error().code == ErrorCode::no_device);
+    CHECK(none.error().message().find("plugged in") != std::string::npos);
+    const auto file = SerialLine::open("/dev/null");
+    REQUIRE(!file);
+    CHECK(file.error().message().find("no serial port") != std::string::npos);
+}

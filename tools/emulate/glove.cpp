@@ -1,0 +1,152 @@
+#include "tools/emulate/glove.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace bolt::emulate {
+
+namespace {
+
+void add(std::vector<std::uint8_t>& out, std::string_view text) {
+    out.insert(out.end(), text.begin(), text.end());
+}
+
+void add_value(std::vector<std::uint8_t>& out, char letter, std::size_t value) {
+    out.insert(out.end(), {'?', static_cast<std::uint8_t>(letter), static_cast<std::uint8_t>(value), 0});
+}
+
+}  // namespace
+
+Glove::Glove(const GloveDesign& design)
+    : design_(design),
+      random_(design.seed, 0x610e),
+      streaming_(design.streaming),
+      status_(design.status),
+      time_(design.time),
+      samples_(design.sensors) {
+    raw.fill(120);
+}
+
+std::vector<std::uint8_t> Glove::go_on(std::span<const std::uint8_t> received, double now) {
+    Bytes out;
+    if (stalled) {
+        next_ = now;
+        return out;
+    }
+    for (const std::uint8_t byte : received) hear(byte, out);
+    if (streaming_ && now - next_ > 1.0) next_ = now;
+    for (; streaming_ && next_ <= now; next_ += 1.0 / rate_) {
+        frame('S', out);
+        ++sent_;
+    }
+    if (!streaming_) next_ = now;
+    return spoiled(out);
+}
+
+void Glove::hear(std::uint8_t byte, Bytes& out) {
+    if (byte == 0x03) {
+        streaming_ = false;
+        heard_.clear();
+        return;
+    }
+    heard_.push_back(byte);
+    if (answer(out)) heard_.clear();
+}
+
+// True: what was heard is answered.
+bool Glove::answer(Bytes& out) {
+    const auto unknown = [&] {
+        add(out, std::string_view("e?\r\n\0", 5));
+        return true;
+    };
+    const bool modern = !design_.old_firmware;
+    const std::uint8_t first = heard_.front();
+    const std::size_t n = heard_.size();
+    switch (first) {
+        case '\r':
+        case '\n':
+            return true;
+        case 'S':
+            streaming_ = true;
+            return true;
+        case 'G':
+            frame('G', out);
+            return true;
+        case 'N':
+            if (n < 2) return false;
+            samples_ = heard_[1];
+            out.insert(out.end(), {first, 0});
+            return true;
+        case 'U':
+        case 'D':
+            if (n < 2) return false;
+            if (!modern) return unknown();
+            (first == 'U' ? status_ : time_) = heard_[1] != 0;
+            out.insert(out.end(), {first, 0});
+            return true;
+        case 't': {
+            if (heard_.back() != '\r') return n > 24 ? unknown() : false;
+            if (!modern) return unknown();
+            const std::string text(heard_.begin() + 1, heard_.end());
+            const double ticks = std::atof(text.c_str());
+            if (!(ticks >= 200.0)) return unknown();
+            rate_ = 115200.0 / ticks;
+            add(out, std::string_view("t\r\n\0", 4));
+            return true;
+        }
+        case '?':
+            if (n < 2) return false;
+            switch (heard_[1]) {
+                case 'S':
+                    add_value(out, 'S', design_.sensors);
+                    return true;
+                case 'N':
+                    add_value(out, 'N', samples_);
+                    return true;
+                case 'R':
+                    add_value(out, 'R', design_.hand == glove::Hand::right ? 1 : 0);
+                    return true;
+                case 'G':
+                    if (!modern) return unknown();
+                    add_value(out, 'G', design_.plugged ? 3 : 0);
+                    return true;
+                case 'V':
+                    if (!modern) return unknown();
+                    add(out, "?V" + design_.version);
+                    out.push_back(0);
+                    return true;
+                default:
+                    return unknown();
+            }
+        default:
+            return unknown();
+    }
+}
+
+void Glove::frame(std::uint8_t letter, Bytes& out) const {
+    out.push_back(letter);
+    const auto sensors = glove::sensors_of(design_.sensors);
+    for (std::size_t i = 0; i < std::min(samples_, sensors.size()); ++i) {
+        const std::uint8_t value = raw[glove::index(sensors[i])];
+        out.push_back(std::max<std::uint8_t>(value, 1));
+    }
+    if (time_) out.insert(out.end(), {12, 0, 34, 0, 5});
+    if (status_) out.push_back(0x02);
+    if (!design_.plugged) add(out, "eg");
+    out.push_back(0);
+}
+
+std::vector<std::uint8_t> Glove::spoiled(const Bytes& bytes) {
+    const LineFaults& f = design_.faults;
+    if (f.dropped + f.changed + f.added <= 0.0) return bytes;
+    Bytes out;
+    for (const std::uint8_t byte : bytes) {
+        if (random_.uniform(0.0, 1.0) < f.added) out.push_back(static_cast<std::uint8_t>(random_.bits()));
+        if (random_.uniform(0.0, 1.0) < f.dropped) continue;
+        const bool changed = random_.uniform(0.0, 1.0) < f.changed;
+        out.push_back(changed ? static_cast<std::uint8_t>(random_.bits()) : byte);
+    }
+    return out;
+}
+
+}  // namespace bolt::emulate
