@@ -17,6 +17,7 @@ class Bvh {
         std::uint32_t count = 0;  // triangles of a leaf; 0: not a leaf
     };
 
+    Bvh() = default;
     explicit Bvh(std::vector<Triangle> triangles);
 
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  // root first; empty: none

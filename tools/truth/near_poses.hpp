@@ -1,0 +1,56 @@
+// Random poses of the wrench at what it can bump into, and the finder's answers there against the truth.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/truth/scene.hpp"
+
+namespace bolt::truth {
+
+struct NearOptions {
+    std::size_t poses = 100'000;
+    std::uint64_t seed = 1;
+    unsigned threads = 1;
+    double band = 2e-3;  // m, that the finder is asked for
+};
+
+struct NearPose {
+    Pose tool;
+    Meeting truth;
+    Meeting points;      // of the points alone that the finder looks at
+    bool found = false;  // any contact
+    double told = 0.0;   // m, the nearest of them
+    // m, by which a contact is not where it says, off a surface or longer than its distance: of points, of
+    // pieces of edges (a row of short ones is taken for straight).
+    double off = 0.0, off_edges = 0.0;
+    double wrong = 0.0;  // m, by which the distance of a contact is not that of its point
+};
+
+// Places come to from outside until they just touch, and many poses about each: by up to 1.5 mm and 1°
+// somewhere else, some free, some crossing. The same for the same seed, whatever the number of threads.
+std::vector<NearPose> near_poses(const Scene& scene, const contact::World& world,
+                                 const contact::ToolShape& tool, const NearOptions& options);
+
+// Truly inside by more than 0.1 mm, and not told.
+bool missed(const NearPose& pose);
+
+struct NearSummary {
+    std::size_t poses = 0, free = 0, near = 0, crossing = 0, deep = 0;  // deep: by more than 0.1 mm
+    std::size_t missed = 0;
+    double deepest_untold = 0.0;  // m, of crossings that are not told to be inside
+    // The worst of NearPose.
+    double off = 0.0, off_edges = 0.0, wrong = 0.0;
+    // Nearer than it is: the nearest contact less the true gap. Later: the other way round. Of the points:
+    // what should be told of the points alone.
+    double nearer = 0.0, later = 0.0, later_than_points = 0.0, later_p50 = 0.0, later_p99 = 0.0;
+    double within_micrometre = 0.0;  // share of the gaps
+    double shallower_than_points = 0.0;
+};
+
+NearSummary summarize(const std::vector<NearPose>& poses, double band);
+std::string to_text(const NearSummary& summary);
+std::string to_text(const Pose& pose);
+
+}  // namespace bolt::truth
