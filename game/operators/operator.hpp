@@ -13,6 +13,8 @@
 
 namespace bolt::operators {
 
+struct Mind;  // mind.hpp
+
 class Operator {
   public:
     Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup);
@@ -24,7 +26,6 @@ class Operator {
     servo::Input act(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson);
 
   private:
-    struct Mind;
     std::unique_ptr<Mind> mind_;
 };
 

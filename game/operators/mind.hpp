@@ -1,0 +1,85 @@
+// All that a simulated trainee remembers between ticks, and what it sees in this one. What it does with it
+// stands beside: reach.hpp, pull.hpp, operator.hpp.
+#pragma once
+
+#include <vector>
+
+#include "game/operators/intent.hpp"
+#include "game/operators/motion.hpp"
+#include "game/operators/nerves.hpp"
+#include "haptics/servo/tick.hpp"
+
+namespace bolt::operators {
+
+// What the hand is doing. Each phase ends by choosing the next.
+enum class Phase { think, fetch, reach, lower, settle, pull, ease, lift, spin, spin_back, done };
+
+// Orientation of a tool whose handle stands at the given angle about the bolt (tightening positive).
+Quat orientation_of(const servo::NutPlace& nut, double handle_angle, bool flipped);
+
+struct Mind {
+    Profile profile;
+    Random random;
+    Tremor tremor;
+    Nerves nerves;
+    Intent intent;
+    Phase phase = Phase::think;
+    double time = 0.0;    // s since the lesson began
+    double begun = 0.0;   // s, when the phase began
+    double length = 0.0;  // s that the phase takes, where it has a length
+    Pose from, to;        // of the movement
+    bool flipped = false;
+    double handle = 0.0;         // rad, handle angle about the bolt now
+    double stroke_begin = 0.0;   // rad, where this pull began
+    double begin_angle = 0.0;    // rad, of the nut when it came to it
+    double free_turn = 0.0;      // rad turned without resistance, loosening
+    Vec3 placed{0.0};            // m, how far off the centre it put the tool
+    Vec3 bulge{0.0};             // m, how far the reach goes off the straight way
+    std::vector<Pose> stations;  // that it still goes to after `to`, the last first
+    double room = 0.0;           // rad that the handle may swing in this pull
+    bool holds_wrench = false;
+    double caught = 0.0;  // s that the wrench has been kept from where the hand means to be
+    int bumps = 0;        // times in a row that it was
+    int misses = 0;       // times in a row that the jaw did not slide on
+    Arm arm;
+    Pose hand;                 // where it is
+    bool gripped = false;      // it had hold of a nut in the tick before
+    bool turned_back = false;  // it was caught and means to be where the wrench is
+    Pose rest;                 // before the assembly, where the wrench lies and nothing is in the way
+
+    // What can be seen at this tick.
+    const servo::Setup* setup = nullptr;
+    const servo::State* state = nullptr;
+    const lesson::Lesson* lesson = nullptr;
+
+    Mind(const Profile& p, std::uint64_t seed, double dt)
+        : profile(p), random(seed, 7001), tremor(random), nerves(p.reaction, dt) {}
+
+    [[nodiscard]] const servo::NutPlace& nut() const { return setup->nuts[intent.joint]; }
+    [[nodiscard]] const joint::JointState& joint() const { return state->joints[intent.joint]; }
+    [[nodiscard]] const servo::Touch* obstacles() const { return state->touch ? &*state->touch : nullptr; }
+    [[nodiscard]] double elapsed() const { return time - begun; }
+    [[nodiscard]] double progress() const { return length > 0.0 ? elapsed() / length : 1.0; }
+    [[nodiscard]] bool over() const { return progress() >= 1.0; }
+    [[nodiscard]] bool step_is_past() const { return intent.step != lesson->current; }
+    [[nodiscard]] bool on_its_nut() const {
+        return state->engagement.joint == static_cast<int>(intent.joint);
+    }
+    [[nodiscard]] Vec3 off_centre(double deviation) {
+        return Vec3(random.normal(), random.normal(), random.normal()) * deviation;
+    }
+
+    void enter(Phase next, double seconds = 0.0) {
+        phase = next;
+        begun = time;
+        length = seconds;
+    }
+
+    // The tool over the nut, `above` it.
+    [[nodiscard]] Pose at_nut(double above) const {
+        return {servo::nut_centre(nut(), joint().nut.angle) + nut().axis * above + placed,
+                orientation_of(nut(), handle, flipped)};
+    }
+};
+
+}  // namespace bolt::operators

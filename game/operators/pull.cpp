@@ -1,0 +1,65 @@
+#include "game/operators/pull.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::operators {
+
+namespace {
+
+constexpr double seated_share = 0.55;          // of what fingers can give: a nut that takes more sits
+constexpr double spin_stroke = 200.0;          // degrees of one finger twist
+constexpr double loose_free = 40.0;            // degrees turned at next to no torque: the nut is free
+constexpr double no_torque = 1.0;              // N·m, next to none at a wrench
+constexpr double seen_turn = to_radians(0.5);  // of a nut that can be seen
+constexpr double unwinding_time = 0.18;        // s to let the wrench spring back before it comes off
+
+}  // namespace
+
+// A hand on a wrench controls force: it lets the torque grow at a rate, slower towards the goal, and follows
+// the nut when it moves. dT/dt = K (hand speed − nut speed) turns that into how fast the handle goes.
+void pull(Mind& m, const Feeling& felt) {
+    const Profile& profile = m.profile;
+    Intent& intent = m.intent;
+    const double load = std::abs(felt.torque);
+    const double nut_speed = std::abs(m.joint().nut.speed);
+    const double stiffness = m.setup->wrench.stiffness, dt = m.setup->dt;
+    const double scale = intent.loosening ? stiffness * to_radians(1.0) : intent.goal;
+    const double missing = intent.loosening ? 1.0 : 1.0 - load / intent.goal;
+    const double rate = scale * std::max(profile.final_rate, profile.load_rate * missing);
+    const double fastest = profile.pull_speed * (intent.checks ? 0.2 : 1.0);
+    const double speed = std::min(fastest * std::min(1.0, m.elapsed() / 0.15), rate / stiffness + nut_speed);
+    m.handle += (intent.loosening ? -1.0 : 1.0) * speed * dt;
+
+    if (intent.loosening) {
+        m.free_turn = load < no_torque ? m.free_turn + nut_speed * dt : 0.0;
+        intent.finished = m.free_turn > to_radians(loose_free);
+    } else {
+        // It allows for the torque that will still come while it reacts.
+        const double coming = profile.anticipation * profile.reaction * std::max(felt.torque_rate, 0.0);
+        intent.finished = load + coming >= intent.goal ||
+                          (intent.stops_at_yield && felt.yields && load >= intent.least) ||
+                          (intent.checks && m.joint().nut.angle - m.begin_angle > seen_turn) ||
+                          (intent.until_seated && felt.seated);
+    }
+    if (intent.finished || std::abs(m.handle - m.stroke_begin) >= m.room)
+        m.enter(Phase::ease, unwinding_time);
+}
+
+void spin(Mind& m, const Feeling& felt) {
+    m.handle += m.profile.spin_speed * m.setup->dt * minimum_jerk(m.elapsed() / 0.1);
+    m.intent.finished = felt.torque > seated_share * m.setup->finger_torque(m.nut());
+    if (m.intent.finished || m.handle - m.stroke_begin > to_radians(spin_stroke))
+        m.enter(Phase::spin_back, m.intent.finished ? 0.3 : 0.12);
+}
+
+void ease(Mind& m) {
+    m.handle -= m.joint().torque / m.setup->wrench.stiffness * std::min(1.0, m.setup->dt / 0.04) *
+                std::min(1.0, m.elapsed() / 0.03);
+}
+
+void spin_back(Mind& m) {
+    if (!m.intent.finished) m.handle -= to_radians(spin_stroke) / m.length * m.setup->dt;
+}
+
+}  // namespace bolt::operators

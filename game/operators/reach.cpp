@@ -1,0 +1,132 @@
+#include "game/operators/reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "game/operators/around.hpp"
+
+namespace bolt::operators {
+
+namespace {
+
+constexpr double arc = 0.05;          // m, height of a reach between joints, at most
+constexpr double caught_at = 0.02;    // m that a wrench stays behind the hand's meaning: it is caught
+constexpr double caught_after = 0.5;  // s
+constexpr double retreat = 0.06;      // m
+constexpr int patient_misses = 3;
+
+// Which way to go: as ever, or as the obstacles that can be seen make it.
+void plan_reach(Mind& m) {
+    const double rise = std::min(arc, 0.3 * glm::distance(m.from.position, m.to.position));
+    m.bulge = rise * m.nut().axis;
+    m.stations.clear();
+    if (m.obstacles() == nullptr) return;
+    Way way =
+        way_round(*m.setup, *m.obstacles(), m.from, m.to, m.nut().axis, rise + 0.05 * std::min(m.bumps, 5));
+    m.bulge = way.bulge;
+    if (way.stations.empty()) return;
+    m.stations.push_back(m.to);
+    m.stations.insert(m.stations.end(), way.stations.rbegin(), way.stations.rend());
+    m.to = m.stations.back();
+    m.stations.pop_back();
+}
+
+// A short way takes less time than a long one, but never none (Fitts).
+double reach_time(const Mind& m) {
+    const double far = std::min(1.0, 0.35 + glm::distance(m.from.position, m.to.position) / 0.3);
+    const double round = m.obstacles() != nullptr ? 1.0 + 2.0 * glm::length(m.bulge) : 1.0;
+    return far * m.profile.reach_time * round;
+}
+
+}  // namespace
+
+void decide(Mind& m) {
+    const lesson::Step* due = next_step(*m.lesson, m.intent);
+    if (due == nullptr) {
+        m.enter(Phase::done);
+        return;
+    }
+    // A pull that only ran out of arm goes on with the same intent.
+    if (m.step_is_past() || m.intent.wrong || m.intent.finished) {
+        m.begin_angle = m.state->joints[due->joint].nut.angle;
+        m.free_turn = 0.0;
+        m.intent = intend(m.profile, m.random, *m.setup, *m.lesson, *due, m.intent);
+    }
+    if (m.intent.fingers) {
+        m.flipped = false;
+        m.handle = m.random.uniform(0.0, 2.0 * pi);
+    } else {
+        choose_grip_angle(m);
+    }
+    m.placed = m.off_centre(m.profile.position_noise * (m.intent.fingers ? 3.0 : 1.0));
+    // Among obstacles another tool is laid down or taken up where there are none.
+    const bool other_tool = m.holds_wrench == m.intent.fingers;
+    if (m.obstacles() != nullptr && other_tool && m.from.position != m.rest.position) {
+        m.to = m.rest;
+        plan_reach(m);
+        m.enter(Phase::fetch, m.stations.empty() ? m.profile.reach_time : reach_time(m));
+        return;
+    }
+    m.holds_wrench = !m.intent.fingers;
+    m.to = m.at_nut(hover);
+    plan_reach(m);
+    m.enter(Phase::reach, reach_time(m) * m.random.uniform(0.85, 1.2));
+}
+
+void choose_grip_angle(Mind& m) {
+    const double sign = m.intent.loosening ? -1.0 : 1.0;
+    // Where it does not get on again and again, it tries from another side.
+    const double aside = m.misses > patient_misses ? m.random.uniform(-1.0, 1.0) * pi : 0.0;
+    const GripAngle grip = choose_grip(*m.setup, m.obstacles(), m.intent.joint, m.joint().nut.angle,
+                                       0.5 * pi - 0.5 * sign + aside, sign, m.profile.stroke);
+    m.handle = grip.handle + m.profile.angle_noise * m.random.normal();
+    m.flipped = grip.flipped;
+    m.room = grip.room;
+}
+
+bool goes_on(Mind& m, Phase reaching) {
+    m.from = m.to;
+    if (m.stations.empty()) return false;
+    m.to = m.stations.back();
+    m.stations.pop_back();
+    m.enter(reaching, reach_time(m));
+    return true;
+}
+
+void lift_off(Mind& m, const Pose& pose, double seconds) {
+    m.from = pose;
+    m.to = m.at_nut(hover);
+    m.enter(Phase::lift, seconds);
+}
+
+void take_hold(Mind& m) {
+    const servo::NutPlace& nut = m.nut();
+    const Vec3 x = m.hand.orientation * Vec3(1, 0, 0);
+    m.handle += wrap(-std::atan2(glm::dot(x, nut.e2), glm::dot(x, nut.e1)) - m.handle, 2.0 * pi);
+    // Along the bolt it goes on: a jaw that only just has the nut is not on it yet.
+    const Vec3 off = m.hand.position - servo::nut_centre(nut, m.joint().nut.angle);
+    m.placed = off + nut.axis * glm::dot(nut.axis, m.placed - off);
+}
+
+void notice_caught(Mind& m, const Pose& meant, const Pose& wrench) {
+    const bool on_the_way = m.phase == Phase::reach || m.phase == Phase::fetch || m.phase == Phase::lift ||
+                            m.phase == Phase::think;
+    if (!on_the_way || glm::distance(meant.position, wrench.position) < caught_at) {
+        m.caught = 0.0;
+        if (m.phase == Phase::lower) m.bumps = 0;
+        return;
+    }
+    m.caught += m.setup->dt;
+    if (m.caught < caught_after) return;
+    m.caught = 0.0;
+    ++m.bumps;
+    m.from = wrench;
+    const Vec3 back = m.rest.position - wrench.position;
+    m.to = {wrench.position + retreat * (m.nut().axis + 0.3 * static_cast<double>(std::min(m.bumps, 5)) *
+                                                            back / (1e-3 + glm::length(back))),
+            wrench.orientation};
+    m.turned_back = true;
+    m.enter(Phase::lift, 0.6);
+}
+
+}  // namespace bolt::operators
