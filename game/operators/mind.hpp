@@ -52,8 +52,8 @@ struct Mind {
     const servo::State* state = nullptr;
     const lesson::Lesson* lesson = nullptr;
 
-    Mind(const Profile& p, std::uint64_t seed, double dt)
-        : profile(p), random(seed, 7001), tremor(random), nerves(p.reaction, dt) {}
+    Mind(const Profile& p, std::uint64_t seed, const servo::Setup& s)
+        : profile(p), random(seed, 7001), tremor(random), nerves(p.reaction, s.dt, s.wrench.stiffness) {}
 
     [[nodiscard]] const servo::NutPlace& nut() const { return setup->nuts[intent.joint]; }
     [[nodiscard]] const joint::JointState& joint() const { return state->joints[intent.joint]; }

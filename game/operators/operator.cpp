@@ -53,6 +53,7 @@ Pose move(Mind& m, const Feeling& felt, Grip& grip) {
     switch (m.phase) {
         case Phase::think:
             if (m.over()) decide(m);
+            pose = m.from;
             break;
         case Phase::fetch:
             pose = along(m.from, m.to, minimum_jerk(m.progress()), m.bulge);
@@ -117,7 +118,7 @@ Pose move(Mind& m, const Feeling& felt, Grip& grip) {
 }  // namespace
 
 Operator::Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup)
-    : mind_(std::make_unique<Mind>(profile, seed, setup.dt)) {
+    : mind_(std::make_unique<Mind>(profile, seed, setup)) {
     Mind& mind = *mind_;
     Vec3 centre(0.0);
     for (const servo::NutPlace& nut : setup.nuts) centre += nut.seat / static_cast<double>(setup.nuts.size());
@@ -146,7 +147,10 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
     const bool grips = state.engagement.joint >= 0 && m.phase != Phase::lower;
     const bool takes = grips && !m.gripped;
     if (takes && m.on_its_nut()) take_hold(m);
-    Pose pose = move(m, m.nerves.feel(m.joint()), input.grip);
+    const force::OutputCommand output{state.output.output.force, state.output.output.torque};
+    const double torque = felt_torque(setup.torque, m.nut(), m.hand.orientation * Vec3(1, 0, 0), output);
+    const Feeling& felt = m.nerves.feel(grips ? torque : 0.0, m.handle, m.joint().nut.speed, grips);
+    Pose pose = move(m, felt, input.grip);
     if (m.phase != Phase::done) {
         pose.position += m.tremor.at(m.time) * m.profile.tremor;
         if (m.phase == Phase::pull) {
@@ -158,8 +162,7 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
     if (grips != m.gripped || m.turned_back) take_up(m.arm, m.hand, pose);
     m.gripped = grips;
     m.turned_back = false;
-    const force::OutputState& felt = state.output.output;
-    m.hand = follow(m.profile.hand, m.arm, pose, {felt.force, felt.torque}, grips, setup.dt);
+    m.hand = follow(m.profile.hand, m.arm, pose, output, grips, setup.dt);
     if (m.obstacles() != nullptr && m.holds_wrench) {
         input.grip = Grip::wrench;
         if (m.obstacles()->in_hand) {

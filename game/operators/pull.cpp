@@ -7,7 +7,7 @@ namespace bolt::operators {
 
 namespace {
 
-constexpr double seated_share = 0.55;          // of what fingers can give: a nut that takes more sits
+constexpr double seated_share = 0.5;           // of the fingers' speed: a nut that is slower sits
 constexpr double spin_stroke = 200.0;          // degrees of one finger twist
 constexpr double loose_free = 40.0;            // degrees turned at next to no torque: the nut is free
 constexpr double no_torque = 1.0;              // N·m, next to none at a wrench
@@ -25,7 +25,10 @@ void pull(Mind& m, const Feeling& felt) {
     const double nut_speed = std::abs(m.joint().nut.speed);
     const double stiffness = m.setup->wrench.stiffness, dt = m.setup->dt;
     const double scale = intent.loosening ? stiffness * to_radians(1.0) : intent.goal;
-    const double missing = intent.loosening ? 1.0 : 1.0 - load / intent.goal;
+    // It allows for the torque that will still come while it reacts, in slowing down as in stopping: a hand
+    // that slowed down by what it feels late alone would swing past its goal.
+    const double coming = profile.anticipation * profile.reaction * std::max(felt.torque_rate, 0.0);
+    const double missing = intent.loosening ? 1.0 : 1.0 - (load + coming) / intent.goal;
     const double rate = scale * std::max(profile.final_rate, profile.load_rate * missing);
     const double fastest = profile.pull_speed * (intent.checks ? 0.2 : 1.0);
     const double speed = std::min(fastest * std::min(1.0, m.elapsed() / 0.15), rate / stiffness + nut_speed);
@@ -35,12 +38,9 @@ void pull(Mind& m, const Feeling& felt) {
         m.free_turn = load < no_torque ? m.free_turn + nut_speed * dt : 0.0;
         intent.finished = m.free_turn > to_radians(loose_free);
     } else {
-        // It allows for the torque that will still come while it reacts.
-        const double coming = profile.anticipation * profile.reaction * std::max(felt.torque_rate, 0.0);
         intent.finished = load + coming >= intent.goal ||
                           (intent.stops_at_yield && felt.yields && load >= intent.least) ||
-                          (intent.checks && m.joint().nut.angle - m.begin_angle > seen_turn) ||
-                          (intent.until_seated && felt.seated);
+                          (intent.checks && m.joint().nut.angle - m.begin_angle > seen_turn);
     }
     if (intent.finished || std::abs(m.handle - m.stroke_begin) >= m.room)
         m.enter(Phase::ease, unwinding_time);
@@ -48,7 +48,9 @@ void pull(Mind& m, const Feeling& felt) {
 
 void spin(Mind& m, const Feeling& felt) {
     m.handle += m.profile.spin_speed * m.setup->dt * minimum_jerk(m.elapsed() / 0.1);
-    m.intent.finished = felt.torque > seated_share * m.setup->finger_torque(m.nut());
+    // Next to a wrench's torques a device does not let fingertips feel theirs: that the nut sits is seen.
+    const bool under_way = m.elapsed() > 0.1 + m.profile.reaction;
+    m.intent.finished = under_way && felt.nut_speed < seated_share * m.profile.spin_speed;
     if (m.intent.finished || m.handle - m.stroke_begin > to_radians(spin_stroke))
         m.enter(Phase::spin_back, m.intent.finished ? 0.3 : 0.12);
 }

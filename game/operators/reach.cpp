@@ -15,6 +15,8 @@ constexpr double caught_after = 0.5;  // s
 constexpr double retreat = 0.06;      // m
 constexpr int patient_misses = 3;
 
+Vec3 unit(const Vec3& v) { return v / (1e-3 + glm::length(v)); }
+
 // Which way to go: as ever, or as the obstacles that can be seen make it.
 void plan_reach(Mind& m) {
     const double rise = std::min(arc, 0.3 * glm::distance(m.from.position, m.to.position));
@@ -68,6 +70,11 @@ void decide(Mind& m) {
         return;
     }
     m.holds_wrench = !m.intent.fingers;
+    // A hand that was drawn from where it meant to be goes on from where it is.
+    if (m.obstacles() != nullptr) {
+        m.from = m.hand;
+        m.turned_back = true;
+    }
     m.to = m.at_nut(hover);
     plan_reach(m);
     m.enter(Phase::reach, reach_time(m) * m.random.uniform(0.85, 1.2));
@@ -121,10 +128,14 @@ void notice_caught(Mind& m, const Pose& meant, const Pose& wrench) {
     m.caught = 0.0;
     ++m.bumps;
     m.from = wrench;
-    const Vec3 back = m.rest.position - wrench.position;
-    m.to = {wrench.position + retreat * (m.nut().axis + 0.3 * static_cast<double>(std::min(m.bumps, 5)) *
-                                                            back / (1e-3 + glm::length(back))),
-            wrench.orientation};
+    // By turns up and back, and aside from what it was pushed against: a corner that hooks into a thread does
+    // not come out along the bolt.
+    const Vec3 up = m.nut().axis, back = m.rest.position - wrench.position;
+    Vec3 aside = wrench.position - meant.position;
+    aside -= up * glm::dot(up, aside);
+    const Vec3 way = m.bumps % 2 == 1 ? up + 0.3 * static_cast<double>(std::min(m.bumps, 5)) * unit(back)
+                                      : 0.3 * up + unit(aside);
+    m.to = {wrench.position + retreat * way, wrench.orientation};
     m.turned_back = true;
     m.enter(Phase::lift, 0.6);
 }

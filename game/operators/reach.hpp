@@ -21,7 +21,7 @@ void lift_off(Mind& mind, const Pose& pose, double seconds);
 // The jaw is on the nut: where the wrench is, there the hand means it to be from now on.
 void take_hold(Mind& mind);
 
-// A wrench that is caught on something is taken back and up, and the next way goes higher.
+// A wrench that is caught on something is taken off it, and the next way goes higher.
 void notice_caught(Mind& mind, const Pose& meant, const Pose& wrench);
 
 }  // namespace bolt::operators
