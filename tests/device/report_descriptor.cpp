@@ -1,0 +1,139 @@
+#include "haptics/device/report_descriptor.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/base/random.hpp"
+#include "haptics/device/six_axis.hpp"
+#include "tests/device/descriptors.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+ReportDescriptor parsed(const Bytes& bytes) {
+    Result<ReportDescriptor> d = parse_report_descriptor(bytes);
+    REQUIRE_MESSAGE(d, (d ? "" : d.error().message()));
+    return std::move(*d);
+}
+
+}  // namespace
+
+TEST_CASE("a mouse: buttons, padding and two axes, where the bits say") {
+    const ReportDescriptor d = parsed(mouse());
+    CHECK(!d.numbered);
+    CHECK(d.fields.size() == 5);
+    CHECK(report_size(d, ReportKind::input, 0) == 3);
+    const Field* y = find_field(d, ReportKind::input, {1, 0x31});
+    REQUIRE(y);
+    CHECK(y->bit == 16);
+    CHECK(y->relative);
+    CHECK(value_of(*y, Bytes{0, 0, 0xfb}) == -5);
+    CHECK(!value_of(*y, Bytes{0, 0}));
+    const Field* third = find_field(d, ReportKind::input, {9, 3});
+    REQUIRE(third);
+    CHECK(value_of(*third, Bytes{4, 0, 0}) == 1);
+    CHECK(find_field(d, ReportKind::input, {1, 0x31}, Usage{1, 2}) == y);
+    CHECK(find_field(d, ReportKind::input, {1, 0x31}, Usage{1, 5}) == nullptr);
+}
+
+TEST_CASE("pucks that report in three and in one: the same motion reads the same") {
+    const auto layout_of = [](const Bytes& bytes) {
+        const auto layout = six_axis_layout(parsed(bytes));
+        REQUIRE(layout);
+        return *layout;
+    };
+    const SixAxisLayout three = layout_of(puck_in_three()), one = layout_of(puck_in_one());
+    CHECK(three.buttons.size() == 2);
+    CHECK(one.buttons.size() == 15);
+    SixAxisState a, b;
+    const auto low = [](int v) { return static_cast<std::uint8_t>(v & 0xff); };
+    const auto high = [](int v) { return static_cast<std::uint8_t>(v >> 8 & 0xff); };
+    const int v[6] = {350, -175, 0, 35, -350, 70};
+    CHECK(
+        take_report(three, Bytes{1, low(v[0]), high(v[0]), low(v[1]), high(v[1]), low(v[2]), high(v[2])}, a));
+    CHECK(
+        take_report(three, Bytes{2, low(v[3]), high(v[3]), low(v[4]), high(v[4]), low(v[5]), high(v[5])}, a));
+    Bytes all{1};
+    for (const int x : v) {
+        all.push_back(low(x));
+        all.push_back(high(x));
+    }
+    CHECK(take_report(one, all, b));
+    for (std::size_t i = 0; i < 6; ++i) {
+        CHECK(a.share[i] == doctest::Approx(v[i] / 350.0));
+        CHECK(a.share[i] == b.share[i]);
+    }
+    CHECK(take_report(three, Bytes{3, 2, 0}, a));
+    CHECK(a.buttons == 2U);
+    CHECK(take_report(three, Bytes{3, 1, 0}, a));
+    CHECK(a.buttons == 1U);
+    CHECK(a.share[0] == 1.0);  // a report of buttons moves nothing
+
+    CHECK(!take_report(three, Bytes{}, a));
+    CHECK(!take_report(three, Bytes{1, 2}, a));
+    CHECK(!take_report(three, Bytes{77, 1, 2, 3, 4, 5, 6}, a));
+    CHECK(!six_axis_layout(parsed(mouse())));
+}
+
+TEST_CASE("values of any place and width go in and come out, and touch no other bit") {
+    Random random(4);
+    for (int trial = 0; trial < 5000; ++trial) {
+        Field f;
+        f.bits = static_cast<std::uint8_t>(1 + random.bits() % 32);
+        f.bit = static_cast<std::uint32_t>(random.bits() % 64);
+        const bool has_sign = f.bits > 1 && random.bits() % 2 == 0;
+        f.low = has_sign ? -(std::int64_t{1} << (f.bits - 1)) : 0;
+        f.high = has_sign ? (std::int64_t{1} << (f.bits - 1)) - 1 : (std::int64_t{1} << f.bits) - 1;
+        Bytes report(16);
+        for (auto& byte : report) byte = static_cast<std::uint8_t>(random.bits());
+        const Bytes before = report;
+        const auto value =
+            f.low + static_cast<std::int64_t>(random.bits() % static_cast<std::uint64_t>(f.high - f.low + 1));
+        REQUIRE(put_value(f, value, report));
+        CHECK(value_of(f, report) == value);
+        for (std::uint32_t bit = 0; bit < 128; ++bit) {
+            if (bit >= f.bit && bit < f.bit + f.bits) continue;
+            CHECK((report[bit / 8] >> (bit % 8) & 1) == (before[bit / 8] >> (bit % 8) & 1));
+        }
+        CHECK(put_value(f, std::int64_t{1} << 40, report));
+        CHECK(value_of(f, report) == f.high);
+    }
+}
+
+TEST_CASE("a greatest value of 255 in one byte is no -1, and a null state is no value") {
+    Items d;
+    d.page(1).usage(5).begin(1).usage(0x30).item(0x14, 0, 1).item(0x24, 0xff, 1).fields(1, 8).input(0x42);
+    const ReportDescriptor made = parsed(d.end().out);
+    CHECK(made.fields.front().high == 255);
+    Items hat;
+    hat.page(1).usage(5).begin(1).usage(0x39).range(0, 7).fields(1, 4).input(0x42).fields(1, 4).input(3);
+    const ReportDescriptor with_hat = parsed(hat.end().out);
+    CHECK(value_of(with_hat.fields.front(), Bytes{7}) == 7);
+    CHECK(!value_of(with_hat.fields.front(), Bytes{8}));
+}
+
+TEST_CASE("what is wrong with a descriptor is said, and where") {
+    const auto message = [](const Bytes& bytes) {
+        const auto d = parse_report_descriptor(bytes);
+        REQUIRE(!d);
+        return d.error().message();
+    };
+    CHECK(message({}).find("no fields") != std::string::npos);
+    CHECK(message({0xc0}).find("not begun") != std::string::npos);
+    CHECK(message({0x05}).find("byte 0: it ends within an item") != std::string::npos);
+    CHECK(message({0xb4}).find("pop without a push") != std::string::npos);
+    Bytes open = mouse();
+    open.pop_back();
+    CHECK(message(open).find("not ended") != std::string::npos);
+    CHECK(message(Items().page(1).usage(0x30).range(5, 1).fields(1, 8).input(2).out).find("from 5 to 1") !=
+          std::string::npos);
+    CHECK(message(Items().page(1).usage(0x30).range(0, 1).fields(1, 40).input(2).out).find("40 bits") !=
+          std::string::npos);
+    const Bytes whole = puck_in_three();
+    for (std::size_t cut = 0; cut < whole.size(); ++cut)
+        CHECK(!parse_report_descriptor(std::span(whole).first(cut)));
+}

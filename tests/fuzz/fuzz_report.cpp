@@ -1,0 +1,34 @@
+// Report descriptors: any bytes end in fields or in an error; fields then read and write reports of any
+// length without leaving them.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "haptics/device/six_axis.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace bolt::device;
+    const auto descriptor = parse_report_descriptor({data, size});
+    if (!descriptor) {
+        if (descriptor.error().message().empty()) std::abort();
+        return 0;
+    }
+    std::vector<std::uint8_t> report(size % 71);
+    for (std::size_t i = 0; i < report.size(); ++i) report[i] = data[i % size];
+    for (const Field& field : descriptor->fields) {
+        if ((field.bit + field.bits + 7) / 8 > report_size(*descriptor, field.kind, field.report))
+            std::abort();
+        const auto value = value_of(field, report);
+        if (value && put_value(field, *value, report) && *value >= field.low && *value <= field.high &&
+            value_of(field, report) != value)
+            std::abort();
+        if (value && !(share_of(field, *value) >= -1.0 && share_of(field, *value) <= 1.0)) std::abort();
+    }
+    if (const auto layout = six_axis_layout(*descriptor)) {
+        SixAxisState state;
+        take_report(*layout, report, state);
+    }
+    return 0;
+}
