@@ -92,6 +92,15 @@ double HexagonPrism::fall() const {
 
 JawParts jaw_parts(const Jaw& jaw) { return {half_jaw(jaw, 1.0), half_jaw(jaw, -1.0), bottom(jaw)}; }
 
+bool stand_for(const JawParts& parts, const Vec3& point) {
+    constexpr double facets = 20e-6;  // m, that a mesh may stick out of what it is made from
+    return std::any_of(parts.begin(), parts.end(), [&](const Convex& part) {
+        return std::all_of(part.faces.begin(), part.faces.end(), [&](const ConvexFace& face) {
+            return glm::dot(face.plane.normal, point) <= face.plane.offset + facets;
+        });
+    });
+}
+
 Convex hexagon(const HexagonPrism& p) {
     std::vector<HalfSpace> planes{{{0, 0, 1}, p.height}, {{0, 0, -1}, 0.0}};
     for (int i = 0; i < 6; ++i) planes.push_back({direction((i + 0.5) * sixth), 0.5 * p.across_flats});

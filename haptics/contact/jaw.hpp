@@ -48,6 +48,10 @@ using JawParts = std::array<Convex, 3>;
 inline constexpr double jaw_cover = 0.3;
 JawParts jaw_parts(const Jaw& jaw);
 
+// Whether a point of a wrench, in its frame, is of what those parts stand for: a head may be broader outside
+// at its tips, and has fillets in its throat.
+bool stand_for(const JawParts& parts, const Vec3& point);
+
 // The cone of the chamfers as twelve tangent planes.
 Convex hexagon(const HexagonPrism& prism);
 

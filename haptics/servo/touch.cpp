@@ -26,12 +26,6 @@ Vec3 in_jaw(const contact::Jaw& jaw, const Pose& wrench, const Vec3& point) {
     return glm::angleAxis(-jaw.head_angle, Vec3(0, 0, 1)) * (inverse(wrench) * point);
 }
 
-bool is_jaw(const contact::Jaw& jaw, const Pose& wrench, const Vec3& point) {
-    const Vec3 p = in_jaw(jaw, wrench, point);
-    const double cover = contact::jaw_cover * jaw.opening;
-    return std::abs(p.y) < 0.5 * jaw.opening + cover && p.x < jaw.throat + cover;
-}
-
 // Whether only the jaw can touch the nut in this tick and some more.
 bool jaw_only(const Setup& setup, const NutPlace& nut, const Pose& place, const Pose& wrench) {
     const contact::Jaw& jaw = setup.wrench.jaw;
@@ -95,7 +89,8 @@ contact::Found find(const Setup& setup, Touch& touch, const Pose& pose, double b
         contact::find_contacts(touch.world, touch.wrench, pose, band, touch.proximity, rest);
     contact::smooth_normals(touch.world, touch.wrench, pose, rest.first(meshes.count));
     for (std::size_t k = 0; k < meshes.count; ++k) {
-        const bool said = rest[k].body >= first_nut && is_jaw(setup.wrench.jaw, pose, rest[k].on_tool);
+        const bool said =
+            rest[k].body >= first_nut && contact::stand_for(touch.jaw, inverse(pose) * rest[k].on_tool);
         if (!said) out[found.count++] = rest[k];
     }
     found.clearance = std::min(found.clearance, meshes.clearance);
