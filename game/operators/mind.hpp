@@ -7,12 +7,13 @@
 #include "game/operators/intent.hpp"
 #include "game/operators/motion.hpp"
 #include "game/operators/nerves.hpp"
+#include "game/operators/sight.hpp"
 #include "haptics/servo/tick.hpp"
 
 namespace bolt::operators {
 
 // What the hand is doing. Each phase ends by choosing the next.
-enum class Phase { think, fetch, reach, lower, settle, pull, ease, lift, spin, spin_back, done };
+enum class Phase { think, look, fetch, reach, lower, settle, pull, ease, lift, spin, spin_back, done };
 
 // Orientation of a tool whose handle stands at the given angle about the bolt (tightening positive).
 Quat orientation_of(const servo::NutPlace& nut, double handle_angle, bool flipped);
@@ -41,6 +42,11 @@ struct Mind {
     double caught = 0.0;  // s that the wrench has been kept from where the hand means to be
     int bumps = 0;        // times in a row that it was
     int misses = 0;       // times in a row that the jaw did not slide on
+    Sight sight;
+    Vec3 looks_from{0.0};                // m, where its head is on the way to
+    std::vector<lesson::Event> noticed;  // since they were last taken
+    double told = -1.0;                  // share of the nut that was told last
+    std::size_t told_of = SIZE_MAX;      // and of which
     Arm arm;
     Pose hand;                 // where it is
     bool gripped = false;      // it had hold of a nut in the tick before

@@ -1,6 +1,9 @@
 #include "game/operators/operator.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <utility>
 
 #include "game/operators/around.hpp"
 #include "game/operators/pull.hpp"
@@ -17,6 +20,10 @@ Quat orientation_of(const servo::NutPlace& nut, double handle_angle, bool flippe
 namespace {
 
 using servo::Grip;
+
+constexpr double frame_time = 1.0 / 60.0;  // s
+constexpr double looks_within = 0.06;      // m from the nut, from where on it is being aligned
+constexpr double worth_telling = 0.02;
 
 servo::DeviceSample sample_of(const Pose& pose) {
     servo::DeviceSample sample;
@@ -46,6 +53,21 @@ void settle(Mind& m, const Pose& pose) {
     }
 }
 
+// As often as pictures come, while the wrench is in the hand: how much of the due nut is seen.
+void look(Mind& m, const lesson::Step* due) {
+    const auto frame = static_cast<std::uint64_t>(std::max(1.0, frame_time / m.setup->dt));
+    if (due == nullptr || m.obstacles() == nullptr || !m.holds_wrench || m.state->tick % frame != 0) return;
+    if (m.state->engagement.joint >= 0) return;
+    const servo::NutPlace& nut = m.setup->nuts[due->joint];
+    if (glm::distance(m.hand.position, nut.seat) > looks_within) return;
+    const double share = nut_seen(m.sight, *m.obstacles(), due->joint, m.sight.eye);
+    if (m.told_of == due->joint && std::abs(share - m.told) < worth_telling) return;
+    m.told = share;
+    m.told_of = due->joint;
+    m.noticed.push_back({m.state->tick, "sight", static_cast<int>(due->joint), share,
+                         fmt::format("{:.0f} % of the nut is seen", 100.0 * share)});
+}
+
 // Where the tool goes in this tick, and with which grip.
 Pose move(Mind& m, const Feeling& felt, Grip& grip) {
     const Grip own = m.intent.fingers ? Grip::fingers : Grip::wrench;
@@ -53,6 +75,10 @@ Pose move(Mind& m, const Feeling& felt, Grip& grip) {
     switch (m.phase) {
         case Phase::think:
             if (m.over()) decide(m);
+            pose = m.from;
+            break;
+        case Phase::look:
+            if (m.over()) set_off(m);
             pose = m.from;
             break;
         case Phase::fetch:
@@ -124,6 +150,7 @@ Operator::Operator(const Profile& profile, std::uint64_t seed, const servo::Setu
     for (const servo::NutPlace& nut : setup.nuts) centre += nut.seat / static_cast<double>(setup.nuts.size());
     mind.from.position = centre + Vec3(0.0, 0.3, 0.4);  // the hand rests in front of the assembly
     mind.to = mind.rest = mind.hand = mind.from;
+    mind.sight.eye = centre + Vec3(0.0, 0.45, 0.6);  // and the head above it
 }
 
 Operator::Operator(Operator&&) noexcept = default;
@@ -136,6 +163,8 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
     m.setup = &setup;
     m.state = &state;
     m.lesson = &lesson;
+    // Where the lesson names views it begins in the first of them.
+    if (m.time <= 0.0 && !lesson.assembly->views.empty()) m.sight.eye = lesson.assembly->views.front().eye;
     m.time += setup.dt;
 
     servo::Input input;
@@ -172,7 +201,10 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
         }
     }
     input.device = sample_of(m.hand);
+    look(m, due);
     return input;
 }
+
+std::vector<lesson::Event> Operator::take_noticed() { return std::exchange(mind_->noticed, {}); }
 
 }  // namespace bolt::operators

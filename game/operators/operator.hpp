@@ -25,6 +25,10 @@ class Operator {
     // The input for the next tick, from what can be seen and felt after the last one. Same seed, same inputs.
     servo::Input act(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson);
 
+    // What it noticed since this was last asked: of kind "sight", how much it sees of the nut that it is
+    // being led to or works its way onto, whenever that has changed.
+    std::vector<lesson::Event> take_noticed();
+
   private:
     std::unique_ptr<Mind> mind_;
 };

@@ -29,6 +29,7 @@ struct Profile {
     double torque_noise;    // relative, standard deviation of one stop
     double anticipation;    // 0…1, how much of its own reaction time it allows for
     double feels_yield;     // chance of noticing that a bolt begins to yield
+    double content;         // 0…1, how much of nut and jaw it wants to see before it goes there
     double pause;           // s of hesitation before a step, on average
     double wrong_joint;     // chance of going to another joint than the due one
     double stops_early;     // chance of letting go well below the target

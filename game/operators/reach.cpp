@@ -14,6 +14,9 @@ constexpr double caught_at = 0.02;    // m that a wrench stays behind the hand's
 constexpr double caught_after = 0.5;  // s
 constexpr double retreat = 0.06;      // m
 constexpr int patient_misses = 3;
+// A glance, and a head that turns. Chosen.
+constexpr double glance = 0.3;                   // s
+constexpr double head_speed = to_radians(60.0);  // rad/s
 
 Vec3 unit(const Vec3& v) { return v / (1e-3 + glm::length(v)); }
 
@@ -31,6 +34,28 @@ void plan_reach(Mind& m) {
     m.stations.insert(m.stations.end(), way.stations.rbegin(), way.stations.rend());
     m.to = m.stations.back();
     m.stations.pop_back();
+}
+
+// rad that the head turns to see more of the place that the wrench is to go to. Nothing is hidden where
+// nothing is modelled, and fingers find a nut by themselves.
+double look_for_nut(Mind& m) {
+    m.looks_from = m.sight.eye;
+    if (m.obstacles() == nullptr || m.intent.fingers) return 0.0;
+    m.placed = Vec3(0.0);
+    const auto better =
+        look_round(m.sight, *m.setup, *m.obstacles(), m.intent.joint, m.at_nut(hover), m.profile.content);
+    if (!better) return 0.0;
+    m.looks_from = better->eye;
+    return better->turn;
+}
+
+// How far off the centre it puts the tool, from what it will see there.
+Vec3 place(Mind& m) {
+    if (m.intent.fingers) return m.off_centre(3.0 * m.profile.position_noise);
+    const double seen = m.obstacles() == nullptr ? 1.0
+                                                 : place_seen(m.sight, *m.setup, *m.obstacles(),
+                                                              m.intent.joint, m.at_nut(hover), m.looks_from);
+    return m.off_centre(placing_noise(m.profile.position_noise, seen, m.misses));
 }
 
 // A short way takes less time than a long one, but never none (Fitts).
@@ -60,7 +85,8 @@ void decide(Mind& m) {
     } else {
         choose_grip_angle(m);
     }
-    m.placed = m.off_centre(m.profile.position_noise * (m.intent.fingers ? 3.0 : 1.0));
+    const double turn = look_for_nut(m);
+    m.placed = place(m);
     // Among obstacles another tool is laid down or taken up where there are none.
     const bool other_tool = m.holds_wrench == m.intent.fingers;
     if (m.obstacles() != nullptr && other_tool && m.from.position != m.rest.position) {
@@ -70,6 +96,15 @@ void decide(Mind& m) {
         return;
     }
     m.holds_wrench = !m.intent.fingers;
+    if (turn > 0.0) {
+        m.enter(Phase::look, glance + turn / head_speed);
+        return;
+    }
+    set_off(m);
+}
+
+void set_off(Mind& m) {
+    m.sight.eye = m.looks_from;
     // A hand that was drawn from where it meant to be goes on from where it is.
     if (m.obstacles() != nullptr) {
         m.from = m.hand;

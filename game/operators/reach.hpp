@@ -5,13 +5,18 @@
 
 namespace bolt::operators {
 
-constexpr double hover = 0.025;  // m above the nut before lowering and after lifting
+// m above the nut before lowering and after lifting: past the bolt's end, also where a force of a few newtons
+// draws the hand down.
+constexpr double hover = 0.035;
 
 // Which step is due, how this person will go about it, and off the hand goes.
 void decide(Mind& mind);
 
 // The handle ends its stroke about as far beyond the trainee's side as it began before it.
 void choose_grip_angle(Mind& mind);
+
+// The hand sets off to the nut, with the head where it sees it best.
+void set_off(Mind& mind);
 
 // At the end of a way: whether it goes on to another station.
 bool goes_on(Mind& mind, Phase reaching);

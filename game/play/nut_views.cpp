@@ -11,15 +11,6 @@ constexpr std::size_t spots = 400;  // 5 % is enough to choose a view
 
 constexpr double narrowest = 4.0 / 3.0;  // of pictures
 
-// Not those of the bore, which the bolt fills.
-std::vector<contact::Spot> outside(const contact::Solid& nut) {
-    std::vector<contact::Spot> all = contact::spread_spots(nut.mesh, spots);
-    std::erase_if(all, [&](const contact::Spot& spot) {
-        return contact::blocked(nut, spot.at + 1e-4 * spot.normal, spot.at + 2.0 * nut.radius * spot.normal);
-    });
-    return all;
-}
-
 bool in_picture(const content::View& view, const Vec3& point) {
     const Vec3 ahead = glm::normalize(view.target - view.eye);
     const Vec3 right = glm::normalize(glm::cross(ahead, Vec3(0.0, 1.0, 0.0)));
@@ -44,7 +35,7 @@ std::vector<NutView> views_of_nut(const content::Assembly& assembly, const servo
     if (joint >= touch.nuts.size() || !touch.nuts[joint]) return all;
     const std::size_t body = *touch.nuts[joint];
     const std::vector<contact::Spot> on_nut =
-        outside(touch.world.shapes[touch.world.bodies[body].shape].solid);
+        contact::outer_spots(touch.world.shapes[touch.world.bodies[body].shape].solid, spots);
     for (const content::View& view : assembly.views) {
         const contact::Seen seen = contact::look_at(touch.world, body, on_nut, view.eye);
         all.push_back({seen.share, seen.angle / square(2.0 * std::tan(0.5 * view.field_of_view)),

@@ -102,6 +102,7 @@ Result<Played> train(const content::Assembly& given, const TrainOptions& options
         const servo::Input input = trainee.act(setup, state, lesson);
         const servo::Output output = servo::tick(setup, state, input);
         lesson::observe(lesson, state, output);
+        for (lesson::Event& seen : trainee.take_noticed()) lesson.events.push_back(std::move(seen));
         if (Status kept = writer.append(record::make_record(input, output)); !kept) return fail(kept.error());
         Progress progress{static_cast<double>(state.tick) * options.dt, lesson.current, lesson.steps.size(),
                           nullptr};

@@ -153,11 +153,16 @@ Attempt attempt_of(const SessionData& session) {
     a.obstacles = feel.obstacles;
     a.simulated = session.header.operator_name != "person";
     std::vector<double> waited, placing;
+    double seen = 0.0, looked = 0.0;
     for (const Arrival& arrival : feel.arrivals)
         if (arrival.wrench) {
             waited.push_back(arrival.waited);
             placing.push_back(arrival.placing);
+            if (!std::isfinite(arrival.seen)) continue;
+            seen += arrival.seen;
+            looked += arrival.placing;
         }
+    a.seen = looked > 0.0 ? seen / looked : unknown;
     a.to_nut = quartiles(std::move(waited)).median;
     a.near_nut = quartiles(std::move(placing)).median;
     a.bumps = feel.recorded ? static_cast<double>(feel.bumps.size()) : unknown;

@@ -55,7 +55,10 @@ FeelBuilder::FeelBuilder(const record::Header& header, std::span<const lesson::E
     feel_.device = record::limits_of(header.device);
     feel_.servo = header.servo;
     for (const lesson::Event& event : events)
-        if (event.kind == "step_begin") steps_.push_back({event.tick, event.joint});
+        if (event.kind == "step_begin")
+            steps_.push_back({event.tick, event.joint});
+        else if (event.kind == "sight")
+            sights_.push_back({event.tick, event.joint, event.value});
 }
 
 bool FeelBuilder::own_nut(std::int32_t obstacle) const {
@@ -70,12 +73,17 @@ void FeelBuilder::note_grip(double time, const record::TickRecord& tick) {
     if (tick.joint >= 0) now_.last_joint = tick.joint;
     if (arrived_ || due_ < 0) return;
     const auto due = static_cast<std::size_t>(due_);
-    if (due < seats_.size() && glm::length(vector_of(tick.device.position) - seats_[due]) < near_nut)
+    if (due < seats_.size() && glm::length(vector_of(tick.device.position) - seats_[due]) < near_nut) {
         placing_ += dt_;
+        if (sight_.joint != due_)
+            seen_ = Moment::nan;
+        else if (sight_.share >= in_sight)
+            seen_ += dt_;
+    }
     if (tick.joint != due_) return;
     arrived_ = true;
-    feel_.arrivals.push_back(
-        {due_, static_cast<servo::Grip>(tick.grip) == servo::Grip::wrench, time - step_begun_, placing_});
+    const bool wrench = static_cast<servo::Grip>(tick.grip) == servo::Grip::wrench;
+    feel_.arrivals.push_back({due_, wrench, time - step_begun_, placing_, seen_});
 }
 
 void FeelBuilder::note_touch(double time, const record::TickRecord& tick) {
@@ -146,8 +154,10 @@ void FeelBuilder::take(std::uint64_t number, const record::TickRecord& tick) {
         due_ = steps_[next_step_++].joint;
         arrived_ = false;
         step_begun_ = time;
-        placing_ = 0.0;
+        placing_ = seen_ = 0.0;
     }
+    while (next_sight_ < sights_.size() && sights_[next_sight_].tick <= number)
+        sight_ = sights_[next_sight_++];
     note_grip(time, tick);
     note_touch(time, tick);
     note_change(time, tick);

@@ -47,12 +47,16 @@ struct Changes {
 enum class Doing : std::uint8_t { held_off, leaving, taking, on_nut, against, free };
 inline constexpr std::size_t doings = 6;
 
+// Of a nut, from where on it counts as seen.
+inline constexpr double in_sight = 0.6;
+
 // From a step's beginning until its nut was in the wrench or between the fingers.
 struct Arrival {
     int joint = 0;
     bool wrench = false;
     double waited = 0.0;   // s
     double placing = 0.0;  // s of them near the nut
+    double seen = 0.0;     // s of those with the nut in sight (in_sight); NaN: not known
 };
 
 struct Feel {
@@ -85,6 +89,11 @@ class FeelBuilder {
         int joint = -1;
     };
     void take(std::uint64_t number, const record::TickRecord& tick);
+    struct Sight {
+        std::uint64_t tick = 0;
+        int joint = -1;
+        double share = 0.0;
+    };
     void note_grip(double time, const record::TickRecord& tick);
     void note_touch(double time, const record::TickRecord& tick);
     void note_change(double time, const record::TickRecord& tick);
@@ -96,9 +105,12 @@ class FeelBuilder {
     std::vector<Vec3> seats_;
     std::vector<StepBegin> steps_;
     std::size_t next_step_ = 0;
+    std::vector<Sight> sights_;
+    std::size_t next_sight_ = 0;
+    Sight sight_;
     int due_ = -1;
     bool arrived_ = true;
-    double step_begun_ = 0.0, placing_ = 0.0;
+    double step_begun_ = 0.0, placing_ = 0.0, seen_ = 0.0;
     std::optional<record::TickRecord> before_;
     Moment now_;  // what is known of the last times
     double taken_ = Moment::nan, left_ = Moment::nan, touch_ = Moment::nan, lost_ = Moment::nan;  // s

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -139,22 +140,28 @@ void put_arrivals(std::string& out, const SessionData& s) {
     out +=
         "<h3>Time to get onto the nut</h3>\n<div class=\"scroll\"><table><thead><tr><th>joint</th>"
         "<th class=\"n\">steps with<br/>the wrench</th><th class=\"n\">median, s</th><th "
-        "class=\"n\">slowest, s</th><th class=\"n\">of them near<br/>the nut, s</th><th class=\"n\">by "
-        "hand,<br/>median, s</th></tr></thead><tbody>\n";
+        "class=\"n\">slowest, s</th><th class=\"n\">of them near<br/>the nut, s</th>"
+        "<th class=\"n\">nut in<br/>sight</th><th class=\"n\">by hand,<br/>median, "
+        "s</th></tr></thead><tbody>\n";
     const auto row = [&](const std::string& name, int joint) {
         std::vector<double> wrench, near, hand;
+        double seen = 0.0, looked = 0.0;
         for (const Arrival& a : f.arrivals) {
             if (joint >= 0 && a.joint != joint) continue;
             (a.wrench ? wrench : hand).push_back(a.waited);
             if (a.wrench) near.push_back(a.placing);
+            if (!a.wrench || !std::isfinite(a.seen)) continue;
+            seen += a.seen;
+            looked += a.placing;
         }
         if (wrench.empty() && hand.empty()) return;
         const double slowest = wrench.empty() ? Moment::nan : *std::max_element(wrench.begin(), wrench.end());
         put(out,
             "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
             joint < 0 ? " class=\"sum\"" : "", escape(name), wrench.size(),
             number(quartiles(wrench).median, 2), number(slowest, 2), number(quartiles(near).median, 2),
+            looked > 0.0 ? number(100.0 * seen / looked, 0) + " %" : number(Moment::nan, 0),
             number(quartiles(hand).median, 2));
     };
     for (std::size_t j = 0; j < s.joints.size(); ++j) row(s.joints[j].id, static_cast<int>(j));
@@ -162,7 +169,8 @@ void put_arrivals(std::string& out, const SessionData& s) {
     put(out,
         "</tbody></table></div>\n<p class=\"note\">From the moment when the step was due until its nut was "
         "held; "
-        "near the nut: within 4\u00a0cm of its seat. {}</p>\n",
+        "near the nut: within 4\u00a0cm of its seat; in sight: 60\u00a0% of it seen or more past all that "
+        "stands there (the wrench itself left out), of the time near it. {}</p>\n",
         f.guided ? "A guiding force led the hand." : "No force led the hand.");
 }
 

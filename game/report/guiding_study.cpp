@@ -31,6 +31,7 @@ struct Measure {
 constexpr Measure measures[] = {
     {"Time to get onto the nut", "s, median over the steps", &Attempt::to_nut, 1.0, 2},
     {"Of that, near the nut", "s, median over the steps", &Attempt::near_nut, 1.0, 2},
+    {"Of that, with 60 % of the nut in sight or more", "%", &Attempt::seen, 100.0, 0},
     {"Bumps", "in a lesson", &Attempt::bumps, 1.0, 1},
     {"Time against something", "s in a lesson", &Attempt::bump_time, 1.0, 2},
     {"Duration of the lesson", "min", &Attempt::duration, 1.0 / 60.0, 2},

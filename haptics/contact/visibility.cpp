@@ -13,6 +13,23 @@ constexpr double off_surface = 50e-6;  // m, where a line of sight ends: more th
 constexpr double plastic = 1.3247179572447460;
 double fraction(double x) { return x - std::floor(x); }
 
+Seen look(const World& world, std::optional<std::size_t> body, const Solid& solid, const Pose& pose,
+          std::span<const Spot> spots, const Vec3& eye) {
+    const Vec3 eye_there = inverse(pose) * eye;
+    double alone = 0.0, seen = 0.0;
+    for (const Spot& spot : spots) {
+        const Vec3 at = spot.at + off_surface * spot.normal;
+        const Vec3 to_eye = eye_there - at;
+        const double distance2 = glm::dot(to_eye, to_eye);
+        const double facing = glm::dot(spot.normal, to_eye);
+        if (facing <= 0.0 || blocked(solid, eye_there, at)) continue;
+        const double size = spot.area * facing / (distance2 * std::sqrt(distance2));
+        alone += size;
+        if (!occluded(world, eye, pose * at, body)) seen += size;
+    }
+    return {alone > 0.0 ? seen / alone : 0.0, seen};
+}
+
 }  // namespace
 
 std::vector<Spot> spread_spots(const ContactMesh& mesh, std::size_t count) {
@@ -37,21 +54,23 @@ std::vector<Spot> spread_spots(const ContactMesh& mesh, std::size_t count) {
     return spots;
 }
 
+std::vector<Spot> outer_spots(const Solid& solid, std::size_t count) {
+    std::vector<Spot> spots = spread_spots(solid.mesh, count);
+    std::erase_if(spots, [&](const Spot& spot) {
+        return blocked(solid, spot.at + 2.0 * off_surface * spot.normal,
+                       spot.at + 2.0 * solid.radius * spot.normal);
+    });
+    return spots;
+}
+
 Seen look_at(const World& world, std::size_t body, std::span<const Spot> spots, const Vec3& eye) {
     const Body& own = world.bodies[body];
-    const Vec3 eye_there = inverse(own.pose) * eye;
-    double alone = 0.0, seen = 0.0;
-    for (const Spot& spot : spots) {
-        const Vec3 at = spot.at + off_surface * spot.normal;
-        const Vec3 to_eye = eye_there - at;
-        const double distance2 = glm::dot(to_eye, to_eye);
-        const double facing = glm::dot(spot.normal, to_eye);
-        if (facing <= 0.0 || blocked(world.shapes[own.shape].solid, eye_there, at)) continue;
-        const double size = spot.area * facing / (distance2 * std::sqrt(distance2));
-        alone += size;
-        if (!occluded(world, eye, own.pose * at, body)) seen += size;
-    }
-    return {alone > 0.0 ? seen / alone : 0.0, seen};
+    return look(world, body, world.shapes[own.shape].solid, own.pose, spots, eye);
+}
+
+Seen look_at(const World& world, const Solid& solid, const Pose& pose, std::span<const Spot> spots,
+             const Vec3& eye) {
+    return look(world, std::nullopt, solid, pose, spots, eye);
 }
 
 }  // namespace bolt::contact

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -103,4 +104,30 @@ TEST_CASE("what is off hides nothing, and what faces away is not counted") {
     CHECK(room.share(Vec3(0.0, 0.0, 1.0)) == 1.0);
     CHECK(look_at(room.world, room.body, {}, Vec3(0.0, 0.0, 1.0)).share == 0.0);
     CHECK(look_at(room.world, room.body, room.spots, Vec3(0.0)).share == 0.0);  // from within
+}
+
+TEST_CASE("what is held in the hand is seen as a body of the world would be") {
+    const Room room({wall({0.0, -50.0, 40.0}, {50.0, 50.0, 41.0})}, Pose{Vec3(0.0, 0.0, -0.2)});
+    const Solid cube = make_solid(std::span(&room.cube, 1)).value();
+    const Vec3 eye(0.0, 0.0, 1.0);
+    const Seen held = look_at(room.world, cube, Pose{}, room.spots, eye);
+    CHECK(held.share == doctest::Approx(0.5).epsilon(0.02));
+    CHECK(look_at(room.world, cube, Pose{Vec3(-0.1, 0.0, 0.0)}, room.spots, eye).share == 1.0);
+    // And it hides what is behind it no more than air does: it is not in the world.
+    CHECK(room.share(Vec3(-1.0, 0.0, -0.2)) == 1.0);
+}
+
+TEST_CASE("of a body with a hole the spots inside it are left out") {
+    // A frame of four bars about a square hole.
+    const std::vector<ContactMesh> bars = {
+        wall({-20.0, -20.0, 0.0}, {20.0, -10.0, 10.0}), wall({-20.0, 10.0, 0.0}, {20.0, 20.0, 10.0}),
+        wall({-20.0, -10.0, 0.0}, {-10.0, 10.0, 10.0}), wall({10.0, -10.0, 0.0}, {20.0, 10.0, 10.0})};
+    const Solid frame = make_solid(bars).value();
+    const auto inward = [](const Spot& spot) {
+        return std::abs(spot.normal.z) < 0.5 && glm::dot(spot.normal, spot.at) < 0.0;
+    };
+    const std::vector<Spot> all = spread_spots(frame.mesh, 2000), outer = outer_spots(frame, 2000);
+    CHECK(std::count_if(all.begin(), all.end(), inward) > 100);
+    CHECK(std::count_if(outer.begin(), outer.end(), inward) == 0);
+    CHECK(outer.size() > 1000);
 }

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "game/record/device_text.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/feel_section.hpp"
@@ -117,6 +119,21 @@ TEST_CASE(
     CHECK(feel.arrivals[0].waited == doctest::Approx(1.39));
     CHECK(feel.arrivals[0].placing ==
           doctest::Approx(0.030).epsilon(0.05));  // the last 39 ticks but the held ones
+}
+
+TEST_CASE("how long a nut was in sight while the wrench was near it") {
+    Story story;
+    story.hold(1490, 1500, 0);  // near it from tick 1460 on, due from 100 on
+    story.events.push_back({1300, "sight", 0, 0.3, ""});
+    story.events.push_back({1470, "sight", 0, 0.6, ""});
+    story.events.push_back({1480, "sight", 0, 0.59, ""});
+    Feel feel = story.feel();
+    REQUIRE(feel.arrivals.size() == 1);
+    CHECK(feel.arrivals[0].placing == doctest::Approx(0.029).epsilon(0.05));
+    CHECK(feel.arrivals[0].seen == doctest::Approx(0.010));
+    // Of another nut nothing is known, and that is not "not seen".
+    story.events[1].joint = 1;
+    CHECK(std::isnan(story.feel().arrivals[0].seen));
 }
 
 TEST_CASE("how long the output was held off, and why") {

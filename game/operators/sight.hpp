@@ -1,0 +1,42 @@
+// What a simulated trainee sees of the nut that it goes to, and where it puts its head to see more of it. Who
+// does not see the nut places the wrench by touch and memory, and worse.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "haptics/contact/visibility.hpp"
+#include "haptics/servo/setup.hpp"
+#include "haptics/servo/touch.hpp"
+
+namespace bolt::operators {
+
+struct Sight {
+    Vec3 eye{0.0};                                 // m, where the head is
+    std::vector<std::vector<contact::Spot>> nuts;  // by joint; empty: not looked at yet
+    std::vector<contact::Spot> head;               // of the wrench
+};
+
+// 0…1 of a nut, past all obstacles; the wrench is none, it has to be there. 1 where the nut has no model.
+double nut_seen(Sight& sight, const servo::Touch& touch, std::size_t joint, const Vec3& eye);
+
+// The lesser of nut and wrench head, with the wrench at `wrench`.
+double place_seen(Sight& sight, const servo::Setup& setup, const servo::Touch& touch, std::size_t joint,
+                  const Pose& wrench, const Vec3& eye);
+
+struct HeadMove {
+    Vec3 eye{0.0};
+    double turn = 0.0;  // rad about the place that is looked at
+};
+
+// Where to put the head: not far, and where as much as `content` of the place is seen; where more is seen
+// than anywhere else if that is nowhere. None: it is well where it is.
+std::optional<HeadMove> look_round(Sight& sight, const servo::Setup& setup, const servo::Touch& touch,
+                                   std::size_t joint, const Pose& wrench, double content);
+
+// Standard deviation, m, of where a tool is placed by who sees that share of the place: sight and touch each
+// count by their precision (van Beers, Sittig and Denier van der Gon, J. Neurophysiol. 81 (1999) 1355).
+// `sharp`: with all of it seen; `tries`: times that it has felt for the place.
+double placing_noise(double sharp, double share, int tries);
+
+}  // namespace bolt::operators
