@@ -12,38 +12,64 @@ constexpr double swing_step = to_radians(5.0);
 constexpr double margin = to_radians(3.0);  // kept from where a handle would meet something
 constexpr double yields = 4e-3;             // m that the hand lets the wrench stay behind
 constexpr double yields_turn = to_radians(4.0);
+constexpr double keeps_off = 0.012;                          // m, from what it goes by
 constexpr std::array rises{0.05, 0.1, 0.15, 0.2, 0.3, 0.4};  // m
+constexpr std::array lifts{0.06, 0.12, 0.2, 0.35};           // m, straight up before it goes across
 constexpr std::array heights{0.03, 0.08, 0.15};              // m above a nut, where a wrench comes down to it
 constexpr double cramped = 2.0;  // rad that it would rather turn away than squeeze by
 
 struct Seen {
     const servo::Setup& setup;
     const servo::Touch& touch;
-    double length;                   // m, of the wrench
-    double head = 0.0, broad = 0.0;  // m, half widths of its head and its handle
+    double length;                    // m, of the wrench
+    double broad = 0.0, thick = 0.0;  // m, half of its handle's width and of its head's thickness
+    std::array<Vec3, 8> rim{};        // of its head, what reaches furthest to each side
 
     Seen(const servo::Setup& s, const servo::Touch& t)
         : setup(s), touch(t), length(beyond_grip * s.wrench.handle_length) {
+        std::array<double, 8> furthest{};
         for (const auto& triangle : t.wrench.solid.corners)
             for (const Vec3 p : triangle) {
-                double& width = p.x > 0.3 * length ? broad : head;
-                width = std::max(width, std::abs(p.y));
+                if (p.x > 0.3 * length) {
+                    broad = std::max(broad, std::abs(p.y));
+                    continue;
+                }
+                thick = std::max(thick, std::abs(p.z));
+                for (std::size_t k = 0; k < rim.size(); ++k) {
+                    const double angle = static_cast<double>(k) * pi / 4.0;
+                    const double far = p.x * std::cos(angle) + p.y * std::sin(angle);
+                    if (far <= furthest[k]) continue;
+                    furthest[k] = far;
+                    rim[k] = {p.x, p.y, 0.0};
+                }
             }
+    }
+
+    // Where the wrench is and where it has just been: both its faces, `clear` beyond all its sides.
+    [[nodiscard]] bool step_is_free(const Pose& before, const Pose& pose, double clear) const {
+        const auto blocked = [&](const Vec3& a, const Vec3& b) { return servo::hidden(touch, a, b, -1); };
+        for (const double face : {-1.0, 1.0}) {
+            const Vec3 off(0.0, 0.0, face * (thick + clear));
+            const Vec3 middle = pose * (Vec3(0.5 * length, 0.0, 0.0) + off);
+            for (const Vec3& side : rim) {
+                const Vec3 point = side * (1.0 + clear / glm::length(side)) + off;
+                if (blocked(before * point, pose * point) || blocked(middle, pose * point)) return false;
+            }
+            for (const double side : {-1.0, 1.0}) {
+                const Vec3 end = Vec3(length, side * (broad + clear), 0.0) + off;
+                if (blocked(before * end, pose * end) || blocked(middle, pose * end)) return false;
+            }
+        }
+        return true;
     }
 
     [[nodiscard]] bool way_is_free(const Pose& from, const Pose& to, const Vec3& bulge) const {
         Pose before = from;
         for (int i = 1; i <= 24; ++i) {
-            const Pose pose = along(from, to, static_cast<double>(i) / 24.0, bulge);
-            for (const double side : {0.0, -1.0, 1.0}) {
-                const Vec3 jaw(0.0, side * head, 0.0), middle(0.5 * length, side * broad, 0.0),
-                    end(length, side * broad, 0.0);
-                for (const Vec3& point : {jaw, middle, end})
-                    if (servo::hidden(touch, before * point, pose * point, -1)) return false;
-                if (servo::hidden(touch, pose * jaw, pose * middle, -1) ||
-                    servo::hidden(touch, pose * middle, pose * end, -1))
-                    return false;
-            }
+            const double s = static_cast<double>(i) / 24.0;
+            const Pose pose = along(from, to, s, bulge);
+            // Where it begins and ends it is as near as it is; in between nobody goes by a hair's breadth.
+            if (!step_is_free(before, pose, keeps_off * 4.0 * s * (1.0 - s))) return false;
             before = pose;
         }
         return true;
@@ -93,6 +119,17 @@ Way way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& 
         for (int i = 0; i < 8; ++i)
             if (const Vec3 bulge = rise * (up + aside(i)); seen.way_is_free(from, to, bulge))
                 return {bulge, {}};
+    const auto over_it = [&](double high) -> Way {
+        return {Vec3(0.0),
+                {{from.position + high * up, from.orientation}, {to.position + high * up, to.orientation}}};
+    };
+    for (const double high : lifts) {
+        const Way way = over_it(high);
+        const Pose &lifted = way.stations[0], &above = way.stations[1];
+        if (seen.way_is_free(from, lifted, Vec3(0.0)) && seen.way_is_free(lifted, above, Vec3(0.0)) &&
+            seen.way_is_free(above, to, Vec3(0.0)))
+            return way;
+    }
     const Vec3 middle = 0.5 * (from.position + to.position);
     for (const double high : {0.2, 0.5})
         for (const double far : {0.0, 0.3, 0.6})
@@ -103,7 +140,7 @@ Way way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& 
                     seen.way_is_free(as_it_is, turned, Vec3(0.0)) && seen.way_is_free(turned, to, Vec3(0.0)))
                     return {Vec3(0.0), {as_it_is, turned}};
             }
-    return {rises.back() * up, {}};
+    return over_it(lifts.back());
 }
 
 GripAngle choose_grip(const servo::Setup& setup, const servo::Touch* touch, std::size_t joint,

@@ -17,8 +17,8 @@ struct Way {
 };
 
 // A reach from one pose to the other in which the wrench meets nothing that can be seen: off the straight way
-// along `up` by `least` or more, else to a side too, else by way of a place in the open where the wrench is
-// turned; over the top as high as was tried if there is none.
+// along `up` by `least` or more, else to a side too, else straight up, across and down, else by way of a
+// place in the open where the wrench is turned; over the top as high as was tried if there is none.
 Way way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
               const Vec3& up, double least);
 

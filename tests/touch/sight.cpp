@@ -1,0 +1,105 @@
+// What simulated trainees see: where they put their heads for it, and that the ways which they take among
+// obstacles are free, asked of contact itself.
+#include "game/operators/sight.hpp"
+
+#include "game/operators/around.hpp"
+#include "tests/support/sanitized.hpp"
+#include "tests/touch/support.hpp"
+
+using namespace bolt;
+using namespace bolt::operators;
+
+namespace {
+
+constexpr double hover = 0.035;  // m
+
+// Of poses along a way, the share at which the wrench is within `near` of something.
+double share_touching(servo::Touch& touch, const Pose& from, const Pose& to, const Vec3& bulge, double near) {
+    int touching = 0;
+    constexpr int steps = 60;
+    for (int i = 0; i <= steps; ++i) {
+        const Pose pose = along(from, to, static_cast<double>(i) / steps, bulge);
+        contact::forget(touch.proximity, touch.world, touch.wrench);
+        std::array<contact::Contact, 1> any;
+        if (contact::find_contacts(touch.world, touch.wrench, pose, near, touch.proximity, any).count > 0)
+            ++touching;
+    }
+    return static_cast<double>(touching) / (steps + 1);
+}
+
+}  // namespace
+
+TEST_CASE("a head turns to where the nut can be seen, no further than it must, and stays where it can") {
+    test::Workbench bench("zq350");
+    const servo::Touch& touch = *bench.state.touch;
+    Sight sight;
+    for (const std::size_t joint : {0U, 5U, 8U}) {
+        CAPTURE(joint);
+        const Pose wrench = bench.wrench(joint, hover);
+        const Vec3 seat = bench.setup.nuts[joint].seat;
+        // From below and behind, the casing is in the way.
+        sight.eye = seat + Vec3(0.3, 0.2, seat.z > 0.0 ? -0.6 : 0.6);
+        const double before = place_seen(sight, bench.setup, touch, joint, wrench, sight.eye);
+        const auto move = look_round(sight, bench.setup, touch, joint, wrench, 0.65);
+        if (before >= 0.65) {
+            CHECK(!move);
+            continue;
+        }
+        REQUIRE(move);
+        CHECK(place_seen(sight, bench.setup, touch, joint, wrench, move->eye) >= 0.65);
+        CHECK(nut_seen(sight, touch, joint, move->eye) >= 0.65);
+        CHECK(glm::length(move->eye - seat) == doctest::Approx(glm::length(sight.eye - seat)));
+        CHECK(move->turn > 0.0);
+        CHECK(move->turn < pi);
+        sight.eye = move->eye;
+        CHECK(!look_round(sight, bench.setup, touch, joint, wrench, 0.65));
+        // More than can be seen from anywhere: the best there is, which is no worse.
+        if (const auto best = look_round(sight, bench.setup, touch, joint, wrench, 1.1))
+            CHECK(place_seen(sight, bench.setup, touch, joint, wrench, best->eye) >
+                  place_seen(sight, bench.setup, touch, joint, wrench, sight.eye));
+    }
+}
+
+TEST_CASE("who sees less places worse, and by touch better with every try") {
+    CHECK(placing_noise(1e-3, 1.0, 0) == doctest::Approx(1e-3).epsilon(0.01));
+    CHECK(placing_noise(1e-3, 0.25, 0) == doctest::Approx(2e-3).epsilon(0.05));
+    for (double share = 0.0; share < 1.0; share += 0.1)
+        CHECK(placing_noise(1e-3, share, 0) > placing_noise(1e-3, share + 0.1, 0));
+    for (int tries = 0; tries < 6; ++tries)
+        CHECK(placing_noise(1e-3, 0.0, tries) > placing_noise(1e-3, 0.0, tries + 1));
+    CHECK(placing_noise(1e-3, 0.0, 100) == doctest::Approx(1e-3));
+}
+
+TEST_CASE("ways from nut to nut meet nothing, whichever way they go round" * doctest::skip(test::sanitized)) {
+    test::Workbench bench("zq350");
+    servo::Touch& touch = *bench.state.touch;
+    const std::size_t joints = bench.setup.nuts.size();
+    int ways = 0, touching = 0, straight = 0;
+    for (std::size_t i = 0; i < joints; ++i) {
+        const std::size_t j = (i + 5) % joints;
+        const auto grip_at = [&](std::size_t joint) {
+            const GripAngle grip = choose_grip(bench.setup, &touch, joint, 0.0, 0.0, 1.0, to_radians(40.0));
+            const servo::NutPlace& nut = bench.setup.nuts[joint];
+            const Vec3 x = std::cos(-grip.handle) * nut.e1 + std::sin(-grip.handle) * nut.e2;
+            const Vec3 z = grip.flipped ? -nut.axis : nut.axis;
+            return Pose{servo::nut_centre(nut, 0.0) + hover * nut.axis,
+                        glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)))};
+        };
+        Pose from = grip_at(i);
+        const Pose to = grip_at(j);
+        straight += share_touching(touch, from, to, Vec3(0.0), 0.5e-3) > 0.0 ? 1 : 0;
+        const Way way = way_round(bench.setup, touch, from, to, bench.setup.nuts[j].axis, 0.05);
+        double met = 0.0;
+        for (const Pose& station : way.stations) {
+            met += share_touching(touch, from, station, Vec3(0.0), 0.5e-3);
+            from = station;
+        }
+        met += share_touching(touch, from, to, way.bulge, 0.5e-3);
+        ++ways;
+        touching += met > 0.0 ? 1 : 0;
+    }
+    MESSAGE("of " << ways << " ways " << straight << " meet something gone straight, " << touching
+                  << " as they are gone");
+    CHECK(straight >= 6);
+    CHECK(touching <= 1);
+}
