@@ -20,6 +20,7 @@
 #include "game/play/nut_views.hpp"
 #include "game/play/servo_setup.hpp"
 #include "game/play/touch_models.hpp"
+#include "game/view/label_places.hpp"
 #include "game/view/marks.hpp"
 #include "game/view/painter.hpp"
 #include "game/view/picture_file.hpp"
@@ -244,6 +245,13 @@ Status render_all(RenderOptions options) {
     const auto views = viewpoints(options, subject.subject, (*stage)->box, aspect);
     if (!views) return fail(views.error());
     if (options.labels) name_joints(subject.subject, (*stage)->scene);
+    const std::vector<render::Label> labels = (*stage)->scene.labels;
+    std::optional<text::Fonts> fonts;
+    if (!labels.empty()) {
+        Result<text::Fonts> loaded = text::load_fonts();
+        if (!loaded) return fail(loaded.error());
+        fonts = std::move(*loaded);
+    }
     std::vector<render::Inset> insets;
     if (!options.inset.empty()) {
         const Result<view::Viewpoint> view = view::named_view(subject.subject, options.inset);
@@ -256,6 +264,9 @@ Status render_all(RenderOptions options) {
         std::vector<render::Eye> eyes;
         for (const float side : options.stereo ? std::vector{-0.5F, 0.5F} : std::vector{0.0F})
             eyes.push_back(eye_of(options, view, (*stage)->box, aspect, side * eye_distance));
+        (*stage)->scene.labels = labels;
+        if (fonts)
+            view::move_apart(*fonts, (*stage)->scene.labels, eyes.front(), {extent->width, extent->height});
         std::vector<render::Picture> pictures;
         std::vector<FrameTime> times;
         for (int frame = 0; frame < options.frames; ++frame) {

@@ -1,6 +1,7 @@
 #include "game/view/result_pictures.hpp"
 
 #include "engine/render/picture.hpp"
+#include "game/view/label_places.hpp"
 #include "game/view/marks.hpp"
 #include "game/view/painter.hpp"
 #include "game/view/picture_file.hpp"
@@ -66,11 +67,16 @@ Status draw_result(const content::Assembly& assembly, const lesson::LessonResult
         const std::string& node = assembly.joints[i].node;
         if (Status s = add_joint(**stage, loaded.subject, node, result.joints[i]); !s) return s;
     }
+    const Result<text::Fonts> fonts = text::load_fonts();
+    if (!fonts) return fail(fonts.error());
+    const std::vector<render::Label> labels = (*stage)->scene.labels;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     for (const Viewpoint& view : loaded.subject.views) {
         const float fov = view.fov > 0.0F ? view.fov : usual_fov;
         const render::Eye eye =
             render::make_eye(view.eye, view.target, lens((*stage)->box, view.eye, view.target, fov, aspect));
+        (*stage)->scene.labels = labels;
+        move_apart(*fonts, (*stage)->scene.labels, eye, {size.width, size.height});
         const auto pictures = render::take_pictures(*painter->device, *painter->frames, *painter->renderer,
                                                     (*stage)->scene, {&eye, 1}, size);
         if (!pictures) return fail(pictures.error());

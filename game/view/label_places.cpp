@@ -1,0 +1,80 @@
+#include "game/view/label_places.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <vector>
+
+#include "engine/text/layout.hpp"
+
+namespace bolt::view {
+
+namespace {
+
+constexpr glm::vec2 margin(0.35F, 0.15F);   // em, of a plate (engine/render/label_batch.cpp)
+constexpr float gap = 2.0F;                 // px between two plates
+constexpr int sideways = 12, upwards = 24;  // steps to either side that are tried
+constexpr float step_em = 0.25F;
+
+bool overlap(const LabelBox& a, const LabelBox& b, const glm::vec2& moved) {
+    const glm::vec2 low = a.low + moved - gap, high = a.high + moved + gap;
+    return low.x < b.high.x && b.low.x < high.x && low.y < b.high.y && b.low.y < high.y;
+}
+
+// How far outside of the picture, px.
+float outside(const LabelBox& box, const glm::vec2& moved, const glm::vec2& picture) {
+    const glm::vec2 low = box.low + moved, high = box.high + moved;
+    return std::max(0.0F, -low.x) + std::max(0.0F, -low.y) + std::max(0.0F, high.x - picture.x) +
+           std::max(0.0F, high.y - picture.y);
+}
+
+}  // namespace
+
+LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const render::Eye& eye,
+                const glm::vec2& picture) {
+    const glm::vec4 clip = eye.clip_from_world * glm::vec4(label.position, 1.0F);
+    if (clip.w <= 0.0F) return {};
+    const glm::vec2 at =
+        (0.5F * glm::vec2(clip) / clip.w + 0.5F) * picture + glm::vec2(label.moved_px.x, -label.moved_px.y);
+    const glm::vec2 size = text::lay_out(fonts, label.text, label.anchor.x).size;
+    const glm::vec2 left_below = -label.anchor * size - margin,
+                    right_above = left_below + size + 2.0F * margin;
+    return {at + label.height * glm::vec2(left_below.x, -right_above.y),
+            at + label.height * glm::vec2(right_above.x, -left_below.y), true};
+}
+
+void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
+                const glm::vec2& picture) {
+    std::vector<LabelBox> boxes;
+    for (const render::Label& label : labels) boxes.push_back(box_of(fonts, label, eye, picture));
+    std::vector<std::size_t> order(labels.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return boxes[a].high.y > boxes[b].high.y; });
+    std::vector<LabelBox> placed;
+    for (const std::size_t i : order) {
+        LabelBox& box = boxes[i];
+        if (!box.seen || labels[i].stand != render::LabelStand::on_screen) continue;
+        const float step = step_em * labels[i].height;
+        glm::vec2 best(0.0F);
+        float least = 1e9F;
+        for (int right = -sideways; right <= sideways; ++right)
+            for (int up = -upwards; up <= upwards; ++up) {
+                const glm::vec2 moved = step * glm::vec2(right, -up);
+                const auto taken = [&](const LabelBox& other) { return overlap(box, other, moved); };
+                if (std::any_of(placed.begin(), placed.end(), taken)) continue;
+                // Up rather than down, over its joint rather than beside it.
+                const float cost = glm::length(moved) + (up < 0 ? 0.5F * step : 0.0F) +
+                                   0.1F * std::abs(moved.x) + 4.0F * outside(box, moved, picture);
+                if (cost >= least) continue;
+                least = cost;
+                best = moved;
+            }
+        labels[i].moved_px += glm::vec2(best.x, -best.y);
+        box.low += best;
+        box.high += best;
+        placed.push_back(box);
+    }
+}
+
+}  // namespace bolt::view
