@@ -71,7 +71,12 @@ expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*friction_thread' "$bin/bolt-auth
 expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*M8' "$bin/bolt-author" validate broken
 expect 3 'friction_thread' "$bin/boltwright" train --no-pictures broken --headless --out "$work/never"
 check "bad content leaves no folder behind" test ! -e never
-expect 0 'score' "$bin/boltwright" train --no-pictures pump-cover --headless --quiet --out pump
+expect 0 'score' "$bin/boltwright" train --no-pictures pump-cover --no-obstacles --headless --quiet --out pump
+# A single bolt of it, tightened once: obstacles take their time, and one bolt shows what four do.
+cp -r pump-cover one
+sed -i '/"id": "B[234]"/d; s/\(.*"id": "B1".*\),$/\1/; s/"order": .*/"order": ["B1"],/; /"percent": 50/d; /recheck/d
+    s/\("percent": 100 }\),/\1/' one/assembly.json
+expect 0 '1 joints, 2 passes.*no mistakes' "$bin/bolt-author" validate one
 
 # A lesson, its files, and what can be done with them.
 expect 0 'score [0-9.]+ of 100' "$bin/boltwright" train --no-pictures --headless --no-obstacles --operator novice --seed 4 --out a
@@ -85,19 +90,19 @@ check "the same seed gives the same session, byte by byte, as CSV" bash -c "
     '$bin/boltwright' export b/session.boltwright --csv - | sha256sum > b.sum && cmp a.sum b.sum"
 expect 0 'report2.html' "$bin/boltwright" report a/session.boltwright b/session.boltwright --html report2.html
 check "two sessions make one page" grep -q '<html' report2.html
-expect 0 'study.html' env BIN="$bin" SEEDS=1 TRAINEES=clumsy JOBS=1 bash "$sources/tools/study.sh" "$work/study" cover-m8
+expect 0 'study.html' env BIN="$bin" SEEDS=1 TRAINEES=clumsy JOBS=1 bash "$sources/tools/study.sh" study one
 check "a study compares, and says of whom" bash -c "grep -q 'With and without guiding' study/study.html && grep -q 'are simulated' study/study.html"
 expect 0 '' "$bin/boltwright" export a/session.boltwright --csv ticks.csv
 check "a row a tick, and a header" bash -c '[[ $(wc -l < ticks.csv) -gt 300000 ]] && head -1 ticks.csv | grep -q wrench_torque_Nm'
 expect 1 'full|written' bash -c "'$bin/boltwright' export a/session.boltwright --csv - > /dev/full"
 
 # Loosening, held against measured runs.
-expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --task loosen --out loose
+expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --no-obstacles --headless --quiet --task loosen --out loose
 
 # Obstacles are met wherever they are modelled, and the files say whether and which. Two runs are one, to the last byte.
-expect 0 'score 100' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --out solid
+expect 0 'score 100' "$bin/boltwright" train --no-pictures one --headless --quiet --out solid
 expect 0 '"obstacles": true' cat solid/summary.json
-expect 0 'score 100' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --out solid2
+expect 0 'score 100' "$bin/boltwright" train --no-pictures one --headless --quiet --out solid2
 check "the same seed gives the same session among obstacles" bash -c "
     '$bin/boltwright' export solid/session.boltwright --csv - | sha256sum > s.sum &&
     '$bin/boltwright' export solid2/session.boltwright --csv - | sha256sum > s2.sum && cmp s.sum s2.sum"
@@ -126,7 +131,7 @@ expect 0 'b/session' "$bin/boltwright" report a/session.boltwright --html b/sess
 expect 2 'whole number' "$bin/boltwright" train --no-pictures --seed -1
 expect 2 'whole number' "$bin/boltwright" train --no-pictures --seed 18446744073709551616
 expect 1 'standard output' bash -c "'$bin/bolt-author' torque --size M16 --class 8.8 > /dev/full"
-expect 1 'standard output' bash -c "'$bin/bolt-author' validate zq350 > /dev/full"
+expect 1 'standard output' bash -c "'$bin/bolt-author' validate pump-cover > /dev/full"
 expect 1 'standard output' bash -c "'$bin/boltwright' train --no-pictures cover-m8 --no-obstacles --headless --quiet --out full > /dev/full"
 mkfifo pipe && (cat pipe > piped.html &) && expect 0 '' "$bin/boltwright" report a/session.boltwright --html pipe
 check "a pipe stays a pipe" test -p pipe
@@ -142,8 +147,8 @@ expect 0 'score' "$bin/boltwright" train --no-pictures locking --no-obstacles --
 draw=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright")
 expect 0 ': used' "${draw[@]}" doctor --seconds 0
 # Whether this machine keeps time is not for a test to say; that it is told, and told to be unknown, is.
-expect 0 'at 4000 ticks a second this machine is NOT good enough' "${draw[@]}" doctor --seconds 0.05
-expect 0 'only [0-9]+ ticks were timed' "${draw[@]}" doctor --seconds 0.05
+expect 0 'at 4000 ticks a second this machine is NOT good enough' bash -c "$(printf '%q ' "${draw[@]}") doctor --seconds 0.05 | tee host.txt"
+check "few ticks say nothing, and are said to" grep -qE 'only [0-9]+ ticks were timed' host.txt
 expect 2 '' "${draw[@]}" doctor --seconds -1
 expect 0 'seen/view-top.png' "${draw[@]}" train cover-m8 --no-obstacles --headless --quiet --out seen
 check "train draws every view" test -s seen/view-front.png
