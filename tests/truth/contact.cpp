@@ -57,11 +57,11 @@ TEST_CASE("near poses on the ZQ350: what is told is true, and what is inside is 
     CHECK(sum.off_edges < 30 * um);
     CHECK(sum.nearer < 30 * um);
     CHECK(sum.later < 150 * um);
-    // The check can fail: a finder that says of everything that it is 0.1 mm further off.
+    // The check can fail: a finder that says of everything that it is half a millimetre further off.
     std::vector<NearPose> wrong = poses;
-    for (NearPose& pose : wrong) pose.told += 100 * um;
+    for (NearPose& pose : wrong) pose.told += 500 * um;
     const NearSummary off = summarize(wrong, options.band);
-    CHECK(off.later_than_points > 90 * um);
+    CHECK(off.later_than_points > 400 * um);
     CHECK(off.missed > 0);
 }
 

@@ -29,8 +29,9 @@ Status ask(const Options& options, const servo::Touch& touch, const truth::Scene
     const truth::NearSummary near = truth::summarize(poses, options.near.band);
     if (Status said = say(truth::to_text(near)); !said) return said;
     for (const truth::NearPose& pose : poses)
-        if (truth::missed(pose))
-            if (Status said = say("missed " + truth::to_text(pose.tool) + "\n"); !said) return said;
+        if (truth::told_outside(pose))
+            if (Status said = say("inside, told to be outside: " + truth::to_text(pose.tool) + "\n"); !said)
+                return said;
     return near.missed == 0 ? Status{} : fail(ErrorCode::failed, "something that is inside was not told");
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double mm = 1e-3, um = 1e-6;
 constexpr std::size_t around_each = 20;
-constexpr double deep = 0.1 * mm;
+constexpr double deep = 0.1 * mm, margin = 0.1 * mm;
 constexpr std::uint32_t of_obstacle = 0x80000000U;  // the top bit of Contact::feature
 
 Quat random_turn(Random& random) {
@@ -66,7 +66,7 @@ double distance_to(const Scene& scene, const contact::World& world, std::size_t 
     const Vec3 p = inverse(world.bodies[body].pose) * point;
     double least = 1.0;
     for (const Part& part : scene.parts)
-        if (part.body == body) least = std::min(least, signed_distance(part.surface, p, std::abs(least)));
+        if (part.body == body) least = std::min(least, signed_distance(part.surface, p, 1.0));
     return least;
 }
 
@@ -172,6 +172,7 @@ NearSummary summarize(const std::vector<NearPose>& poses, double band) {
         if (pose.truth.crosses) {
             ++sum.crossing;
             sum.deep += pose.truth.depth > deep ? 1U : 0U;
+            sum.told_outside += told_outside(pose) ? 1U : 0U;
             sum.missed += missed(pose) ? 1U : 0U;
             if (!pose.found || pose.told >= 0.0)
                 sum.deepest_untold = std::max(sum.deepest_untold, pose.truth.depth);
@@ -211,7 +212,8 @@ std::string to_text(const NearSummary& s) {
         "    by {:.4f} um at most\n",
         s.poses, s.free, s.near, s.crossing, 1e6 * s.off, 1e6 * s.off_edges, 1e6 * s.wrong, 1e6 * s.nearer,
         1e6 * s.later_than_points, 1e6 * s.later, 1e6 * s.later_p50, 1e6 * s.later_p99,
-        100.0 * s.within_micrometre, s.deep, s.missed, 1e6 * s.deepest_untold, 1e6 * s.shallower_than_points);
+        100.0 * s.within_micrometre, s.deep, s.told_outside, s.missed, 1e6 * s.deepest_untold,
+        1e6 * s.shallower_than_points);
 }
 
 std::string to_text(const Pose& pose) {

@@ -33,12 +33,14 @@ struct NearPose {
 std::vector<NearPose> near_poses(const Scene& scene, const contact::World& world,
                                  const contact::ToolShape& tool, const NearOptions& options);
 
-// Truly inside by more than 0.1 mm, and not told.
+// Truly inside by more than 0.1 mm: told to be outside, and not told within the 0.1 mm that contact keeps as
+// a margin for what lies between the finder's points.
+bool told_outside(const NearPose& pose);
 bool missed(const NearPose& pose);
 
 struct NearSummary {
     std::size_t poses = 0, free = 0, near = 0, crossing = 0, deep = 0;  // deep: by more than 0.1 mm
-    std::size_t missed = 0;
+    std::size_t told_outside = 0, missed = 0;
     double deepest_untold = 0.0;  // m, of crossings that are not told to be inside
     // The worst of NearPose.
     double off = 0.0, off_edges = 0.0, wrong = 0.0;
