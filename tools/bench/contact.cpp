@@ -5,7 +5,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <ctime>
 #include <map>
 #include <memory>
 
@@ -13,6 +12,7 @@
 #include "tools/bench/contact_peers.hpp"
 #include "tools/bench/need.hpp"
 #include "tools/bench/sweep.hpp"
+#include "tools/bench/tick_times.hpp"
 
 namespace {
 
@@ -63,12 +63,6 @@ struct Ground {
     }
 };
 
-double microseconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
 class Ticks {
   public:
     void add(double took, bool touches, bool follows) {
@@ -77,20 +71,14 @@ class Ticks {
         if (touches) touching_.push_back(took);
     }
     void tell(benchmark::State& state) {
-        const auto share = [](std::vector<double>& v, double quantile) {
-            if (v.empty()) return 0.0;
-            std::sort(v.begin(), v.end());
-            return v[std::min(v.size() - 1,
-                              static_cast<std::size_t>(quantile * static_cast<double>(v.size())))];
-        };
-        state.counters["p50"] = share(all_, 0.5);
-        state.counters["p99"] = share(all_, 0.99);
-        state.counters["p99.9"] = share(all_, 0.999);
-        state.counters["touching_p50"] = share(touching_, 0.5);
-        state.counters["touching_p99"] = share(touching_, 0.99);
-        state.counters["touching_p99.9"] = share(touching_, 0.999);
+        state.counters["p50"] = bench::quantile(all_, 0.5);
+        state.counters["p99"] = bench::quantile(all_, 0.99);
+        state.counters["p99.9"] = bench::quantile(all_, 0.999);
+        state.counters["touching_p50"] = bench::quantile(touching_, 0.5);
+        state.counters["touching_p99"] = bench::quantile(touching_, 0.99);
+        state.counters["touching_p99.9"] = bench::quantile(touching_, 0.999);
         state.counters["touching"] = static_cast<double>(touching_.size()) / static_cast<double>(all_.size());
-        state.counters["first_max"] = share(first_, 1.0);
+        state.counters["first_max"] = bench::quantile(first_, 1.0);
     }
 
   private:
@@ -107,9 +95,9 @@ void along(benchmark::State& state, std::size_t every, const MakeStep& make_step
         for (int round = 0; round < rounds; ++round) {
             auto step = make_step();
             for (std::size_t i = 0; i < sweep.size(); i += every) {
-                const double start = microseconds();
+                const double start = bench::thread_microseconds();
                 touches[i] = step(sweep[i]);
-                least[i] = std::min(least[i], microseconds() - start);
+                least[i] = std::min(least[i], bench::thread_microseconds() - start);
             }
         }
         Ticks ticks;

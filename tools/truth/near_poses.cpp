@@ -159,7 +159,10 @@ std::vector<NearPose> near_poses(const Scene& scene, const contact::World& world
     return all;
 }
 
-bool missed(const NearPose& pose) { return pose.truth.depth > deep && !(pose.found && pose.told < 0.0); }
+bool told_outside(const NearPose& pose) {
+    return pose.truth.depth > deep && !(pose.found && pose.told < 0.0);
+}
+bool missed(const NearPose& pose) { return pose.truth.depth > deep && !(pose.found && pose.told < margin); }
 
 NearSummary summarize(const std::vector<NearPose>& poses, double band) {
     NearSummary sum;
@@ -207,9 +210,9 @@ std::string to_text(const NearSummary& s) {
         "  gaps: told smaller than they are by {:.4f} um at most; later than the points by {:.4f} um, than "
         "the surfaces\n"
         "    by {:.1f} um at most (half {:.3f}, 99 % {:.1f} um; {:.1f} % within 1 um)\n"
-        "  crossings: {} deeper than 0.1 mm, {} missed; deepest that is not told {:.1f} um; shallower than "
-        "the points\n"
-        "    by {:.4f} um at most\n",
+        "  crossings: {} deeper than 0.1 mm, {} of them told to be outside, {} by 0.1 mm or more; the "
+        "deepest\n"
+        "    told to be outside {:.1f} um; shallower than the points by {:.4f} um at most\n",
         s.poses, s.free, s.near, s.crossing, 1e6 * s.off, 1e6 * s.off_edges, 1e6 * s.wrong, 1e6 * s.nearer,
         1e6 * s.later_than_points, 1e6 * s.later, 1e6 * s.later_p50, 1e6 * s.later_p99,
         100.0 * s.within_micrometre, s.deep, s.told_outside, s.missed, 1e6 * s.deepest_untold,
