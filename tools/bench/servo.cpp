@@ -1,12 +1,12 @@
 // The whole tick: contact, nut and joint, guiding, coupling, output stage, of 12 joints on the ZQ350, over
 // ten minutes of a simulated arm in contact. What counts are the counters, in microseconds of the thread's
-// own work.
-//   p50 … max: of the ticks as they ran, once; own_*: of each tick the least of five runs, which is its own
-//   work without what the machine did besides. step_*: the greatest change of the force in a tick, of the
-//   device's greatest.
+// own work. p50 … max: of the ticks as they ran, once; own_*: of each tick the least of five runs, which is
+// its own work without what the machine did besides. step, step_torque: the greatest change in a millisecond,
+// of the device's greatest.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/bench/need.hpp"
 #include "tools/bench/servo_path.hpp"
@@ -22,16 +22,23 @@ constexpr int rounds = 5;
 
 struct Felt {
     std::size_t ticks = 0, touching = 0, engaged = 0, faults = 0;
-    double step = 0.0, torque_step = 0.0;  // N, N·m in a tick
+    double step = 0.0, torque_step = 0.0;  // N, N·m in a millisecond
 
-    void add(const servo::Output& before, const servo::Output& now) {
-        ++ticks;
+    explicit Felt(double dt) : millisecond_(static_cast<std::size_t>(std::lround(1e-3 / dt))) {}
+
+    void add(const servo::Output& now) {
         touching += now.touched >= 0 ? 1U : 0U;
         engaged += now.joint >= 0 ? 1U : 0U;
         faults += now.fault != force::Fault::none ? 1U : 0U;
+        force::OutputCommand& before = millisecond_[ticks % millisecond_.size()];
         step = std::max(step, glm::length(now.force - before.force));
         torque_step = std::max(torque_step, glm::length(now.torque - before.torque));
+        before = {now.force, now.torque};
+        ++ticks;
     }
+
+  private:
+    std::vector<force::OutputCommand> millisecond_;
 };
 
 void servo_tick(benchmark::State& state, const bench::Device& device, double seconds, bool touches) {
@@ -40,13 +47,13 @@ void servo_tick(benchmark::State& state, const bench::Device& device, double sec
         const std::vector<servo::Input> inputs = bench::make_path(servo, device, seconds, 1);
         for (auto _ : state) {
             std::vector<double> first(inputs.size()), least(inputs.size(), 1e9);
-            Felt felt;
+            Felt felt(device.dt);
             servo::Output last;
             for (int round = 0; round < rounds; ++round) {
                 bench::restart(servo);
                 std::optional<servo::Touch> apart;
                 if (!touches) apart = std::exchange(servo.state.touch, std::nullopt);
-                felt = {};
+                felt = Felt(device.dt);
                 servo::Output before;
                 for (std::size_t i = 0; i < inputs.size(); ++i) {
                     const double start = bench::thread_microseconds();
@@ -54,7 +61,7 @@ void servo_tick(benchmark::State& state, const bench::Device& device, double sec
                     const double took = bench::thread_microseconds() - start;
                     if (round == 0) first[i] = took;
                     least[i] = std::min(least[i], took);
-                    felt.add(before, output);
+                    felt.add(output);
                     before = output;
                 }
                 if (round > 0 && (before.force != last.force || before.tool.position != last.tool.position))

@@ -15,6 +15,7 @@ namespace bolt::bench {
 namespace {
 
 constexpr double mm = 1e-3;
+constexpr double fastest = 0.5, fastest_turn = 3.0;  // m/s, rad/s: of a hand that holds a wrench
 
 // Where a hand means to go next, and how long it takes.
 struct Leg {
@@ -207,7 +208,11 @@ std::vector<servo::Input> make_path(Servo& servo, const Device& device, double s
     while (inputs.size() < ticks)
         for (const Leg& leg : hand.plan(meant)) {
             const Pose from = meant;
-            const int steps = std::max(1, static_cast<int>(leg.seconds / dt));
+            const double turn = glm::length(
+                rotation_vector(glm::normalize(leg.to.orientation * glm::conjugate(from.orientation))));
+            const double least =
+                1.875 * std::max(glm::length(leg.to.position - from.position) / fastest, turn / fastest_turn);
+            const int steps = std::max(1, static_cast<int>(std::max(leg.seconds, least) / dt));
             for (int i = 1; i <= steps && inputs.size() < ticks; ++i) {
                 const double t = static_cast<double>(i) / steps;
                 const double s = t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
