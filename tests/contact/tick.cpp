@@ -7,6 +7,7 @@
 
 #include "tests/contact/reducer.hpp"
 #include "tests/support/forbidden.hpp"
+#include "tests/support/sanitized.hpp"
 
 using namespace bolt;
 using namespace bolt::contact;
@@ -15,6 +16,7 @@ using namespace contact_test;
 namespace {
 
 constexpr double mm = 1e-3;
+constexpr int fewer = test::sanitized ? 10 : 1;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ TEST_CASE("distances to the reducer's casing are those of brute force") {
     for (const ContactMesh& part : reducer.casing) soups.push_back(soup(part));
     Random random(41);
     double worst = 0.0;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 300 / fewer; ++i) {
         const Soup& triangles = soups[i % 2 == 0 ? 0 : 1];
         const auto& t = triangles[random.bits() % triangles.size()];
         const Vec3 p = (t[0] + t[1] + t[2]) / 3.0 + random.uniform(0.0, 5.0) * mm * random_direction(random);
@@ -40,7 +42,7 @@ TEST_CASE("at the reducer, too, nothing depends on what was before") {
     ProximityState warm = make_proximity(reducer.world, reducer.tool);
     ProximityState cold = make_proximity(reducer.world, reducer.tool);
     std::size_t touching = 0;
-    for (int place = 0; place < 8; ++place) {
+    for (int place = 0; place < (test::sanitized ? 2 : 8); ++place) {
         const Pose start = reducer.at_the_surface(random);
         const Vec3 way = 0.2 * mm * random_direction(random);
         const Vec3 turn = 1e-3 * random_direction(random);
@@ -63,7 +65,7 @@ TEST_CASE("at the reducer, too, nothing depends on what was before") {
             touching += x.count > 0 ? 1 : 0;
         }
     }
-    CHECK(touching > 100);
+    CHECK(touching > 100 / fewer);
 }
 
 TEST_CASE("finding contacts allocates nothing, locks nothing, reads no clock") {
@@ -91,7 +93,7 @@ TEST_CASE("where the wrench first touches the reducer it is found, and deeper") 
     ProximityState state = make_proximity(reducer.world, reducer.tool);
     Random random(44);
     int met = 0;
-    for (int i = 0; i < 320; ++i) {
+    for (int i = 0; i < 320 / fewer; ++i) {
         const Pose start = reducer.at_the_surface(random);
         const Vec3 way = random_direction(random);
         const auto at = [&](double s) { return Pose{start.position + s * way, start.orientation}; };
@@ -116,5 +118,5 @@ TEST_CASE("where the wrench first touches the reducer it is found, and deeper") 
         CHECK(contacts[0].distance < 0.05 * mm);
         ++met;
     }
-    CHECK(met > 15);
+    CHECK(met > 15 / fewer);
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "haptics/force/output_stage.hpp"
+#include "tests/support/range.hpp"
 #include "tests/support/simulated_arm.hpp"
 
 using namespace bolt;
@@ -69,15 +70,6 @@ struct Felt {
     double early_swing = 0.0, late_swing = 0.0;  // m of the tool's way to and fro while the hand holds still
 };
 
-struct Range {
-    double low = 1e9, high = -1e9;
-    void add(double x) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-    }
-    [[nodiscard]] double width() const { return std::max(0.0, high - low); }
-};
-
 enum class Energy { told, not_told };
 
 // Comes, presses, shakes half a second at 6 Hz, holds still for 1.5 s.
@@ -88,7 +80,7 @@ Felt feel(const Scene& scene, const OutputLimits& limits, Energy energy, double 
     arm.pose.position = arm.intention.position = clear * scene.way;
     OutputStage stage;
     Felt felt;
-    Range early, late;
+    test::Range early, late;
     const int second = static_cast<int>(std::lround(1.0 / dt));
     for (int k = 0; k < 4 * second; ++k) {
         const double t = k * dt;

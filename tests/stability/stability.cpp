@@ -7,6 +7,7 @@
 
 #include "haptics/force/output_stage.hpp"
 #include "tests/god_object/scene.hpp"
+#include "tests/support/range.hpp"
 #include "tests/support/simulated_arm.hpp"
 
 using namespace bolt;
@@ -71,15 +72,6 @@ Trial trial(std::uint64_t seed) {
     t.press = random.uniform(2.0, 10.0);
     return t;
 }
-
-struct Range {
-    double low = 1e9, high = -1e9;
-    void add(double x) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-    }
-    [[nodiscard]] double width() const { return std::max(0.0, high - low); }
-};
 
 struct Outcome {
     double greatest_energy = 0.0, energy = 0.0;  // J that came out: at any time, at the end
