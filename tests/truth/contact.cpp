@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 
 #include "content/format/load.hpp"
 #include "game/play/servo_setup.hpp"
@@ -36,18 +38,23 @@ struct Bench {
 
 const int fewer = test::sanitized ? 10 : 1;
 
+// Loading takes a while; nobody changes this one.
+const Bench& zq350() {
+    static const Bench bench("zq350");
+    return bench;
+}
+
 }  // namespace
 
 TEST_CASE("near poses on the ZQ350: what is told is true, and what is inside is told") {
-    const Bench bench("zq350");
-    const servo::Touch& touch = *bench.state.touch;
+    const servo::Touch& touch = *zq350().state.touch;
     const Scene scene = make_scene(touch.world, touch.wrench);
-    const NearOptions options{.poses = static_cast<std::size_t>(400 / fewer), .seed = 5, .threads = 2};
+    const NearOptions options{.poses = static_cast<std::size_t>(300 / fewer), .seed = 5, .threads = 2};
     const std::vector<NearPose> poses = near_poses(scene, touch.world, touch.wrench, options);
     const NearSummary sum = summarize(poses, options.band);
     MESSAGE(to_text(sum));
-    CHECK(sum.near > 60U / static_cast<unsigned>(fewer));
-    CHECK(sum.deep > 60U / static_cast<unsigned>(fewer));
+    CHECK(sum.near > 40U / static_cast<unsigned>(fewer));
+    CHECK(sum.deep > 40U / static_cast<unsigned>(fewer));
     CHECK(sum.missed == 0);
     CHECK(sum.off < 1 * um);
     CHECK(sum.wrong < 1 * um);
@@ -82,7 +89,7 @@ TEST_CASE("whatever the number of threads, the same poses") {
 
 TEST_CASE(
     "the wrench is never truly deeper than 0.1 mm: flicked, in a slot, at nuts, pulled through everything") {
-    Bench bench("zq350");
+    Bench bench(test::sanitized ? "cover-m8" : "zq350");
     const Scene scene = make_scene(bench.state.touch->world, bench.state.touch->wrench);
     const contact::ToolShape& tool = bench.state.touch->wrench;
     const contact::GodObjectParameters& parameters = bench.state.touch->parameters;
@@ -92,16 +99,19 @@ TEST_CASE(
         CHECK(trip->touching > 100);
         CHECK(trip->depth < deepest_allowed);
     };
-    look(flicked(tool, parameters, 3, 20 / fewer));
+    look(flicked(tool, parameters, 3, 10 / (test::sanitized ? 5 : 1)));
     look(in_a_slot(tool, parameters, bench.setup.wrench.jaw.thickness, 3, 2000 / fewer));
-    look(at_nuts(bench.setup, bench.state, scene, 3, test::sanitized ? 1 : 3));
+    look(at_nuts(bench.setup, bench.state, scene, 3, test::sanitized ? 1 : 2));
     look(pulled_through(bench.setup, bench.state, scene, 3, test::sanitized ? 1 : 2));
 }
 
 TEST_CASE("the jaw's closed form has flats, throat and tips where each wrench has them") {
     for (const char* name : {"zq350", "cover-m8", "dn200-pn16"}) {
         CAPTURE(name);
-        const Bench bench(name);
+        if (test::sanitized && std::string_view(name) == "dn200-pn16") continue;
+        std::optional<Bench> own;
+        if (std::string_view(name) != "zq350") own.emplace(name);
+        const Bench& bench = own ? *own : zq350();
         const contact::Jaw& jaw = bench.setup.wrench.jaw;
         const servo::Touch& touch = *bench.state.touch;
         const Surface wrench = make_surface(touch.wrench.solid.mesh);
