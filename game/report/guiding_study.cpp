@@ -30,8 +30,8 @@ struct Measure {
 
 constexpr Measure measures[] = {
     {"Time to get onto the nut", "s, median over the steps", &Attempt::to_nut, 1.0, 2},
-    {"Of that, near the nut", "s, median over the steps", &Attempt::near_nut, 1.0, 2},
-    {"Of that, with 60 % of the nut in sight or more", "%", &Attempt::seen, 100.0, 0},
+    {"Time near the nut until it is held", "s, median over the steps", &Attempt::near_nut, 1.0, 2},
+    {"Nut in sight meanwhile", "% of the time, with 60 % of it seen or more", &Attempt::seen, 100.0, 0},
     {"Bumps", "in a lesson", &Attempt::bumps, 1.0, 1},
     {"Time against something", "s in a lesson", &Attempt::bump_time, 1.0, 2},
     {"Duration of the lesson", "min", &Attempt::duration, 1.0 / 60.0, 2},
@@ -52,7 +52,8 @@ std::vector<double> values_of(const Group& group, const Measure& measure) {
     return values;
 }
 
-// Dots that would cover each other stand on top of each other, within the row.
+// Dots that would cover each other stand on top of each other, within the row; how many they are is said
+// where there is no room for that.
 void draw_row(Svg& svg, const std::vector<double>& values, const Scale& x, double left, double middle,
               std::string_view dot) {
     constexpr double radius = 2.6, room = 11.0;
@@ -75,6 +76,13 @@ void draw_row(Svg& svg, const std::vector<double>& values, const Scale& x, doubl
         drawn.push_back(p);
         svg.circle(p, radius, dot);
     }
+    constexpr std::ptrdiff_t most = 5;
+    for (auto same = sorted.begin(); same != sorted.end();) {
+        const auto end = std::upper_bound(same, sorted.end(), *same);
+        if (end - same > most)
+            svg.text({left + x(*same) + 2.0 * radius, middle + 4.0}, "sm", fmt::format("×{}", end - same));
+        same = end;
+    }
 }
 
 std::string strip_plot(const Group& with, const Group& without, const Measure& measure) {
@@ -83,7 +91,7 @@ std::string strip_plot(const Group& with, const Group& without, const Measure& m
     const double high =
         std::max(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
     constexpr double width = 460.0, height = 112.0, left = 82.0, right = 22.0;
-    const Ticks ticks = covering_ticks(0.0, high * (1.0 + 1e-6), 5);
+    const Ticks ticks = covering_ticks(0.0, high > 0.0 ? high : 1.0, 5);
     const Scale x{ticks.range, width - left - right, false};
     Svg svg(width, height, fmt::format("{}, {}, with and without guiding", measure.name, measure.unit));
     for (const double at : ticks.at) {
