@@ -16,7 +16,9 @@ bool nearer_crossing(const Crossing& a, const Crossing& b) {
 struct EdgeGathering {
     const Solid* solid;
     const EdgePiece* piece;
-    double length;  // half the piece's
+    double length;         // half the piece's
+    glm::vec3 rounded;     // the piece's middle
+    float asked_in_float;  // Embree's radius
     double radius, band;
     std::array<Crossing, 16> found;
     std::size_t count = 0;
@@ -36,7 +38,7 @@ struct EdgeGathering {
 
 // How far the common perpendicular is from leading out of both solids, as a cosine; at most 0: it does. Else
 // some face, vertex or other edge is nearer.
-double off_facing(const SharpEdge& edge, const EdgePiece& piece, const Vec3& normal) {
+double off_facing(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
     double off = -1.0;
     for (std::size_t i = 0; i < 2; ++i)
         off = std::max({off, glm::dot(normal, Vec3(edge.inward[i])), -glm::dot(normal, piece.inward[i])});
@@ -47,12 +49,21 @@ double off_facing(const SharpEdge& edge, const EdgePiece& piece, const Vec3& nor
 // A turn (rad) that lasts long enough not to ask how far the edge is.
 constexpr double worth_a_turn = 0.02;
 
+// Whether the edge is surely further than the radius from all of the piece: by the sphere about the one and
+// the box of the other.
+bool is_beyond(const EdgeGathering& g, const Ridge& edge) {
+    const glm::vec3 low = glm::min(edge.ends[0], edge.ends[1]);
+    const glm::vec3 high = glm::max(edge.ends[0], edge.ends[1]);
+    const glm::vec3 beside = glm::max(glm::max(low - g.rounded, g.rounded - high), glm::vec3(0.0F));
+    return glm::dot(beside, beside) > g.asked_in_float * g.asked_in_float;
+}
+
 // One edge against the piece. Why the bounds hold: turning the piece by φ turns the perpendicular by 1.5 φ
 // over the sine between the edges at most, while φ is below a third of that sine.
 void meet(EdgeGathering& g, std::uint32_t index) {
-    const SharpEdge& edge = g.solid->mesh.sharp_edges[index];
-    const Vec3 a(g.solid->mesh.vertices[edge.vertices[0]]);
-    const Vec3 b(g.solid->mesh.vertices[edge.vertices[1]]);
+    const Ridge& edge = g.solid->ridges[index];
+    const Vec3 a(edge.ends[0]);
+    const Vec3 b(edge.ends[1]);
     const Vec3 middle = 0.5 * (a + b);
     const Vec3 half = 0.5 * (b - a);
     const Vec3 across = glm::cross(g.piece->half, half);
@@ -116,7 +127,7 @@ void meet(EdgeGathering& g, std::uint32_t index) {
         return;
     }
     crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
-    crossing.edge = index;
+    crossing.edge = edge.sharp_edge;
     if (crossing.distance > 0.0) {
         // The other way round only by coming through.
         g.clear = std::min(g.clear, 0.9 * crossing.distance);
@@ -130,7 +141,7 @@ void meet(EdgeGathering& g, std::uint32_t index) {
 
 bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
     auto& g = *static_cast<EdgeGathering*>(arguments->userPtr);
-    meet(g, g.solid->ridges[arguments->primID]);
+    if (!is_beyond(g, g.solid->ridges[arguments->primID])) meet(g, arguments->primID);
     return false;
 }
 
@@ -152,6 +163,8 @@ Crossings near_edges(const Solid& solid, const EdgePiece& piece, const Solid& ot
     g.band = band;
     g.clear -= deepest_crossing;
     RTCPointQuery query = make_query(piece.middle, g.length + g.radius);
+    g.rounded = glm::vec3(piece.middle);
+    g.asked_in_float = query.radius;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);

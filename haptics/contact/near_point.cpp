@@ -239,14 +239,15 @@ std::size_t beside_boxes(const float* boxes, std::size_t count, const glm::vec3&
 }
 
 bool rises(const std::array<glm::vec3, 3>& t, const Vec3& normal, double height) {
-    return glm::dot(Vec3(t[0]), normal) > height || glm::dot(Vec3(t[1]), normal) > height ||
-           glm::dot(Vec3(t[2]), normal) > height;
+    return std::max({glm::dot(Vec3(t[0]), normal), glm::dot(Vec3(t[1]), normal),
+                     glm::dot(Vec3(t[2]), normal)}) > height;
 }
 
 }  // namespace
 
-std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, const Place& place,
+std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, const Look& seen,
                                 const Vec3& point, double band, std::span<Side> sides) {
+    const Place& place = *seen.place;
     Gathering g = gathering(solid, point, band);
     const glm::vec3 rounded(point);
     constexpr std::size_t room = most_listed;
@@ -265,14 +266,24 @@ std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, co
         const float margin = with_margin(std::sqrt(squared), point);
         return margin * margin;
     };
+    // Which are within can hardly be predicted: they are collected without asking.
+    std::array<std::uint16_t, room> near;
+    const auto collect = [&](float within) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < listed.size(); ++i) {
+            near[count] = static_cast<std::uint16_t>(i);
+            count += beside[i] <= within ? 1U : 0U;
+        }
+        return std::span(near).first(count);
+    };
     compare(first);
     float within = in_float(g.nearest.squared);
-    for (std::size_t i = 0; i < listed.size(); ++i) {
+    for (const std::uint16_t i : collect(within)) {
         if (beside[i] > within) continue;
         compare(i);
         within = in_float(g.nearest.squared);
     }
-    if (!(g.nearest.squared <= vicinity_reach * vicinity_reach)) return std::nullopt;
+    if (!(g.nearest.squared <= seen.unlisted * seen.unlisted)) return std::nullopt;
     const Side first_side = nearest_side(g);
     if (place.convex) {
         const bool told = first_side.distance <= band && !sides.empty();
@@ -281,10 +292,9 @@ std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, co
     }
     // Further sides are there only where something rises above the first.
     if (first_side.distance <= band) {
-        within = in_float(g.band2);
         const double height = glm::dot(first_side.point, first_side.normal) + side_tolerance;
-        for (std::size_t i = 0; i < listed.size(); ++i)
-            if (beside[i] <= within && rises(g.corners[listed[i]], first_side.normal, height)) compare(i);
+        for (const std::uint16_t i : collect(in_float(g.band2)))
+            if (rises(g.corners[listed[i]], first_side.normal, height)) compare(i);
     }
     return conclude(g, first_side, band, sides);
 }

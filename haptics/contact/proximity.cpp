@@ -1,6 +1,7 @@
 #include "haptics/contact/proximity.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <glm/geometric.hpp>
 
 #include "haptics/contact/edges.hpp"
@@ -13,18 +14,30 @@ namespace {
 constexpr double cluster_lookahead = 6e-3;
 constexpr double sample_lookahead = 2.5e-3;
 constexpr double edge_lookahead = 5e-3;
+// Of an edge piece that had an edge near when it was asked last.
+constexpr double short_lookahead = 1.2e-3;
 // So many spent samples of a cluster are asked one by one, more only if the cluster as a whole is near.
 constexpr std::size_t few = 4;
 // More than the rounding of poses and distances.
 constexpr double rounding = 1e-9;
 constexpr double nothing_proven = -1e9;
+// More than the rounding of positions and distances in float.
+constexpr double rounding_in_float = 1e-6;
+
+// Of a place (rad) whose normals spread further nothing is known.
+constexpr float upright = 1.2F;
 
 void reset(Bounds& bounds, const Samples& samples) {
     constexpr Proven nothing{nothing_proven, nothing_near};
     bounds.levels.resize(samples.levels.size());
     for (std::size_t i = 0; i < samples.levels.size(); ++i)
         bounds.levels[i].assign(samples.levels[i].size(), nothing);
-    bounds.samples.assign(samples.samples.size(), {nothing, nothing_near});
+    constexpr Sighting unseen{glm::vec3(0.0F), static_cast<float>(nothing_proven), 0.0, false};
+    bounds.levels_seen.resize(samples.levels.size());
+    for (std::size_t i = 0; i < samples.levels.size(); ++i)
+        bounds.levels_seen[i].assign(samples.levels[i].size(), unseen);
+    bounds.samples.assign(samples.samples.size(), nothing);
+    bounds.seen.assign(samples.samples.size(), unseen);
 }
 
 // Any point at r from the tool's origin has moved by no more than moved + turned × |r|.
@@ -39,6 +52,19 @@ void spend(PairBounds& pair, const Pose& pose) {
     }
     pair.last = pose;
 }
+
+// A pose as points are moved by it fastest.
+struct Frame {
+    Vec3 x, y, z, origin;
+
+    explicit Frame(const Pose& pose)
+        : x(pose.orientation * Vec3(1, 0, 0)),
+          y(pose.orientation * Vec3(0, 1, 0)),
+          z(pose.orientation * Vec3(0, 0, 1)),
+          origin(pose.position) {}
+    [[nodiscard]] Vec3 turned(const Vec3& v) const { return x * v.x + y * v.y + z * v.z; }
+    Vec3 operator*(const Vec3& p) const { return turned(p) + origin; }
+};
 
 // The contacts found, with a fixed room: when it is full the furthest make place.
 struct Collected {
@@ -84,6 +110,7 @@ class Sweep {
           samples_(samples),
           surface_(surface),
           vicinity_(vicinity),
+          from_surface_(inverse(to_surface)),
           to_surface_(to_surface),
           to_assembly_(to_assembly),
           of_tool_(of_tool),
@@ -98,13 +125,15 @@ class Sweep {
     }
 
     // What one waits for.
-    bool find(std::uint32_t index, Contact& contact) const {
-        const Vec3 at = to_surface_ * samples_.samples[index].at;
+    bool find(const Waiting& one, Bounds& bounds, Contact& contact) const {
+        const Vec3 at = to_surface_ * samples_.samples[one.sample].at;
         const Look known = look(vicinity_, at);
         std::array<Side, 1> side;
-        const auto near = near_listed(surface_, vicinity_, *known.place, at, band_, side);
-        if (!near || near->sides == 0) return false;
-        contact = contact_of(index, at, side[0]);
+        const auto near = near_listed(surface_, vicinity_, known, at, band_, side);
+        if (!near) return false;
+        see(bounds, one.sample, at, near->distance, one.spent);
+        if (near->sides == 0) return false;
+        contact = contact_of(one.sample, at, side[0]);
         return true;
     }
 
@@ -121,34 +150,48 @@ class Sweep {
         Proven& bound = bounds.levels[level][i];
         const Proven spent = spent_on(cluster, way);
         if (holds(bound, spent)) return;
-        if (level == 0) {
-            open(bounds, cluster, bound, spent);
-            return;
-        }
-        const double all = far(cluster);
-        if (all > band_) {
-            bound = {all + spent.lower, nothing_near};
-            return;
-        }
-        bound = {nothing_near, nothing_near};
+        const Vec3 middle = to_surface_ * cluster.middle;
+        Sighting& seen = bounds.levels_seen[level][i];
+        bound.lower = std::max(bound.lower, since(seen, middle, cluster.radius, spent) + spent.lower);
+        if (holds(bound, spent)) return;
+        const bool near_before = seen.lower > 0.5F * static_cast<float>(nothing_proven) &&
+                                 static_cast<double>(seen.lower) <= band_;
+        bound = level == 0 ? open(bounds, cluster, middle, bound.lower - spent.lower, near_before, spent)
+                           : divide(bounds, way, level, cluster, middle, spent);
+        seen = {glm::vec3(middle), static_cast<float>(bound.lower - spent.lower), spent.turn, false};
+    }
+
+    Proven divide(Bounds& bounds, const Way& way, std::size_t level, const Cluster& cluster,
+                  const Vec3& middle, const Proven& spent) const {
+        const double all = far(cluster, middle);
+        if (all > band_) return {all + spent.lower, nothing_near};
+        Proven bound{nothing_near, nothing_near};
         for (std::uint32_t k = cluster.begin; k < cluster.end; ++k) {
             visit(bounds, way, level - 1, k);
             const Proven& of_one = bounds.levels[level - 1][k];
             const double spent_on_one = spent_on(samples_.levels[level - 1][k], way).lower;
             bound = lesser(bound, {of_one.lower - spent_on_one + spent.lower, of_one.turn});
         }
+        return bound;
+    }
+
+    // What a sighting proves now.
+    static double since(const Sighting& seen, const Vec3& middle, double radius, const Proven& spent) {
+        const double way = glm::length(middle - Vec3(seen.at)) + radius * (spent.turn - seen.turned);
+        return static_cast<double>(seen.lower) - way - rounding_in_float;
     }
 
     [[nodiscard]] bool holds(const Proven& proven, const Proven& spent) const {
-        return proven.lower - spent.lower > band_ && proven.turn > spent.turn;
+        const bool far = proven.lower - spent.lower > band_;
+        const bool straight = proven.turn > spent.turn;
+        return far & straight;
     }
     static Proven lesser(const Proven& a, const Proven& b) {
         return {std::min(a.lower, b.lower), std::min(a.turn, b.turn)};
     }
     // A lower bound of the signed distance of all of a cluster without asking the surface.
-    [[nodiscard]] double far(const Cluster& all) const {
-        const Vec3 middle = to_surface_ * all.middle;
-        const double lower = std::max(beside_box(middle), look(vicinity_, middle).lower);
+    [[nodiscard]] double far(const Cluster& all, const Vec3& middle) const {
+        const double lower = std::max(beside_box(middle), look(vicinity_, middle, leaf_).lower);
         return lower - all.radius - rounding;
     }
     [[nodiscard]] double beside_box(const Vec3& p) const {
@@ -157,85 +200,104 @@ class Sweep {
         return beside > 0.0 ? beside : nothing_proven;
     }
 
-    // A cluster whose bound is spent.
-    void open(Bounds& bounds, const Cluster& cluster, Proven& bound, const Proven& spent) const {
-        std::size_t asked = 0;
-        for (std::uint32_t i = cluster.begin; i < cluster.end; ++i)
-            if (!holds(bounds.samples[i].proven, spent)) ++asked;
-        if (asked > few) {
-            const double all = ask_all(cluster, bound.lower - spent.lower);
-            if (all > band_) {
-                bound = {all + spent.lower, nothing_near};
-                return;
-            }
+    // A cluster whose bound is spent; `known`: what of it holds. If something of it was near before, the
+    // cluster as a whole hardly is not.
+    Proven open(Bounds& bounds, const Cluster& cluster, const Vec3& middle, double known, bool near_before,
+                const Proven& spent) const {
+        const std::span<Proven> proven =
+            std::span(bounds.samples).subspan(cluster.begin, cluster.end - cluster.begin);
+        std::uint32_t asked = 0;  // bit by bit; which they are can hardly be predicted
+        for (std::size_t i = 0; i < proven.size(); ++i)
+            asked |= static_cast<std::uint32_t>(!holds(proven[i], spent)) << i;
+        if (static_cast<std::size_t>(std::popcount(asked)) > few && !near_before) {
+            const double all = ask_all(cluster, middle, known);
+            if (all > band_) return {all + spent.lower, nothing_near};
         }
-        bound = {nothing_near, nothing_near};
-        for (std::uint32_t i = cluster.begin; i < cluster.end; ++i) {
-            SampleBounds& b = bounds.samples[i];
-            if (!holds(b.proven, spent)) ask(i, b, spent);
-            bound = lesser(bound, b.proven);
-        }
+        for (; asked != 0; asked &= asked - 1)
+            ask(bounds, cluster.begin + static_cast<std::uint32_t>(std::countr_zero(asked)), spent);
+        Proven bound{nothing_near, nothing_near};
+        for (const Proven& p : proven) bound = lesser(bound, p);
+        return bound;
     }
 
-    [[nodiscard]] double ask_all(const Cluster& cluster, double proven) const {
-        const double all = far(cluster);
+    [[nodiscard]] double ask_all(const Cluster& cluster, const Vec3& middle, double proven) const {
+        const double all = far(cluster, middle);
         if (!vicinity_.nodes.empty() || all > band_ + cluster_lookahead) return all;
         const double radius =
             std::max(all, proven) > 0.0 ? cluster.radius + band_ + cluster_lookahead : nothing_near;
-        const double distance = near_point(surface_, to_surface_ * cluster.middle, radius, 0.0, {}).distance;
+        const double distance = near_point(surface_, middle, radius, 0.0, {}).distance;
         return std::max(all, std::min(distance, radius) - cluster.radius - rounding);
     }
 
     // A sample whose bound is spent.
-    void ask(std::uint32_t index, SampleBounds& b, const Proven& spent) const {
+    void ask(Bounds& bounds, std::uint32_t index, const Proven& spent) const {
         const Sample& sample = samples_.samples[index];
         const Vec3 at = to_surface_ * sample.at;
-        if (sample.half_length == 0.0) {
-            ask_point(index, at, b, spent.lower);
-            return;
-        }
-        const double far_from_all = look(vicinity_, at).lower - sample.half_length - rounding;
-        if (far_from_all > band_)
-            b.proven = {far_from_all + spent.lower, nothing_near};
+        if (sample.piece == Sample::no_piece)
+            ask_point(bounds, index, at, spent.lower);
         else
-            ask_edge(index, at, b.proven, spent);
+            ask_piece(bounds, index, samples_.pieces[sample.piece], at, spent);
     }
 
-    void ask_point(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent) const {
-        const Look known = look(vicinity_, at);
-        double& lower = b.proven.lower;
-        lower = std::max(lower, known.lower - rounding + spent);
+    void ask_piece(Bounds& bounds, std::uint32_t index, const Piece& piece, const Vec3& at,
+                   const Proven& spent) const {
+        Proven& proven = bounds.samples[index];
+        Sighting& seen = bounds.seen[index];
+        proven.lower = std::max(proven.lower, since(seen, at, piece.half_length, spent) + spent.lower);
+        if (holds(proven, spent)) return;
+        const double far_from_all = look(vicinity_, at, leaf_).lower - piece.half_length - rounding;
+        if (far_from_all > band_) {
+            proven = {far_from_all + spent.lower, nothing_near};
+            seen = {glm::vec3(at), static_cast<float>(far_from_all), spent.turn, false};
+        } else {
+            ask_edge(index, piece, at, proven, seen, spent);
+        }
+    }
+
+    void ask_point(Bounds& bounds, std::uint32_t index, const Vec3& at, double spent) const {
+        double& lower = bounds.samples[index].lower;
+        Sighting& seen = bounds.seen[index];
+        const double way = glm::length(at - Vec3(seen.at)) + rounding_in_float;
+        lower = std::max(lower, static_cast<double>(seen.lower) - way + spent);
         if (lower - spent > band_) return;
+        const Look known = look(vicinity_, at, leaf_);
+        lower = std::max(lower, known.lower - rounding + spent);
+        if (lower - spent > band_) {
+            seen = {glm::vec3(at), static_cast<float>(lower - spent), 0.0, false};
+            return;
+        }
         const bool outside = lower - spent > 0.0;
         std::array<Side, most_sides> sides;
-        if (known.place != nullptr && band_ <= vicinity_reach) {
-            if (known.plain && wait(index, at, known)) {
-                lower = std::max(lower, known.lower - rounding + spent);
-                return;
-            }
-            const std::optional<Near> near = near_listed(surface_, vicinity_, *known.place, at, band_, sides);
-            if (near) return note(index, at, b, spent, *near, near->distance, sides);
+        if (known.place != nullptr && band_ <= known.unlisted) {
+            if (outside && wait(index, at, known, lower - spent, spent)) return;
+            const std::optional<Near> near = near_listed(surface_, vicinity_, known, at, band_, sides);
+            if (near) return note(bounds, index, at, spent, *near, near->distance, sides);
             if (outside) {
-                lower = std::max(lower, vicinity_reach - rounding + spent);
+                see(bounds, index, at, known.unlisted, spent);
                 return;
             }
         }
         double radius = outside ? band_ + sample_lookahead : nothing_near;
-        radius = std::min(radius, std::max(band_, std::min(known.upper, b.upper + spent) + rounding));
+        const double upper = seen.lower <= 0.0F ? way - static_cast<double>(seen.lower) : nothing_near;
+        radius = std::min(radius, std::max(band_, std::min(known.upper, upper) + rounding));
         const Near near = near_point(surface_, at, radius, band_, sides);
-        note(index, at, b, spent, near, std::min(near.distance, radius), sides);
+        note(bounds, index, at, spent, near, std::min(near.distance, radius), sides);
     }
-    void note(std::uint32_t index, const Vec3& at, SampleBounds& b, double spent, const Near& near,
+    // No surface is nearer than that; inside, one is as near.
+    static void see(Bounds& bounds, std::uint32_t index, const Vec3& at, double distance, double spent) {
+        bounds.samples[index].lower = distance - rounding + spent;
+        bounds.seen[index] = {glm::vec3(at), static_cast<float>(distance), 0.0, false};
+    }
+    void note(Bounds& bounds, std::uint32_t index, const Vec3& at, double spent, const Near& near,
               double distance, std::span<const Side> sides) const {
         collected_.complete = std::min(collected_.complete, near.complete);
-        b.proven.lower = distance - rounding + spent;
-        if (std::abs(near.distance) < nothing_near) b.upper = std::abs(near.distance) - spent;
+        see(bounds, index, at, distance, spent);
         for (std::size_t i = 0; i < near.sides; ++i) collected_.add(contact_of(index, at, sides[i]));
     }
     [[nodiscard]] Contact contact_of(std::uint32_t index, const Vec3& at, const Side& side) const {
         const Vec3 on_surface = to_assembly_ * side.point;
         const Vec3 on_sample = to_assembly_ * at;
-        const Vec3 normal = to_assembly_.orientation * side.normal;
+        const Vec3 normal = to_assembly_.turned(side.normal);
         return {.on_tool = of_tool_ ? on_sample : on_surface,
                 .on_obstacle = of_tool_ ? on_surface : on_sample,
                 .normal = of_tool_ ? normal : -normal,
@@ -248,36 +310,42 @@ class Sweep {
         return obstacle_of(world_, body_, of_tool_ ? triangle : samples_.samples[index].triangle);
     }
 
-    // The point is outside and its contact, if it has one, is the one side of a plain place.
-    [[nodiscard]] bool wait(std::uint32_t index, const Vec3& at, const Look& known) const {
-        const Vec3 normal = to_assembly_.orientation * known.place->normal;
-        return collected_.wait({.lower = known.lower - rounding,
+    // The point is outside; its contact, if it has one, is the one side of a convex place.
+    [[nodiscard]] bool wait(std::uint32_t index, const Vec3& at, const Look& known, double lower,
+                            double spent) const {
+        if (!known.place->convex || known.place->spread > upright) return false;
+        const Vec3 normal = to_assembly_.turned(known.place->normal);
+        return collected_.wait({.lower = lower,
                                 .on_tool = to_assembly_ * at,
                                 .normal = of_tool_ ? normal : -normal,
                                 .blur = static_cast<float>(of_tool_ ? rounding : band_ + rounding),
                                 .spread = known.place->spread,
                                 .body = body_of(index, vicinity_.triangles[known.place->begin]),
                                 .sample = index,
+                                .spent = spent,
                                 .pair = pair_,
                                 .of_tool = of_tool_});
     }
 
-    void ask_edge(std::uint32_t index, const Vec3& at, Proven& proven, const Proven& spent) const {
-        const Sample& sample = samples_.samples[index];
-        const Quat& turn = to_surface_.orientation;
-        const EdgePiece piece{at, turn * sample.half, {turn * sample.inward[0], turn * sample.inward[1]}};
+    void ask_edge(std::uint32_t index, const Piece& edge, const Vec3& at, Proven& proven, Sighting& seen,
+                  const Proven& spent) const {
+        const EdgePiece piece{at,
+                              to_surface_.turned(edge.half),
+                              {to_surface_.turned(edge.inward[0]), to_surface_.turned(edge.inward[1])}};
         std::array<Crossing, most_sides> crossings;
-        const double radius = std::max(band_, deepest_crossing) + edge_lookahead;
-        const Crossings found =
-            near_edges(surface_, piece, tool_, inverse(to_surface_), radius, band_, crossings);
+        const double radius =
+            std::max(band_, deepest_crossing) + (seen.met ? short_lookahead : edge_lookahead);
+        const Crossings found = near_edges(surface_, piece, tool_, from_surface_, radius, band_, crossings);
         collected_.complete = std::min(collected_.complete, found.complete);
         proven = {found.clear - rounding + spent.lower, found.turn + spent.turn};
+        seen = {glm::vec3(at), static_cast<float>(found.clear), spent.turn,
+                found.clear < radius - deepest_crossing};
         for (std::size_t i = 0; i < found.count; ++i) {
             const Crossing& crossing = crossings[i];
             const std::uint32_t triangle = surface_.mesh.sharp_edges[crossing.edge].triangle;
             collected_.add({.on_tool = to_assembly_ * crossing.on_piece,
                             .on_obstacle = to_assembly_ * crossing.on_edge,
-                            .normal = to_assembly_.orientation * crossing.normal,
+                            .normal = to_assembly_.turned(crossing.normal),
                             .distance = crossing.distance,
                             .body = obstacle_of(world_, body_, triangle),
                             .feature = index,
@@ -292,11 +360,13 @@ class Sweep {
     const Samples& samples_;
     const Solid& surface_;
     const Vicinity& vicinity_;  // of the surface; may be none
-    const Pose& to_surface_;    // from the samples' frame
-    const Pose& to_assembly_;   // from the surface's frame
+    Pose from_surface_;         // to the samples' frame
+    Frame to_surface_;          // from there
+    Frame to_assembly_;         // from the surface's frame
     bool of_tool_;              // whose samples these are
     double band_;
     Collected& collected_;
+    mutable Leaf leaf_;
 };
 
 // Whether the tool is so far from the body that there is no contact within the band.
@@ -317,7 +387,10 @@ ProximityState make_proximity(const World& world, const ToolShape& tool) {
     }
     state.near.resize(4096);
     state.order.resize(state.near.size());
+    state.kept.resize(state.near.size());
+    state.kept_in.resize(state.near.size());
     state.waiting.resize(8192);
+    state.waiting_order.resize(state.waiting.size());
     return state;
 }
 
@@ -355,13 +428,15 @@ Found find_contacts(const World& world, const ToolShape& tool, const Pose& pose,
         sweep(i, false, to_body, to_tool).run(known.of_body, known, tool.reach());
     }
     const auto find = [&](const Waiting& one, Contact& contact) {
-        const Pose& to_body = state.pairs[one.pair].last;
-        const Pose to_tool = inverse(to_body);
-        return sweep(one.pair, one.of_tool, to_body, to_tool).find(one.sample, contact);
+        PairBounds& known = state.pairs[one.pair];
+        const Pose to_tool = inverse(known.last);
+        return sweep(one.pair, one.of_tool, known.last, to_tool)
+            .find(one, one.of_tool ? known.of_tool : known.of_body, contact);
     };
-    return reduce({state.near, collected.count, state.order,
-                   std::span(state.waiting).first(collected.waiters), collected.complete},
-                  find, out);
+    return reduce(
+        {state.near, collected.count, state.order, state.kept, state.kept_in,
+         std::span(state.waiting).first(collected.waiters), state.waiting_order, collected.complete},
+        find, out);
 }
 
 }  // namespace bolt::contact

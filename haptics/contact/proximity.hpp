@@ -22,15 +22,22 @@ struct Proven {
     double turn;  // rad, `Crossings::turn`; infinite for points
 };
 
-struct SampleBounds {
-    Proven proven;
-    // Of a point's unsigned distance; stands less the way made.
-    double upper;
+// What was proven when something was looked at last: where its middle was in the surface's frame, the bound
+// that held there, and the turn made by then. It has not moved further than its middle has and than its size
+// times the turn since.
+struct Sighting {
+    glm::vec3 at;
+    float lower;
+    double turned;
+    bool met;  // of an edge piece: something of the other's was near
 };
 
 struct Bounds {
-    std::vector<std::vector<Proven>> levels;  // of all that is in the clusters of each level
-    std::vector<SampleBounds> samples;
+    // Of all that is in the clusters of each level.
+    std::vector<std::vector<Proven>> levels;
+    std::vector<std::vector<Sighting>> levels_seen;
+    std::vector<Proven> samples;
+    std::vector<Sighting> seen;
 };
 
 // Of the tool and one body.
@@ -45,8 +52,11 @@ struct ProximityState {
     std::vector<PairBounds> pairs;  // in the order of the world's bodies
     // Working space.
     std::vector<Contact> near;
-    std::vector<std::uint32_t> order;
+    std::vector<Ranked> order;
+    std::vector<Core> kept;
+    std::vector<std::uint8_t> kept_in;
     std::vector<Waiting> waiting;
+    std::vector<Ranked> waiting_order;
 };
 
 // All memory that `find_contacts` needs for this world and tool.

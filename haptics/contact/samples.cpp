@@ -15,14 +15,15 @@ namespace {
 const double straight = std::cos(to_radians(8.0));
 
 // The convex edges as a graph: which of them meet at each vertex.
-struct Ridges {
+struct RidgeGraph {
     const ContactMesh& mesh;
     std::vector<std::vector<std::uint32_t>> at_vertex;
     std::vector<bool> done;
 
-    Ridges(const Solid& solid, double sharper_than)
+    RidgeGraph(const Solid& solid, double sharper_than)
         : mesh(solid.mesh), at_vertex(mesh.vertices.size()), done(mesh.sharp_edges.size(), true) {
-        for (const std::uint32_t e : solid.ridges) {
+        for (const Ridge& r : solid.ridges) {
+            const std::uint32_t e = r.sharp_edge;
             if (static_cast<double>(mesh.sharp_edges[e].angle) < sharper_than) continue;
             done[e] = false;
             for (const std::uint32_t v : mesh.sharp_edges[e].vertices) at_vertex[v].push_back(e);
@@ -42,19 +43,17 @@ struct Ridges {
     }
 };
 
-void add_piece(std::vector<Sample>& out, const Vec3& a, const Vec3& b, const SharpEdge& edge) {
-    Sample sample;
-    sample.at = 0.5 * (a + b);
-    sample.half = 0.5 * (b - a);
-    sample.half_length = glm::length(sample.half);
-    sample.triangle = edge.triangle;
-    sample.inward = {Vec3(edge.inward[0]), Vec3(edge.inward[1])};
-    out.push_back(sample);
+void add_piece(Samples& out, const Vec3& a, const Vec3& b, const SharpEdge& edge) {
+    Piece piece;
+    piece.half = 0.5 * (b - a);
+    piece.half_length = glm::length(piece.half);
+    piece.inward = {Vec3(edge.inward[0]), Vec3(edge.inward[1])};
+    out.samples.push_back({0.5 * (a + b), edge.triangle, static_cast<std::uint32_t>(out.pieces.size())});
+    out.pieces.push_back(piece);
 }
 
 // One edge in equal pieces, or several short ones of a chain in one.
-void follow(Ridges& ridges, std::uint32_t edge, std::uint32_t from, double longest,
-            std::vector<Sample>& out) {
+void follow(RidgeGraph& ridges, std::uint32_t edge, std::uint32_t from, double longest, Samples& out) {
     const ContactMesh& mesh = ridges.mesh;
     Vec3 begin(mesh.vertices[from]);
     Vec3 end = begin;
@@ -93,14 +92,16 @@ void follow(Ridges& ridges, std::uint32_t edge, std::uint32_t from, double longe
     flush();
 }
 
-void add_edges(const Solid& solid, double longest, std::vector<Sample>& out) {
-    Ridges ridges(solid, 0.0);
+void add_edges(const Solid& solid, double longest, Samples& out) {
+    RidgeGraph ridges(solid, 0.0);
     for (std::uint32_t v = 0; v < solid.mesh.vertices.size(); ++v)
         if (ridges.is_corner(v))
             for (const std::uint32_t e : ridges.at_vertex[v])
                 if (!ridges.done[e]) follow(ridges, e, v, longest, out);
-    for (const std::uint32_t e : solid.ridges)  // what is left goes round without a corner
+    for (const Ridge& r : solid.ridges) {  // what is left goes round without a corner
+        const std::uint32_t e = r.sharp_edge;
         if (!ridges.done[e]) follow(ridges, e, solid.mesh.sharp_edges[e].vertices[0], longest, out);
+    }
 }
 
 // Points in cells, to tell whether one is near.
@@ -151,7 +152,7 @@ std::vector<double> spacings(const Solid& solid) {
     for (std::size_t v = 0; v < spacing.size(); ++v)
         spacing[v] = curvature[v] < least_curvature ? nothing_near : spacing_on_round(curvature[v]);
     // On an edge counts only how the edge itself turns.
-    const Ridges ridges(solid, keen_angle);
+    const RidgeGraph ridges(solid, keen_angle);
     for (std::uint32_t v = 0; v < spacing.size(); ++v) {
         const auto& edges = ridges.at_vertex[v];
         if (edges.empty()) continue;
@@ -173,51 +174,65 @@ std::vector<double> spacings(const Solid& solid) {
     return spacing;
 }
 
-void add_between(const Vec3& a, const Vec3& b, double spacing, std::uint32_t triangle,
-                 std::vector<Sample>& out) {
+struct Offer {
+    Sample sample;
+    double spacing;  // m
+};
+
+// The points that divide the way evenly in pieces of at most `spacing`.
+template <class Take>
+void between(const Vec3& a, const Vec3& b, double spacing, const Take& take) {
     const int pieces = static_cast<int>(std::ceil(glm::length(b - a) / spacing));
-    for (int i = 1; i < pieces; ++i)
-        out.push_back({.at = glm::mix(a, b, static_cast<double>(i) / pieces), .triangle = triangle});
+    for (int i = 1; i < pieces; ++i) take(glm::mix(a, b, static_cast<double>(i) / pieces));
 }
 
 void add_along_edges(const Solid& solid, bool round, std::vector<Sample>& out) {
-    const ContactMesh& mesh = solid.mesh;
-    for (const std::uint32_t e : solid.ridges) {
-        const SharpEdge& edge = mesh.sharp_edges[e];
+    for (const Ridge& r : solid.ridges) {
+        const SharpEdge& edge = solid.mesh.sharp_edges[r.sharp_edge];
         if (static_cast<double>(edge.angle) < keen_angle && !round) continue;
-        add_between(Vec3(mesh.vertices[edge.vertices[0]]), Vec3(mesh.vertices[edge.vertices[1]]),
-                    keen_spacing, edge.triangle, out);
+        between(Vec3(r.ends[0]), Vec3(r.ends[1]), keen_spacing,
+                [&](const Vec3& at) { out.push_back({.at = at, .triangle = edge.triangle}); });
     }
-    if (!round) return;
-    for (const RoundEdge& edge : mesh.round_edges)
-        add_between(Vec3(mesh.vertices[edge.vertices[0]]), Vec3(mesh.vertices[edge.vertices[1]]),
-                    static_cast<double>(edge.spacing), edge.triangle, out);
 }
 
-void add_points(const Solid& solid, std::vector<Sample>& out) {
+void offer_vertices(const Solid& solid, std::vector<Offer>& out) {
     const ContactMesh& mesh = solid.mesh;
     const std::vector<double> spacing = spacings(solid);
     std::vector<std::uint32_t> triangle(mesh.vertices.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         for (const std::uint32_t v : mesh.triangles[t]) triangle[v] = t;
-    std::vector<std::uint32_t> order;
     for (std::uint32_t v = 0; v < spacing.size(); ++v)
-        if (spacing[v] < nothing_near) order.push_back(v);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return spacing[a] < spacing[b]; });
-    // The closest first; a vertex is left out where there is one within its own spacing, to the next power of
-    // two below. Each spacing looks in cells of its size.
+        if (spacing[v] < nothing_near)
+            out.push_back({{.at = Vec3(mesh.vertices[v]), .triangle = triangle[v]}, spacing[v]});
+}
+
+void offer_along_round_edges(const Solid& solid, std::vector<Offer>& out) {
+    const ContactMesh& mesh = solid.mesh;
+    for (const RoundEdge& edge : mesh.round_edges)
+        between(Vec3(mesh.vertices[edge.vertices[0]]), Vec3(mesh.vertices[edge.vertices[1]]),
+                static_cast<double>(edge.spacing), [&](const Vec3& at) {
+                    out.push_back({{.at = at, .triangle = edge.triangle}, static_cast<double>(edge.spacing)});
+                });
+}
+
+// The closest first; one is left out where there is one within its own spacing, to the next power of two
+// below. Each spacing looks in cells of its size.
+void add_thinned(std::vector<Offer> offers, std::vector<Sample>& out) {
+    std::stable_sort(offers.begin(), offers.end(),
+                     [](const Offer& a, const Offer& b) { return a.spacing < b.spacing; });
     constexpr int levels = 8;
     std::vector<Cells> cells;
     for (int i = 0; i < levels; ++i) cells.emplace_back(std::ldexp(8e-3, -i));
-    for (const std::uint32_t v : order) {
-        const Vec3 at(mesh.vertices[v]);
-        const int level = std::max(0, static_cast<int>(std::ceil(std::log2(8e-3 / spacing[v]))));
-        if (spacing[v] > 0.0 && level < levels && cells[static_cast<std::size_t>(level)].has_near(at))
-            continue;
-        for (Cells& c : cells)
-            if (!c.has_near(at)) c.add(at);
-        out.push_back({.at = at, .triangle = triangle[v]});
+    for (const auto& [sample, spacing] : offers) {
+        const int level =
+            spacing > 0.0 ? std::max(0, static_cast<int>(std::ceil(std::log2(8e-3 / spacing)))) : levels;
+        if (level < levels && cells[static_cast<std::size_t>(level)].has_near(sample.at)) continue;
+        // Smaller ones will not be asked any more.
+        for (int i = 0; i <= std::min(level, levels - 1); ++i) {
+            Cells& c = cells[static_cast<std::size_t>(i)];
+            if (!c.has_near(sample.at)) c.add(sample.at);
+        }
+        out.push_back(sample);
     }
 }
 
@@ -265,23 +280,27 @@ class Spreading {
 };
 
 // Halves along the longest side of their box, at a whole number of clusters, until one is left.
-void cluster(std::vector<Sample>& samples, std::size_t begin, std::size_t end, std::vector<Cluster>& out) {
+void cluster(Samples& made, std::size_t begin, std::size_t end) {
+    std::vector<Sample>& samples = made.samples;
+    const auto half = [&](const Sample& s) {
+        return s.piece == Sample::no_piece ? Vec3(0.0) : made.pieces[s.piece].half;
+    };
     if (begin == end) return;
     Vec3 low(std::numeric_limits<double>::infinity());
     Vec3 high = -low;
     for (std::size_t i = begin; i < end; ++i) {
-        low = glm::min(low, samples[i].at - glm::abs(samples[i].half));
-        high = glm::max(high, samples[i].at + glm::abs(samples[i].half));
+        low = glm::min(low, samples[i].at - glm::abs(half(samples[i])));
+        high = glm::max(high, samples[i].at + glm::abs(half(samples[i])));
     }
     if (end - begin <= cluster_size) {
-        Cluster made{0.5 * (low + high), 0.0, 0.0, static_cast<std::uint32_t>(begin),
-                     static_cast<std::uint32_t>(end)};
+        Cluster one{0.5 * (low + high), 0.0, 0.0, static_cast<std::uint32_t>(begin),
+                    static_cast<std::uint32_t>(end)};
         for (std::size_t i = begin; i < end; ++i)
-            for (const Vec3& p : {samples[i].at - samples[i].half, samples[i].at + samples[i].half}) {
-                made.radius = std::max(made.radius, glm::length(p - made.middle));
-                made.reach = std::max(made.reach, glm::length(p));
+            for (const Vec3& p : {samples[i].at - half(samples[i]), samples[i].at + half(samples[i])}) {
+                one.radius = std::max(one.radius, glm::length(p - one.middle));
+                one.reach = std::max(one.reach, glm::length(p));
             }
-        out.push_back(made);
+        made.levels[0].push_back(one);
         return;
     }
     const Vec3 size = high - low;
@@ -295,8 +314,8 @@ void cluster(std::vector<Sample>& samples, std::size_t begin, std::size_t end, s
     std::stable_sort(samples.begin() + static_cast<std::ptrdiff_t>(begin),
                      samples.begin() + static_cast<std::ptrdiff_t>(end),
                      [&](const Sample& a, const Sample& b) { return a.at[axis] < b.at[axis]; });
-    cluster(samples, begin, middle, out);
-    cluster(samples, middle, end, out);
+    cluster(made, begin, middle);
+    cluster(made, middle, end);
 }
 
 std::vector<Cluster> group(const std::vector<Cluster>& clusters) {
@@ -325,15 +344,18 @@ std::vector<Cluster> group(const std::vector<Cluster>& clusters) {
 
 Samples make_samples(const Solid& solid, const SampleOptions& options) {
     Samples made;
-    add_points(solid, made.samples);
+    std::vector<Offer> offers;
+    offer_vertices(solid, offers);
+    if (options.round) offer_along_round_edges(solid, offers);
+    add_thinned(std::move(offers), made.samples);
     add_along_edges(solid, options.round, made.samples);
     if (options.on_faces > 0) {
         const Spreading points(solid.mesh, options.on_faces);
         made.samples.insert(made.samples.end(), points.taken().begin(), points.taken().end());
     }
-    if (options.edges) add_edges(solid, options.longest_piece, made.samples);
+    if (options.edges) add_edges(solid, options.longest_piece, made);
     made.levels.emplace_back();
-    cluster(made.samples, 0, made.samples.size(), made.levels[0]);
+    cluster(made, 0, made.samples.size());
     while (made.levels.back().size() > cluster_size) made.levels.push_back(group(made.levels.back()));
     return made;
 }

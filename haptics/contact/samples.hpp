@@ -14,11 +14,16 @@ namespace bolt::contact {
 
 // A point, or a piece of a convex edge.
 struct Sample {
-    Vec3 at{0.0};                  // m; of an edge piece the middle
-    Vec3 half{0.0};                // m; of an edge piece from `at` to its end, else 0
+    static constexpr std::uint32_t no_piece = 0xffffffffU;
+    Vec3 at{0.0};                    // m; of an edge piece the middle
+    std::uint32_t triangle = 0;      // one that it lies on
+    std::uint32_t piece = no_piece;  // which
+};
+
+struct Piece {
+    Vec3 half{0.0};                // m, from the middle to its end
     double half_length = 0.0;      // of `half`
-    std::uint32_t triangle = 0;    // one that it lies on
-    std::array<Vec3, 2> inward{};  // of an edge piece, as SharpEdge has them
+    std::array<Vec3, 2> inward{};  // as SharpEdge has them
 };
 
 // A sphere about some samples, edge pieces with their ends.
@@ -33,6 +38,7 @@ inline constexpr std::size_t cluster_size = 16;
 
 struct Samples {
     std::vector<Sample> samples;  // cluster after cluster
+    std::vector<Piece> pieces;
     // Of samples first, then of clusters, up to a level of few; in each those of one cluster follow each
     // other.
     std::vector<std::vector<Cluster>> levels;

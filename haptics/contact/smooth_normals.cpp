@@ -128,12 +128,12 @@ void smooth_normals(const World& world, const ToolShape& tool, const Pose& pose,
             const Sample& sample = shape.samples.samples[index];
             here = surface(wrench, c.triangle, to_tool * c.on_obstacle, of_tool);
             there = of_sample(obstacle, sample.triangle, on_obstacle, of_body);
-        } else if (const Sample& sample = tool.samples.samples[index]; sample.half_length == 0.0) {
+        } else if (const Sample& sample = tool.samples.samples[index]; sample.piece == Sample::no_piece) {
             here = of_sample(wrench, sample.triangle, on_tool, of_tool);
             there = surface(obstacle, c.triangle, to_body * c.on_tool, of_body);
         } else {
-            here =
-                edge(wrench, sample.triangle, on_tool, unit(sample.half), angle_of(sample.inward), of_tool);
+            const Piece& piece = tool.samples.pieces[sample.piece];
+            here = edge(wrench, sample.triangle, on_tool, unit(piece.half), angle_of(piece.inward), of_tool);
             there = of_sample(obstacle, c.triangle, on_obstacle, of_body);
         }
         const std::optional<Vec3> normal = joined(here, there);

@@ -18,11 +18,9 @@ struct GeometryRelease {
 
 void edge_box(const RTCBoundsFunctionArguments* arguments) {
     const auto& solid = *static_cast<const Solid*>(arguments->geometryUserPtr);
-    const SharpEdge& edge = solid.mesh.sharp_edges[solid.ridges[arguments->primID]];
-    const glm::vec3 low =
-        glm::min(solid.mesh.vertices[edge.vertices[0]], solid.mesh.vertices[edge.vertices[1]]);
-    const glm::vec3 high =
-        glm::max(solid.mesh.vertices[edge.vertices[0]], solid.mesh.vertices[edge.vertices[1]]);
+    const auto& [a, b] = solid.ridges[arguments->primID].ends;
+    const glm::vec3 low = glm::min(a, b);
+    const glm::vec3 high = glm::max(a, b);
     *arguments->bounds_o = {low.x, low.y, low.z, 0.0F, high.x, high.y, high.z, 0.0F};
 }
 
@@ -82,8 +80,11 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
         solid.part.resize(solid.mesh.triangles.size(), static_cast<std::uint16_t>(i));
     }
     if (solid.mesh.triangles.empty()) return fail(ErrorCode::bad_content, "a solid without a triangle");
-    for (std::uint32_t i = 0; i < solid.mesh.sharp_edges.size(); ++i)
-        if (solid.mesh.sharp_edges[i].convex) solid.ridges.push_back(i);
+    for (std::uint32_t i = 0; i < solid.mesh.sharp_edges.size(); ++i) {
+        const SharpEdge& edge = solid.mesh.sharp_edges[i];
+        const auto end = [&](std::size_t k) { return solid.mesh.vertices[edge.vertices[k]]; };
+        if (edge.convex) solid.ridges.push_back({{end(0), end(1)}, edge.normals, edge.inward, i});
+    }
     for (const auto& t : solid.mesh.triangles)
         solid.corners.push_back(
             {solid.mesh.vertices[t[0]], solid.mesh.vertices[t[1]], solid.mesh.vertices[t[2]]});

@@ -24,14 +24,21 @@ struct Box {
     Vec3 low{0.0}, high{0.0};
 };
 
+// A convex sharp edge, with all that is asked of it in one place.
+struct Ridge {
+    std::array<glm::vec3, 2> ends;
+    std::array<glm::vec3, 2> normals;  // as SharpEdge has them
+    std::array<glm::vec3, 2> inward;
+    std::uint32_t sharp_edge;  // its index in the mesh
+};
+
 struct Solid {
     ContactMesh mesh;
     // Of every triangle its corners, for it is read in one go.
     std::vector<std::array<glm::vec3, 3>> corners;
     // Of every triangle: which of the closed surfaces that it was joined from.
     std::vector<std::uint16_t> part;
-    // Indices of the sharp edges that are convex, in the order of `edge_scene`.
-    std::vector<std::uint32_t> ridges;
+    std::vector<Ridge> ridges;  // in the order of `edge_scene`
     SceneHandle scene, edge_scene;
     Box box;
     Vec3 middle{0.0};     // of the box

@@ -15,7 +15,6 @@ constexpr float upright = 1.3F;
 constexpr std::size_t few = 8;
 constexpr std::size_t next_to_none = 10;
 const double flat = std::cos(to_radians(3.0));
-constexpr float nearly_flat = 0.061F;  // rad: 3.5 degrees
 // More than what coordinates in float are off by (m).
 constexpr double rounding = 1e-6;
 // Higher than this above each other's planes are triangles of a place that is not convex (m).
@@ -47,7 +46,7 @@ class Builder {
             made_.triangles.insert(made_.triangles.end(), here.begin(), here.end());
             place.end = static_cast<std::uint32_t>(made_.triangles.size());
             add_boxes(here, place);
-            place.convex = is_convex(here);
+            place.convex = is_single(here) && (is_even(here, place.spread) || is_convex(here));
             place.front =
                 !here.empty() && place.spread < upright && is_outside_before(place, middle, size, distance);
             made_.nodes[node].next = -static_cast<std::int32_t>(made_.places.size());
@@ -125,10 +124,29 @@ class Builder {
         return place;
     }
 
+    [[nodiscard]] bool is_single(std::span<const std::uint32_t> here) const {
+        return std::all_of(here.begin(), here.end(),
+                           [&](std::uint32_t t) { return solid_.part[t] == solid_.part[here[0]]; });
+    }
+
+    // Whether the triangles are one sheet (of a closed surface all would be listed that part two, or lead
+    // from one to the other), of which nothing that is as near as reach to a point rises above what else is
+    // by as much as gets a side of its own.
+    [[nodiscard]] bool is_even(std::span<const std::uint32_t> here, float spread) const {
+        constexpr double steepest =
+            0.9 * side_tolerance / (2.0 * vicinity_reach);  // rad, between two of them
+        if (solid_.mesh.open_edges > 0 || static_cast<double>(spread) > steepest) return false;
+        const double least = 1.0 - 0.5 * steepest * steepest;
+        for (const std::uint32_t a : here)
+            for (const std::uint32_t b : here)
+                if (glm::dot(Vec3(solid_.mesh.face_normals[a]), Vec3(solid_.mesh.face_normals[b])) < least)
+                    return false;
+        return true;
+    }
+
     [[nodiscard]] bool is_convex(std::span<const std::uint32_t> here) const {
         if (here.size() > most_for_convex) return false;
         for (const std::uint32_t t : here) {
-            if (solid_.part[t] != solid_.part[here[0]]) return false;
             const Vec3 normal(solid_.mesh.face_normals[t]);
             const double height = glm::dot(normal, Vec3(solid_.corners[t][0])) + hardly_above;
             for (const std::uint32_t other : here)
@@ -181,9 +199,10 @@ Vicinity make_vicinity(const Solid& solid, double cell) {
     return made;
 }
 
-Look look(const Vicinity& vicinity, const Vec3& point) {
-    if (vicinity.nodes.empty()) return {};
-    const Vec3 from_low = point - vicinity.low;
+namespace {
+
+// The leaf that holds a point; its node is null beyond the octree.
+Leaf find_leaf(const Vicinity& vicinity, const Vec3& from_low) {
     const Vec3 at = from_low * vicinity.per_root;
     for (int k = 0; k < 3; ++k)
         if (!(at[k] >= 0.0 && at[k] < static_cast<double>(vicinity.roots[static_cast<std::size_t>(k)])))
@@ -192,25 +211,46 @@ Look look(const Vicinity& vicinity, const Vec3& point) {
     const Vicinity::Node* node = &vicinity.nodes[static_cast<std::size_t>(
         (cell.z * vicinity.roots[1] + cell.y) * vicinity.roots[0] + cell.x)];
     // In which of the smallest cells of the root cell, bit by bit from above.
-    const glm::uvec3 fine((at - Vec3(cell)) * static_cast<double>(1 << levels));
+    const glm::ivec3 fine((at - Vec3(cell)) * static_cast<double>(1 << levels));
     int level = 0;
     while (node->next > 0) {
-        const auto shift = static_cast<unsigned>(levels - 1 - level++);
-        const unsigned child =
-            (fine.x >> shift & 1U) | (fine.y >> shift & 1U) << 1U | (fine.z >> shift & 1U) << 2U;
-        node = &vicinity.nodes[static_cast<std::size_t>(node->next) + child];
+        const int shift = levels - 1 - level++;
+        const int child = (fine.x >> shift & 1) | (fine.y >> shift & 1) << 1 | (fine.z >> shift & 1) << 2;
+        node = &vicinity.nodes[static_cast<std::size_t>(node->next + child)];
     }
     const double size = vicinity.sizes[static_cast<std::size_t>(level)];
-    const double half = 0.5 * size;
-    const glm::uvec3 whole(fine.x >> (levels - level), fine.y >> (levels - level),
-                           fine.z >> (levels - level));
-    const Vec3 off = from_low - vicinity.root * Vec3(cell) - size * (Vec3(whole) + 0.5);
+    const int rest = levels - level;
+    const Vec3 whole(fine.x >> rest, fine.y >> rest, fine.z >> rest);
+    return {vicinity.root * Vec3(cell) + size * (whole + 0.5), 0.5 * size, node};
+}
+
+}  // namespace
+
+Look look(const Vicinity& vicinity, const Vec3& point) {
+    Leaf none;
+    return look(vicinity, point, none);
+}
+
+Look look(const Vicinity& vicinity, const Vec3& point, Leaf& last) {
+    if (vicinity.nodes.empty()) return {};
+    const Vec3 from_low = point - vicinity.low;
+    Vec3 off = from_low - last.middle;
+    const auto is_in = [&] {
+        return std::abs(off.x) < last.half && std::abs(off.y) < last.half && std::abs(off.z) < last.half;
+    };
+    if (!is_in()) {
+        last = find_leaf(vicinity, from_low);
+        if (last.node == nullptr) return {};
+        off = from_low - last.middle;
+    }
+    const Vicinity::Node* node = last.node;
+    const double half = last.half;
     const double way = glm::length(off) + vicinity.rounding;
     const auto distance = static_cast<double>(node->distance);
-    Look seen{distance - way, std::abs(distance) + way, nullptr, false};
-    // No surface is nearer than that without being listed.
+    Look seen{distance - way, std::abs(distance) + way, nullptr, 0.0};
     const Vec3 inward = half - glm::abs(off);
     const double unlisted = std::min({inward.x, inward.y, inward.z}) + vicinity_reach - vicinity.rounding;
+    seen.unlisted = unlisted;
     if (node->next == 0) {
         if (distance > 0.0) seen.lower = std::max(seen.lower, unlisted);
         return seen;
@@ -221,10 +261,7 @@ Look look(const Vicinity& vicinity, const Vec3& point) {
         return seen;
     }
     const double above = glm::dot(seen.place->normal, point) - seen.place->height;
-    if (seen.place->front && above > 0.0) {
-        seen.lower = std::max(seen.lower, std::min(above, unlisted));
-        seen.plain = seen.place->convex && seen.place->spread < nearly_flat;
-    }
+    if (seen.place->front && above > 0.0) seen.lower = std::max(seen.lower, std::min(above, unlisted));
     return seen;
 }
 

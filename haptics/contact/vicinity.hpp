@@ -29,7 +29,8 @@ struct Place {
     float spread = 0.0F;
     // What is before the plane is outside of the solid.
     bool front = false;
-    // The triangles belong to one part, and none reaches above another's plane: a point outside has one side.
+    // The triangles belong to one part, and nowhere within reach does one rise above another's plane: a point
+    // outside has one side.
     bool convex = false;
 };
 
@@ -58,13 +59,22 @@ struct Look {
     double lower = -nothing_near, upper = nothing_near;
     // Null: nothing is listed.
     const Place* place = nullptr;
-    // The point is outside, before a place that is convex and nearly flat.
-    bool plain = false;
+    // No surface is nearer than that without being listed: at least `vicinity_reach`.
+    double unlisted = 0.0;
 };
 Look look(const Vicinity& vicinity, const Vec3& point);
 
-// As `near_point` where the nearest surface is within reach; nothing where it is not. `band` <= reach.
-std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, const Place& place,
+// The leaf that was looked at last: of points near each other many are in one.
+struct Leaf {
+    Vec3 middle{0.0};  // m, from `Vicinity::low`
+    double half = -1.0;
+    const Vicinity::Node* node = nullptr;
+};
+Look look(const Vicinity& vicinity, const Vec3& point, Leaf& last);
+
+// As `near_point` where the nearest surface is listed; nothing where it is not, so that it is further than
+// `Look::unlisted`. `band` <= reach.
+std::optional<Near> near_listed(const Solid& solid, const Vicinity& vicinity, const Look& seen,
                                 const Vec3& point, double band, std::span<Side> sides);
 
 }  // namespace bolt::contact

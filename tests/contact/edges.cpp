@@ -79,17 +79,16 @@ TEST_CASE("a piece that need not be asked again has nothing to tell") {
     int held = 0, told = 0;
     for (int i = 0; i < 40'000; ++i) {
         const Sample& sample = tool.samples.samples[random.bits() % tool.samples.samples.size()];
-        if (sample.half_length == 0.0) continue;
-        const auto ridge = solid.mesh.sharp_edges[solid.ridges[random.bits() % solid.ridges.size()]];
-        const Vec3 end(solid.mesh.vertices[ridge.vertices[0]]);
-        const Vec3 at = glm::mix(end, Vec3(solid.mesh.vertices[ridge.vertices[1]]), random.uniform()) +
+        if (sample.piece == Sample::no_piece) continue;
+        const Piece& edge = tool.samples.pieces[sample.piece];
+        const auto [end, other_end] = solid.ridges[random.bits() % solid.ridges.size()].ends;
+        const Vec3 at = glm::mix(Vec3(end), Vec3(other_end), random.uniform()) +
                         random.uniform(0.0, 4.0) * mm * random_direction(random);
         Pose pose{Vec3(0.0), random_turn(random)};
         pose.position = at - pose.orientation * sample.at;
         const auto ask = [&](const Pose& p, double band, Crossings& found) {
             const Quat& q = p.orientation;
-            const EdgePiece piece{
-                p * sample.at, q * sample.half, {q * sample.inward[0], q * sample.inward[1]}};
+            const EdgePiece piece{p * sample.at, q * edge.half, {q * edge.inward[0], q * edge.inward[1]}};
             std::array<Crossing, most_sides> crossings;
             found = near_edges(solid, piece, tool.solid, inverse(p), 6.0 * mm, band, crossings);
         };

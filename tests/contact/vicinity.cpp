@@ -71,10 +71,11 @@ TEST_CASE("near the surface the lists tell what a search through everything does
             const double band = random.uniform(0.1, 0.6) * 1e-3;
             std::array<Side, most_sides> listed;
             std::array<Side, most_sides> searched;
-            const auto of_list = near_listed(solid, vicinity, *seen.place, p, band, listed);
+            const auto of_list = near_listed(solid, vicinity, seen, p, band, listed);
             const Near of_search = near_point(solid, p, nothing_near, band, searched);
             if (!of_list) {
-                REQUIRE(std::abs(of_search.distance) > vicinity_reach - 1e-9);
+                REQUIRE(std::abs(of_search.distance) > seen.unlisted - 1e-9);
+                REQUIRE(seen.unlisted > vicinity_reach - 1e-4);
                 continue;
             }
             REQUIRE(of_list->distance == of_search.distance);
@@ -84,7 +85,7 @@ TEST_CASE("near the surface the lists tell what a search through everything does
                 REQUIRE(listed[k].point == searched[k].point);
                 REQUIRE(listed[k].normal == searched[k].normal);
             }
-            plain += seen.plain ? 1 : 0;
+            plain += of_list->sides == 1 ? 1 : 0;
             several += of_list->sides > 1 ? 1 : 0;
         }
     }

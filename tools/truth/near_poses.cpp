@@ -82,7 +82,7 @@ bool of_point(const Scene& scene, const contact::World& world, const contact::To
     const contact::Samples& samples = (c.feature & of_obstacle) == 0
                                           ? tool.samples
                                           : world.shapes[world.bodies[body_of(scene, c.body)].shape].samples;
-    return samples.samples[c.feature & ~of_obstacle].half_length == 0.0;
+    return samples.samples[c.feature & ~of_obstacle].piece == contact::Sample::no_piece;
 }
 
 void hold_against(const Scene& scene, const contact::World& world, const contact::ToolShape& tool,

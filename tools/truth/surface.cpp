@@ -14,7 +14,7 @@ Surface make_surface(const contact::ContactMesh& mesh) {
 geometry::Bvh points_of(const contact::Samples& samples) {
     std::vector<geometry::Triangle> points;
     for (const contact::Sample& sample : samples.samples)
-        if (sample.half_length == 0.0) points.push_back({sample.at, sample.at, sample.at, 0});
+        if (sample.piece == contact::Sample::no_piece) points.push_back({sample.at, sample.at, sample.at, 0});
     return geometry::Bvh(std::move(points));
 }
 
