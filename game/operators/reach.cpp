@@ -9,10 +9,11 @@ namespace bolt::operators {
 
 namespace {
 
-constexpr double arc = 0.05;          // m, height of a reach between joints, at most
-constexpr double caught_at = 0.02;    // m that a wrench stays behind the hand's meaning: it is caught
-constexpr double caught_after = 0.5;  // s
-constexpr double retreat = 0.06;      // m
+constexpr double turning_rise = 0.03;  // m that a wrench is lifted to be turned over, beside its bolt
+constexpr double arc = 0.05;           // m, height of a reach between joints, at most
+constexpr double caught_at = 0.02;     // m that a wrench stays behind the hand's meaning: it is caught
+constexpr double caught_after = 0.5;   // s
+constexpr double retreat = 0.06;       // m
 constexpr int patient_misses = 3;
 // A glance, and a head that turns. Chosen.
 constexpr double glance = 0.3;                   // s
@@ -22,7 +23,10 @@ Vec3 unit(const Vec3& v) { return v / (1e-3 + glm::length(v)); }
 
 // Which way to go: as ever, or as the obstacles that can be seen make it.
 void plan_reach(Mind& m) {
-    const double rise = std::min(arc, 0.3 * glm::distance(m.from.position, m.to.position));
+    const Quat turn = glm::normalize(m.to.orientation * glm::conjugate(m.from.orientation));
+    const double over = glm::length(rotation_vector(turn)) / pi;
+    const double rise =
+        std::max(turning_rise * over, std::min(arc, 0.3 * glm::distance(m.from.position, m.to.position)));
     m.bulge = rise * m.nut().axis;
     m.stations.clear();
     if (m.obstacles() == nullptr) return;
