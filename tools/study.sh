@@ -23,10 +23,10 @@ play() {
     local name folder status=0
     name=$(basename "$3")-$4-$5$6
     folder=$2/sessions/$name
-    [[ -s $folder/summary.json ]] && return
+    [[ -e $folder.played ]] && return  # to its end: one that was stopped has a summary too
     "$1" train "$3" --headless --quiet --no-pictures --operator "$4" --seed "$5" ${6:+"$6"} --out "$folder" \
         >"$folder.txt" 2>&1 || status=$?
-    [[ $status -le 1 ]] || cat "$folder.txt" >&2
+    [[ $status -le 1 ]] && touch "$folder.played" || cat "$folder.txt" >&2
     echo "$name: $(grep -E ' s, score ' "$folder.txt" || echo "exit $status")" >&2
 }
 export -f play
