@@ -41,7 +41,7 @@ Region border(const Vec3& share) {
 Patch patch_on(const ContactMesh& mesh, std::uint32_t triangle, const Vec3& at, Region region,
                const Quat& turn) {
     const auto t = corners(mesh, triangle);
-    const bool creased = region < 6 && (mesh.creased[triangle] >> region & 1U) != 0;
+    const bool creased = region < 6 && (static_cast<unsigned>(mesh.creased[triangle]) >> region & 1U) != 0;
     Patch patch;
     if (creased) {
         if (region >= 3) patch.along = turn * unit(t[(region - 2U) % 3] - t[region - 3U]);
