@@ -4,29 +4,17 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
 #include <cstring>
-#include <fstream>
+#include <filesystem>
 #include <thread>
 
 #include "haptics/glove/serial_line.hpp"
+#include "tests/support/eventually.hpp"
 #include "tools/emulate/glove_line.hpp"
 
 using namespace bolt;
 using namespace bolt::glove;
-
-namespace {
-
-template <class Is>
-bool eventually(const Is& is) {
-    for (int i = 0; i < 12000; ++i) {
-        if (is()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-}
-
-}  // namespace
+using bolt::test::eventually;
 
 TEST_CASE("driver: gloves of both sizes and hands, over a real line") {
     for (const std::size_t sensors : {18U, 22U})
