@@ -118,5 +118,5 @@ TEST_CASE("where the wrench first touches the reducer it is found, and deeper") 
         CHECK(contacts[0].distance < 0.05 * mm);
         ++met;
     }
-    CHECK(met > 15 / fewer);
+    CHECK(met >= std::max(1, 15 / fewer));
 }
