@@ -15,7 +15,16 @@ namespace bolt::step_import {
 
 namespace {
 
-[[noreturn]] void child(const std::function<int()>& work) {
+// Of the processor, s: what a file of this size never takes. Some damaged files are read without end.
+rlim_t patience(const std::filesystem::path& step) {
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(step, none);
+    return 120 + (none ? 0 : static_cast<rlim_t>(bytes / 16384));
+}
+
+[[noreturn]] void child(const std::filesystem::path& step, const std::function<int()>& work) {
+    const rlimit enough{patience(step), patience(step) + 5};
+    (void)setrlimit(RLIMIT_CPU, &enough);
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) (void)std::signal(number, SIG_DFL);
     const rlimit none{0, 0};
     (void)setrlimit(RLIMIT_CORE, &none);
@@ -35,7 +44,7 @@ int run_guarded(const std::filesystem::path& step, const std::function<int()>& w
     (void)std::fflush(nullptr);
     const pid_t pid = fork();
     if (pid < 0) return work();
-    if (pid == 0) child(work);
+    if (pid == 0) child(step, work);
     int status = 0;
     while (waitpid(pid, &status, 0) < 0)
         if (errno != EINTR) return 1;
@@ -47,6 +56,9 @@ int run_guarded(const std::filesystem::path& step, const std::function<int()>& w
         error.code = ErrorCode::failed;
         error.what = "the import was stopped from outside";
         error.expected = "if nobody stopped it, the memory ran out: try a larger --deflection";
+    } else if (WTERMSIG(status) == SIGXCPU) {
+        error.what = "the CAD kernel does not come to an end with this file";
+        error.expected = "expected a STEP file as a CAD program exports it: is it damaged?";
     } else {
         error.what = fmt::format("the CAD kernel crashed on this file (signal {})", WTERMSIG(status));
         error.expected = "expected a STEP file as a CAD program exports it: is it damaged?";
