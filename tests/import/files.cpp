@@ -108,14 +108,17 @@ TEST_CASE("a file damaged anywhere ends in an error or a model, never otherwise"
         }
         write(folder / "damaged.step", text);
         CAPTURE(i);
-        const int code = step_import::run_guarded(folder / "damaged.step", [&] {
-            step_import::ImportOptions options;
-            options.step = folder / "damaged.step";
-            options.folder = folder / "out";
-            const auto imported = step_import::import_step(options, [](double, const std::string&) {});
-            if (imported.ok()) return imported.report.triangles > 0 ? 0 : 99;
-            return static_cast<int>(imported.errors[0].code);
-        });
+        const int code = step_import::run_guarded(
+            folder / "damaged.step",
+            [&] {
+                step_import::ImportOptions options;
+                options.step = folder / "damaged.step";
+                options.folder = folder / "out";
+                const auto imported = step_import::import_step(options, [](double, const std::string&) {});
+                if (imported.ok()) return imported.report.triangles > 0 ? 0 : 99;
+                return static_cast<int>(imported.errors[0].code);
+            },
+            30);
         CHECK((code == 0 || code == 3));
         ++(code == 0 ? taken : refused);
     }
@@ -131,6 +134,16 @@ TEST_CASE("a crash in the work is told as bad content, an exit code is passed on
               (void)raise(SIGSEGV);
               return 0;
           }) == 3);
+}
+
+TEST_CASE("work without end is given up by the processor's time that it took") {
+    const auto endless = []() -> int {
+        for (volatile bool on = true; on;) {
+        }
+        return 0;
+    };
+    CHECK(step_import::run_guarded("x.step", endless, 1) == 3);
+    CHECK(step_import::patience_for("/nonexistent/x.step") == 120);
 }
 
 TEST_CASE("what cannot be written is said") {

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -15,17 +16,14 @@ namespace bolt::step_import {
 
 namespace {
 
-// Of the processor, s: what a file of this size never takes. Some damaged files are read without end.
-rlim_t patience(const std::filesystem::path& step) {
-    std::error_code none;
-    const auto bytes = std::filesystem::file_size(step, none);
-    return 120 + (none ? 0 : static_cast<rlim_t>(bytes / 16384));
-}
-
-[[noreturn]] void child(const std::filesystem::path& step, const std::function<int()>& work) {
-    const rlimit enough{patience(step), patience(step) + 5};
-    (void)setrlimit(RLIMIT_CPU, &enough);
-    for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) (void)std::signal(number, SIG_DFL);
+[[noreturn]] void child(const std::function<int()>& work, rlim_t patience) {
+    rlimit processor{};
+    if (getrlimit(RLIMIT_CPU, &processor) == 0) {
+        processor.rlim_cur = std::min(processor.rlim_cur, patience);
+        (void)setrlimit(RLIMIT_CPU, &processor);
+    }
+    for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU})
+        (void)std::signal(number, SIG_DFL);
     const rlimit none{0, 0};
     (void)setrlimit(RLIMIT_CORE, &none);
     int code = 1;
@@ -40,11 +38,17 @@ rlim_t patience(const std::filesystem::path& step) {
 
 }  // namespace
 
-int run_guarded(const std::filesystem::path& step, const std::function<int()>& work) {
+unsigned patience_for(const std::filesystem::path& step) {
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(step, none);
+    return 120 + (none ? 0U : static_cast<unsigned>(std::min<std::uintmax_t>(bytes / 16384, 100000)));
+}
+
+int run_guarded(const std::filesystem::path& step, const std::function<int()>& work, unsigned patience) {
     (void)std::fflush(nullptr);
     const pid_t pid = fork();
     if (pid < 0) return work();
-    if (pid == 0) child(step, work);
+    if (pid == 0) child(work, patience);
     int status = 0;
     while (waitpid(pid, &status, 0) < 0)
         if (errno != EINTR) return 1;
