@@ -16,9 +16,12 @@ bool nearer_crossing(const Crossing& a, const Crossing& b) {
 struct EdgeGathering {
     const Solid* solid;
     const EdgePiece* piece;
-    double length;         // half the piece's
-    glm::vec3 rounded;     // the piece's middle
-    float asked_in_float;  // Embree's radius
+    double length;      // half the piece's
+    glm::vec3 rounded;  // the piece's middle
+    glm::vec3 along;    // unit
+    std::array<glm::vec3, 2> inward;
+    glm::vec3 low, high;   // of its box
+    float asked_in_float;  // the radius, with a margin
     double radius, band;
     std::array<Crossing, 16> found;
     std::size_t count = 0;
@@ -49,13 +52,29 @@ double off_facing(const Ridge& edge, const EdgePiece& piece, const Vec3& normal)
 // A turn (rad) that lasts long enough not to ask how far the edge is.
 constexpr double worth_a_turn = 0.02;
 
-// Whether the edge is surely further than the radius from all of the piece: by the sphere about the one and
-// the box of the other.
+// Whether the edge is surely further than the radius from all of the piece: by their boxes.
 bool is_beyond(const EdgeGathering& g, const Ridge& edge) {
     const glm::vec3 low = glm::min(edge.ends[0], edge.ends[1]);
     const glm::vec3 high = glm::max(edge.ends[0], edge.ends[1]);
-    const glm::vec3 beside = glm::max(glm::max(low - g.rounded, g.rounded - high), glm::vec3(0.0F));
+    const glm::vec3 beside = glm::max(glm::max(low - g.high, g.low - high), glm::vec3(0.0F));
     return glm::dot(beside, beside) > g.asked_in_float * g.asked_in_float;
+}
+
+// Whether the piece has to turn by far until the common perpendicular leads out of both solids; most edges
+// are done with so.
+bool is_off_by_far(EdgeGathering& g, const Ridge& edge) {
+    constexpr float rounding_of_turns = 1e-3F;
+    const glm::vec3 across = glm::cross(g.along, edge.along);
+    float plus = -1.0F, minus = -1.0F;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const float of_edge = glm::dot(across, edge.inward[i]), of_piece = glm::dot(across, g.inward[i]);
+        plus = std::max({plus, of_edge, -of_piece});
+        minus = std::max({minus, -of_edge, of_piece});
+    }
+    const double turn = static_cast<double>(std::min(plus, minus) / 3.0F - rounding_of_turns);
+    if (turn < g.turn && turn <= worth_a_turn) return false;
+    g.turn = std::min(g.turn, turn);
+    return true;
 }
 
 // One edge against the piece. Why the bounds hold: turning the piece by φ turns the perpendicular by 1.5 φ
@@ -141,7 +160,8 @@ void meet(EdgeGathering& g, std::uint32_t index) {
 
 bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
     auto& g = *static_cast<EdgeGathering*>(arguments->userPtr);
-    if (!is_beyond(g, g.solid->ridges[arguments->primID])) meet(g, arguments->primID);
+    const Ridge& edge = g.solid->ridges[arguments->primID];
+    if (!is_beyond(g, edge) && !is_off_by_far(g, edge)) meet(g, arguments->primID);
     return false;
 }
 
@@ -164,7 +184,12 @@ Crossings near_edges(const Solid& solid, const EdgePiece& piece, const Solid& ot
     g.clear -= deepest_crossing;
     RTCPointQuery query = make_query(piece.middle, g.length + g.radius);
     g.rounded = glm::vec3(piece.middle);
-    g.asked_in_float = query.radius;
+    g.along = glm::vec3(piece.half / g.length);
+    for (std::size_t i = 0; i < 2; ++i) g.inward[i] = glm::vec3(piece.inward[i]);
+    const glm::vec3 extent = glm::abs(glm::vec3(piece.half));
+    g.low = g.rounded - extent;
+    g.high = g.rounded + extent;
+    g.asked_in_float = with_margin(g.radius, piece.middle);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "haptics/contact/constraint_solver.hpp"
 
@@ -59,14 +60,11 @@ class Stepper {
           finder_(finder),
           dt_(dt),
           pose_(before.tool),
-          recovery_left_(parameters.recovery * dt) {
-        const Twist own = twist_between(before.device, device);
-        // As far as the device came in this tick: where nothing is near, one query does. Wide bands are dear.
-        band_ = std::clamp(travel(own, p_.radius), p_.stride, p_.reach) + 2.0 * p_.skin;
-    }
+          recovery_left_(parameters.recovery * dt) {}
 
     GodObjectStep run() {
-        here_ = ask(pose_);
+        const double way = travel(twist_between(before_.device, device_), p_.radius);
+        here_ = ask(pose_, std::min(way, before_.free));
         recovering_ = here_.nearest < 0.0;
         set_budgets();
         bool settled = false, arrived = false;
@@ -92,9 +90,11 @@ class Stepper {
   private:
     enum class Advance { moved, held, nowhere, spent };
 
-    Look ask(const Pose& pose) {
+    // Wide bands are dear: one wider than a stride is asked only where it may be free, as far as the device
+    // came in this tick. Then one query does.
+    Look ask(const Pose& pose, double free = 0.0) {
         ++step_.queries;
-        return look(finder_, pose, band_);
+        return look(finder_, pose, std::clamp(free, p_.stride, p_.reach) + 2.0 * p_.skin);
     }
 
     [[nodiscard]] bool may_ask() const { return step_.queries < p_.queries; }
@@ -298,7 +298,6 @@ class Stepper {
     const Pose& device_;
     Finder finder_;
     double dt_;
-    double band_ = 0.0;
     Budget force_, torque_;
     Pose pose_;
     Look here_;
@@ -328,6 +327,7 @@ GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectSt
     state.felt = felt;
     state.offset = offset;
     state.device = device;
+    state.free = step.contacts == 0 ? std::numeric_limits<double>::infinity() : step.nearest;
     return step;
 }
 

@@ -7,6 +7,8 @@
 // god-object rests where spring and contacts balance, and the spring's force is the contacts' force.
 #pragma once
 
+#include <limits>
+
 #include "engine/base/function_ref.hpp"
 #include "haptics/contact/contact.hpp"
 #include "haptics/contact/twist.hpp"
@@ -50,6 +52,8 @@ struct GodObjectState {
     force::Offset offset;
     force::OutputCommand felt;
     force::OutputCommand event;  // what of its change was not the hand's own
+    // m: the nearest of what was found about it; infinite where that was nothing.
+    double free = std::numeric_limits<double>::infinity();
 };
 
 // What a step did.

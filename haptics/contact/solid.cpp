@@ -83,7 +83,9 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
     for (std::uint32_t i = 0; i < solid.mesh.sharp_edges.size(); ++i) {
         const SharpEdge& edge = solid.mesh.sharp_edges[i];
         const auto end = [&](std::size_t k) { return solid.mesh.vertices[edge.vertices[k]]; };
-        if (edge.convex) solid.ridges.push_back({{end(0), end(1)}, edge.normals, edge.inward, i});
+        if (edge.convex)
+            solid.ridges.push_back(
+                {{end(0), end(1)}, edge.normals, edge.inward, glm::normalize(end(1) - end(0)), i});
     }
     for (const auto& t : solid.mesh.triangles)
         solid.corners.push_back(

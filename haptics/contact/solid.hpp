@@ -29,6 +29,7 @@ struct Ridge {
     std::array<glm::vec3, 2> ends;
     std::array<glm::vec3, 2> normals;  // as SharpEdge has them
     std::array<glm::vec3, 2> inward;
+    glm::vec3 along;           // unit
     std::uint32_t sharp_edge;  // its index in the mesh
 };
 

@@ -38,13 +38,19 @@ bool jaw_only(const Setup& setup, const NutPlace& nut, const Pose& place, const 
            std::abs(glm::dot(normal, nut.axis)) > nearly_level;
 }
 
+bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
+
 void place_nuts(const Setup& setup, Touch& touch, std::span<const joint::JointState> joints, bool held) {
     for (std::size_t i = 0; i < touch.places.size(); ++i) {
-        touch.places[i] = nut_pose(setup.nuts[i], joints[i].nut.angle);
+        const Pose place = nut_pose(setup.nuts[i], joints[i].nut.angle);
+        touch.found.holds = touch.found.holds && same(place, touch.places[i]);
+        touch.places[i] = place;
         if (!touch.nuts[i]) continue;
         contact::Body& body = touch.world.bodies[*touch.nuts[i]];
-        body.pose = touch.places[i];
-        body.on = !held || !jaw_only(setup, setup.nuts[i], body.pose, touch.god_object.tool);
+        body.pose = place;
+        const bool on = !held || !jaw_only(setup, setup.nuts[i], place, touch.god_object.tool);
+        touch.found.holds = touch.found.holds && on == body.on;
+        body.on = on;
     }
 }
 
@@ -99,6 +105,22 @@ contact::Found find(const Setup& setup, Touch& touch, const Pose& pose, double b
     found.clearance = std::min(found.clearance, meshes.clearance);
     found.crowded = found.crowded || meshes.crowded;
     return found;
+}
+
+// A tick often begins where the one before ended: then nothing has to be asked.
+contact::Found find_once(const Setup& setup, Touch& touch, const Pose& pose, double band,
+                         std::span<contact::Contact> out) {
+    LastFound& last = touch.found;
+    if (last.holds && last.band == band && same(last.pose, pose)) {
+        std::copy_n(last.contacts.begin(), last.found.count, out.begin());
+        return last.found;
+    }
+    last.found = find(setup, touch, pose, band, out);
+    std::copy_n(out.begin(), last.found.count, last.contacts.begin());
+    last.pose = pose;
+    last.band = band;
+    last.holds = true;
+    return last.found;
 }
 
 // A jaw that was on a nut and holds it no more is off it when it is clear of the hexagon as that stands.
@@ -160,10 +182,12 @@ Result<Touch> make_touch(const Setup& setup, const TouchDescription& d) {
 force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint::JointState> joints,
                          const Pose& hand, bool held, int held_nut) {
     place_nuts(setup, touch, joints, held);
+    const int around = touch.around;
     if (held_nut >= 0)
         touch.around = held_nut;
     else if (touch.around >= 0 && (!held || is_off(touch, static_cast<std::size_t>(touch.around))))
         touch.around = -1;
+    touch.found.holds = touch.found.holds && touch.around == around;
     if (!held || !touch.in_hand) {
         touch.god_object = contact::start_god_object(hand);
         touch.last = {};
@@ -172,7 +196,7 @@ force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint
         if (!held) return {};
     }
     const auto finder = [&](const Pose& pose, double band, std::span<contact::Contact> out) {
-        const contact::Found found = find(setup, touch, pose, band, out);
+        const contact::Found found = find_once(setup, touch, pose, band, out);
         touch.touched = touched_of(out.first(found.count), touch.parameters.skin);
         return found;
     };

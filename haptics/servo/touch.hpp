@@ -6,6 +6,7 @@
 // else of the wrench meets a nut meets its mesh, and everything that is no nut meets all of the wrench's.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "engine/base/result.hpp"
@@ -28,6 +29,15 @@ struct TouchDescription {
 // Ids of obstacles: what stands still in the order given, and from here on the nuts by joint.
 inline constexpr std::int32_t first_nut = 1000;
 
+// What was found last, and for what.
+struct LastFound {
+    bool holds = false;  // nothing moved since
+    Pose pose;
+    double band = 0.0;
+    contact::Found found;
+    std::array<contact::Contact, contact::most_contacts> contacts;
+};
+
 struct Touch {
     contact::World world;
     contact::ToolShape wrench;
@@ -40,8 +50,9 @@ struct Touch {
     contact::JawParts jaw;
     int around = -1;              // joint whose nut the jaw sits on, held or slipping; −1: none
     contact::GodObjectStep last;  // what the last tick did
-    bool in_hand = false;         // the wrench was held in the last tick
-    std::int32_t touched = -1;    // id of the obstacle that it lies against; −1: none
+    LastFound found;
+    bool in_hand = false;       // the wrench was held in the last tick
+    std::int32_t touched = -1;  // id of the obstacle that it lies against; −1: none
 };
 
 // All that allocates. An error: a mesh that is not closed (contact/tool.hpp, contact/world.hpp).
