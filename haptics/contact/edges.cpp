@@ -16,9 +16,8 @@ bool nearer_crossing(const Crossing& a, const Crossing& b) {
 struct EdgeGathering {
     const Solid* solid;
     const EdgePiece* piece;
-    double length;      // half the piece's
-    glm::vec3 rounded;  // the piece's middle
-    glm::vec3 along;    // unit
+    double length;    // half the piece's
+    glm::vec3 along;  // unit
     std::array<glm::vec3, 2> inward;
     glm::vec3 low, high;   // of its box
     float asked_in_float;  // the radius, with a margin
@@ -26,6 +25,7 @@ struct EdgeGathering {
     std::array<Crossing, 16> found;
     std::size_t count = 0;
     double clear, turn = nothing_near;
+    FacingEdges* facing = nullptr;
     double dropped = nothing_near;
 
     void add(Crossing crossing) {
@@ -72,9 +72,8 @@ bool is_off_by_far(EdgeGathering& g, const Ridge& edge) {
         minus = std::max({minus, -of_edge, of_piece});
     }
     const double turn = static_cast<double>(std::min(plus, minus) / 3.0F - rounding_of_turns);
-    if (turn < g.turn && turn <= worth_a_turn) return false;
-    g.turn = std::min(g.turn, turn);
-    return true;
+    if (turn > worth_a_turn) g.facing->turn = std::min(g.facing->turn, turn);
+    return turn > worth_a_turn;
 }
 
 // One edge against the piece. Why the bounds hold: turning the piece by φ turns the perpendicular by 1.5 φ
@@ -161,7 +160,11 @@ void meet(EdgeGathering& g, std::uint32_t index) {
 bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
     auto& g = *static_cast<EdgeGathering*>(arguments->userPtr);
     const Ridge& edge = g.solid->ridges[arguments->primID];
-    if (!is_beyond(g, edge) && !is_off_by_far(g, edge)) meet(g, arguments->primID);
+    if (is_beyond(g, edge) || is_off_by_far(g, edge)) return false;
+    FacingEdges& facing = *g.facing;
+    facing.all = facing.all && facing.count < facing.ridges.size();
+    if (facing.all) facing.ridges[facing.count++] = arguments->primID;
+    meet(g, arguments->primID);
     return false;
 }
 
@@ -169,37 +172,24 @@ bool is_inside(const Solid& solid, const Vec3& point) {
     return near_point(solid, point, nothing_near, 0.0, {}).distance < 0.0;
 }
 
-}  // namespace
-
-Crossings near_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
-                     double radius, double band, std::span<Crossing> crossings) {
-    Crossings result{0, band, radius, nothing_near};
-    if (!solid.edge_scene) return {0, band, nothing_near, nothing_near};
+EdgeGathering gathering(const Solid& solid, const EdgePiece& piece, double radius, double band) {
     EdgeGathering g;
     g.solid = &solid;
     g.piece = &piece;
     g.length = glm::length(piece.half);
-    g.radius = g.clear = std::max({radius, band, deepest_crossing});
+    g.radius = std::max({radius, band, deepest_crossing});
+    g.clear = g.radius - deepest_crossing;
     g.band = band;
-    g.clear -= deepest_crossing;
-    RTCPointQuery query = make_query(piece.middle, g.length + g.radius);
-    g.rounded = glm::vec3(piece.middle);
-    g.along = glm::vec3(piece.half / g.length);
-    for (std::size_t i = 0; i < 2; ++i) g.inward[i] = glm::vec3(piece.inward[i]);
-    const glm::vec3 extent = glm::abs(glm::vec3(piece.half));
-    g.low = g.rounded - extent;
-    g.high = g.rounded + extent;
-    g.asked_in_float = with_margin(g.radius, piece.middle);
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
+    return g;
+}
+
+Crossings conclude(EdgeGathering& g, const Solid& other, const Pose& to_other,
+                   std::span<Crossing> crossings) {
     std::sort(g.found.begin(), g.found.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
-    result.complete = std::min(band, g.dropped);
-    result.clear = g.clear;
-    result.turn = g.turn;
+    Crossings result{0, std::min(g.band, g.dropped), g.clear, g.turn};
     for (const Crossing& c : std::span(g.found).first(g.count)) {
-        if (c.distance < -surely_through && !is_inside(solid, c.on_piece) &&
-            (c.distance < -band || !is_inside(other, to_other * c.on_edge)))
+        if (c.distance < -surely_through && !is_inside(*g.solid, c.on_piece) &&
+            (c.distance < -g.band || !is_inside(other, to_other * c.on_edge)))
             continue;
         if (result.count == crossings.size()) {
             result.complete = std::min(result.complete, c.distance);
@@ -208,6 +198,40 @@ Crossings near_edges(const Solid& solid, const EdgePiece& piece, const Solid& ot
         crossings[result.count++] = c;
     }
     return result;
+}
+
+}  // namespace
+
+Crossings near_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
+                     double radius, double band, std::span<Crossing> crossings, FacingEdges& facing) {
+    facing.count = 0;
+    facing.all = true;
+    facing.turn = nothing_near;
+    if (!solid.edge_scene) return {0, band, nothing_near, nothing_near};
+    EdgeGathering g = gathering(solid, piece, radius, band);
+    g.facing = &facing;
+    g.along = glm::vec3(piece.half / g.length);
+    for (std::size_t i = 0; i < 2; ++i) g.inward[i] = glm::vec3(piece.inward[i]);
+    const glm::vec3 middle(piece.middle);
+    const glm::vec3 extent = glm::abs(glm::vec3(piece.half));
+    g.low = middle - extent;
+    g.high = middle + extent;
+    g.asked_in_float = with_margin(g.radius, piece.middle);
+    RTCPointQuery query = make_query(piece.middle, g.length + g.radius);
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
+    g.turn = std::min(g.turn, facing.turn);
+    return conclude(g, other, to_other, crossings);
+}
+
+Crossings near_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                            const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
+                            const FacingEdges& facing) {
+    EdgeGathering g = gathering(solid, piece, radius, band);
+    g.turn = facing.turn;
+    for (std::uint32_t i = 0; i < facing.count; ++i) meet(g, facing.ridges[i]);
+    return conclude(g, other, to_other, crossings);
 }
 
 }  // namespace bolt::contact

@@ -32,10 +32,25 @@ struct Crossings {
     double clear = 0.0, turn = 0.0;
 };
 
+// The edges of a solid that a piece can meet where it is, or near there. What is not listed is further than
+// the radius that was asked for, or leads past it until it has turned by `turn` (rad).
+struct FacingEdges {
+    std::array<std::uint32_t, 16> ridges{};
+    std::uint32_t count = 0;
+    bool all = false;  // there was room
+    double turn = 0.0;
+};
+
 // The convex edges within `band` of the piece, or passed by it, that face it, edge to edge; if there is no
 // room for all, the nearest. `other`: the solid that the piece is of, `to_other` leads into its frame.
-// What is further than `radius` need not be looked at.
+// What is further than `radius` need not be looked at. Fills `facing`.
 Crossings near_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
-                     double radius, double band, std::span<Crossing> crossings);
+                     double radius, double band, std::span<Crossing> crossings, FacingEdges& facing);
+
+// The same, of those that were all; `facing` with the radius and the turn that the piece's way since has
+// left.
+Crossings near_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                            const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
+                            const FacingEdges& facing);
 
 }  // namespace bolt::contact

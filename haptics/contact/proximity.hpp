@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "haptics/contact/edges.hpp"
 #include "haptics/contact/reduce.hpp"
 #include "haptics/contact/tool.hpp"
 #include "haptics/contact/world.hpp"
@@ -32,12 +33,21 @@ struct Sighting {
     bool met;  // of an edge piece: something of the other's was near
 };
 
+// Of an edge piece: the edges that it can meet, as found when its middle was there and that turn was made.
+struct EdgeSighting {
+    glm::vec3 at{0.0F};
+    double turned = 0.0;
+    double radius = 0.0;  // m, within which they are; 0: nothing is known
+    FacingEdges facing;
+};
+
 struct Bounds {
     // Of all that is in the clusters of each level.
     std::vector<std::vector<Proven>> levels;
     std::vector<std::vector<Sighting>> levels_seen;
     std::vector<Proven> samples;
     std::vector<Sighting> seen;
+    std::vector<EdgeSighting> edges;  // by piece
 };
 
 // Of the tool and one body.

@@ -90,7 +90,8 @@ TEST_CASE("a piece that need not be asked again has nothing to tell") {
             const Quat& q = p.orientation;
             const EdgePiece piece{p * sample.at, q * edge.half, {q * edge.inward[0], q * edge.inward[1]}};
             std::array<Crossing, most_sides> crossings;
-            found = near_edges(solid, piece, tool.solid, inverse(p), 6.0 * mm, band, crossings);
+            FacingEdges facing;
+            found = near_edges(solid, piece, tool.solid, inverse(p), 6.0 * mm, band, crossings, facing);
         };
         Crossings first;
         ask(pose, 0.6 * mm, first);
