@@ -8,10 +8,12 @@ namespace bolt::device {
 
 namespace {
 
-constexpr std::uint32_t most_bits = 32;
+constexpr std::uint32_t most_bits = 32;               // that a value has
+constexpr std::uint32_t widest_field = 256;           // the standard says 32; there are devices with 64
 constexpr std::uint32_t most_count = 4096;            // fields that one item may declare
 constexpr std::uint32_t longest_report = 8 * 65536U;  // bits
 constexpr std::size_t most_fields = 16384;
+constexpr std::size_t most_slots = 65536;
 constexpr std::size_t deepest = 32;
 
 enum Tag : std::uint8_t {  // with the type, as in the item's first byte without its size
@@ -210,8 +212,8 @@ class Parser {
         const bool constant = (flags & 1U) != 0;
         if (now_.count > most_count)
             return wrong(fmt::format("{} fields at once", now_.count), "at most 4096");
-        if (now_.bits > most_bits && !constant)
-            return wrong(fmt::format("a field of {} bits", now_.bits), "at most 32");
+        if (now_.bits > widest_field && !constant)
+            return wrong(fmt::format("a field of {} bits", now_.bits), "at most 256");
         if (now_.bits > longest_report) return wrong(fmt::format("a field of {} bits", now_.bits), "less");
         std::uint32_t& bit = bits_of(kind);
         Field field;
@@ -234,19 +236,25 @@ class Parser {
         field.collection = open_.empty() ? 0 : open_.back();
         if (!constant && field.high < field.low)
             return wrong(fmt::format("values from {} to {}", field.low, field.high), "the least first");
+        if (field.array && !constant && !local_.usages.empty()) {
+            if (made_.slots.size() + local_.usages.size() > most_slots)
+                return wrong("arrays of more usages than anybody chooses from", "at most 65536");
+            field.slots = static_cast<std::uint32_t>(made_.slots.size());
+            made_.slots.insert(made_.slots.end(), local_.usages.begin(), local_.usages.end());
+        }
         for (std::uint32_t i = 0; i < now_.count; ++i) {
             field.bit = bit;
             bit += now_.bits;
             if (bit > longest_report) return wrong("a report of more than 64 KiB", "a shorter one");
-            if (constant) continue;  // padding
+            if (constant || now_.bits > most_bits) continue;
             if (made_.fields.size() == most_fields)
                 return wrong("more fields than anybody reads", "at most 16384");
             if (local_.usages.empty()) {
                 field.usage = {now_.page, 0};
-                field.usages = 1;
+                field.usages = field.array ? 0 : 1;
             } else if (field.array) {
                 field.usage = local_.usages.front();
-                field.usages = static_cast<std::uint16_t>(std::min<std::size_t>(local_.usages.size(), 65535));
+                field.usages = static_cast<std::uint32_t>(local_.usages.size());
             } else {
                 field.usage = local_.usages[std::min<std::size_t>(i, local_.usages.size() - 1)];
             }
@@ -289,6 +297,20 @@ const Field* find_field(const ReportDescriptor& descriptor, ReportKind kind, Usa
     for (const Field& f : descriptor.fields)
         if (f.kind == kind && f.usage == usage && (!within || is_within(descriptor, f, *within))) return &f;
     return nullptr;
+}
+
+std::optional<Choice> find_choice(const ReportDescriptor& descriptor, ReportKind kind, Usage option,
+                                  std::optional<Usage> within) {
+    for (const Field& f : descriptor.fields) {
+        if (f.kind != kind || (within && !is_within(descriptor, f, *within))) continue;
+        if (!f.array) {
+            if (f.usage == option) return Choice{f, std::clamp<std::int64_t>(1, f.low, f.high)};
+            continue;
+        }
+        for (std::uint32_t i = 0; i < f.usages; ++i)
+            if (descriptor.slots[f.slots + i] == option) return Choice{f, f.low + i};
+    }
+    return std::nullopt;
 }
 
 std::optional<std::int64_t> value_of(const Field& field, std::span<const std::uint8_t> report) {

@@ -28,7 +28,7 @@ struct Field {
     std::uint32_t bit = 0;                             // from the beginning of the report, behind its id byte
     std::uint8_t bits = 0;                             // 1 … 32
     Usage usage;                                       // of an array's slot the first that it can hold
-    std::uint16_t usages = 1;                          // of an array's slot: so many
+    std::uint32_t slots = 0, usages = 1;               // of an array's slot: so many, from there in `slots`
     std::int64_t low = 0, high = 0;                    // logical: as the bits have it
     std::int64_t physical_low = 0, physical_high = 0;  // both 0: as logical
     std::int32_t exponent = 0;                         // of ten, of the physical unit
@@ -51,7 +51,8 @@ struct ReportLength {
 
 struct ReportDescriptor {
     std::vector<Collection> collections;
-    std::vector<Field> fields;  // without padding
+    std::vector<Field> fields;  // without padding, and without what is wider than 32 bits
+    std::vector<Usage> slots;   // what arrays choose from
     std::vector<ReportLength> reports;
     bool numbered = false;
 };
@@ -65,6 +66,14 @@ std::size_t report_size(const ReportDescriptor& descriptor, ReportKind kind, std
 // The first field of a kind with a usage; within collections of a usage, where given.
 const Field* find_field(const ReportDescriptor& descriptor, ReportKind kind, Usage usage,
                         std::optional<Usage> within = std::nullopt);
+
+// A thing that a host chooses: one of an array's usages, or a bit of its own.
+struct Choice {
+    Field field;
+    std::int64_t value = 0;  // to be put there
+};
+std::optional<Choice> find_choice(const ReportDescriptor& descriptor, ReportKind kind, Usage option,
+                                  std::optional<Usage> within = std::nullopt);
 
 // The value of a field in a report's bytes (without the id byte). None: the report is too short, or the
 // device says that it has none (null state).

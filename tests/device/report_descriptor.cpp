@@ -116,6 +116,32 @@ TEST_CASE("a greatest value of 255 in one byte is no -1, and a null state is no 
     CHECK(!value_of(with_hat.fields.front(), Bytes{8}));
 }
 
+TEST_CASE("what is wider than a value keeps its place, and what an array chooses from is found") {
+    Items d;
+    d.page(0xff00).usage(0).begin(1).id(0xa1).usage(1).range(0, 4).fields(1, 8).output(2);
+    d.usage(5).fields(1, 64).output(2).usage(6).fields(1, 16).output(2).end();
+    d.page(0xf).usage(0x96).begin(2).id(12).usage(0x98).usage(0x97).usage(0x9a);
+    d.range(3, 5).fields(1, 8).output(0).end();
+    d.usage(0x77).begin(2).usage(0x79).usage(0x7b).range(0, 1).fields(2, 1).output(2).fields(6, 1).output(3);
+    const ReportDescriptor made = parsed(d.end().out);
+    CHECK(find_field(made, ReportKind::output, {0xff00, 5}) == nullptr);
+    const Field* behind = find_field(made, ReportKind::output, {0xff00, 6});
+    REQUIRE(behind);
+    CHECK(behind->bit == 72);
+    CHECK(report_size(made, ReportKind::output, 0xa1) == 11);
+
+    const auto enable = find_choice(made, ReportKind::output, {0xf, 0x97});
+    REQUIRE(enable);
+    CHECK(enable->value == 4);
+    CHECK(!find_choice(made, ReportKind::output, {0xf, 0x99}));
+    CHECK(!find_choice(made, ReportKind::feature, {0xf, 0x97}));
+    CHECK(!find_choice(made, ReportKind::output, {0xf, 0x97}, Usage{0xf, 0x77}));
+    const auto stop = find_choice(made, ReportKind::output, {0xf, 0x7b});
+    REQUIRE(stop);
+    CHECK(stop->field.bit == 9);
+    CHECK(stop->value == 1);
+}
+
 TEST_CASE("what is wrong with a descriptor is said, and where") {
     const auto message = [](const Bytes& bytes) {
         const auto d = parse_report_descriptor(bytes);
@@ -131,8 +157,8 @@ TEST_CASE("what is wrong with a descriptor is said, and where") {
     CHECK(message(open).find("not ended") != std::string::npos);
     CHECK(message(Items().page(1).usage(0x30).range(5, 1).fields(1, 8).input(2).out).find("from 5 to 1") !=
           std::string::npos);
-    CHECK(message(Items().page(1).usage(0x30).range(0, 1).fields(1, 40).input(2).out).find("40 bits") !=
-          std::string::npos);
+    CHECK(message(Items().page(1).usage(0x30).range(0, 1).item(0x94, 1).item(0x74, 300).input(2).out)
+              .find("300 bits") != std::string::npos);
     const Bytes whole = puck_in_three();
     for (std::size_t cut = 0; cut < whole.size(); ++cut)
         CHECK(!parse_report_descriptor(std::span(whole).first(cut)));
