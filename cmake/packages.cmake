@@ -10,6 +10,8 @@ find_package(TinyGLTF REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
 
 # The author's tools that read and make STEP files; without it everything else still builds. The sanitizer presets leave it
 # out to keep ./test short; -DBOLT_OPENCASCADE=ON brings it back.

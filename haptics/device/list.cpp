@@ -1,0 +1,170 @@
+#include "haptics/device/list.hpp"
+
+#include <fmt/format.h>
+#include <hidapi.h>
+
+#include <algorithm>
+#include <map>
+
+#include "haptics/device/hid_node.hpp"
+#include "haptics/device/pid.hpp"
+#include "haptics/device/space_mouse.hpp"
+#include "haptics/device/wheel.hpp"
+#include "haptics/device/wheel_axis.hpp"
+
+namespace bolt::device {
+
+namespace {
+
+constexpr Usage multi_axis_controller{0x01, 0x08};
+constexpr std::uint16_t force_page = 0x0f;
+constexpr std::uint16_t board_vendor = 0x1209, board_product = 0xffb0;  // pid.codes, OpenFFBoard
+
+std::string utf8(const wchar_t* wide) {
+    std::string out;
+    for (; wide != nullptr && *wide != 0; ++wide) {
+        const auto c = static_cast<std::uint32_t>(*wide);
+        if (c < 0x80) {
+            if (c >= 0x20 && c != 0x7f) out += static_cast<char>(c);  // a device's name goes to terminals
+        } else if (c < 0x800) {
+            out += static_cast<char>(0xc0 | c >> 6U);
+            out += static_cast<char>(0x80 | (c & 0x3fU));
+        } else if (c < 0x10000) {
+            out += static_cast<char>(0xe0 | c >> 12U);
+            out += static_cast<char>(0x80 | (c >> 6U & 0x3fU));
+            out += static_cast<char>(0x80 | (c & 0x3fU));
+        }
+    }
+    return out;
+}
+
+struct Seen {
+    HidIdentity who;
+    std::string path;
+};
+
+// A node each; hidapi tells one for every collection of a device.
+std::vector<Seen> seen() {
+    std::vector<Seen> out;
+    hid_device_info* first = hid_enumerate(0, 0);
+    for (const hid_device_info* d = first; d != nullptr; d = d->next) {
+        if (d->path == nullptr) continue;
+        if (std::any_of(out.begin(), out.end(), [&](const Seen& s) { return s.path == d->path; })) continue;
+        out.push_back(
+            {{d->vendor_id, d->product_id, utf8(d->product_string), utf8(d->serial_number)}, d->path});
+    }
+    hid_free_enumeration(first);
+    // hidraw10 comes behind hidraw9.
+    std::sort(out.begin(), out.end(), [](const Seen& a, const Seen& b) {
+        return std::pair(a.path.size(), a.path) < std::pair(b.path.size(), b.path);
+    });
+    return out;
+}
+
+Status understood(HidKind kind, const ReportDescriptor& descriptor) {
+    if (kind == HidKind::puck) {
+        if (const auto layout = six_axis_layout(descriptor); !layout) return fail(layout.error());
+    } else if (kind != HidKind::other) {
+        if (const auto axis = wheel_axis(descriptor); !axis) return fail(axis.error());
+        if (const auto layout = pid_layout(descriptor); !layout) return fail(layout.error());
+    }
+    return {};
+}
+
+Listed listed(const Seen& one) {
+    Listed l;
+    l.path = one.path;
+    l.id = id_of(one.who);
+    l.name = one.who.name.empty() ? l.id : one.who.name;
+    const auto bytes = descriptor_of(one.path);
+    if (!bytes) {
+        l.trouble = bytes.error();
+        return l;
+    }
+    const auto descriptor = parse_report_descriptor(*bytes);
+    if (!descriptor) {
+        l.trouble = descriptor.error();
+        return l;
+    }
+    l.kind = kind_of(one.who, *descriptor);
+    if (l.kind == HidKind::other) return l;
+    if (Status known = understood(l.kind, *descriptor); !known) {
+        l.trouble = known.error();
+    } else if (Status can = can_open_hid(one.path); !can) {
+        l.trouble = can.error();
+        if (l.kind == HidKind::wheel && !l.trouble->lost)
+            l.trouble->expected += fmt::format(" (with the line {} in it)", udev_line(one.who));
+    }
+    return l;
+}
+
+}  // namespace
+
+HidKind kind_of(const HidIdentity& who, const ReportDescriptor& descriptor) {
+    if (who.vendor == board_vendor && who.product == board_product) return HidKind::board;
+    for (const Collection& c : descriptor.collections)
+        if (c.usage == multi_axis_controller) return HidKind::puck;
+    for (const Field& f : descriptor.fields)
+        if (f.usage.page == force_page && f.kind != ReportKind::input) return HidKind::wheel;
+    return HidKind::other;
+}
+
+std::string id_of(const HidIdentity& who) {
+    std::string id = fmt::format("{:04x}:{:04x}", who.vendor, who.product);
+    if (!who.serial.empty()) id += ':' + who.serial;
+    return id;
+}
+
+std::string udev_line(const HidIdentity& who) {
+    return fmt::format(R"(KERNEL=="hidraw*", KERNELS=="*:{:04X}:{:04X}.*", TAG+="uaccess")", who.vendor,
+                       who.product);
+}
+
+std::vector<Listed> list(bool others) {
+    std::vector<Listed> out;
+    std::map<std::string, int> met;
+    for (const Seen& one : seen()) {
+        Listed l = listed(one);
+        if (l.kind == HidKind::other && !l.trouble && !others) continue;
+        if (const int n = ++met[l.id]; n > 1) l.id += fmt::format("#{}", n);
+        out.push_back(std::move(l));
+    }
+    return out;
+}
+
+Result<std::unique_ptr<Device>> open(const Listed& listed, const Rig& rig, const PuckFeel& feel) {
+    if (listed.trouble) return fail(*listed.trouble);
+    const auto bytes = descriptor_of(listed.path);
+    if (!bytes) return fail(bytes.error());
+    const auto descriptor = parse_report_descriptor(*bytes);
+    if (!descriptor) return fail(descriptor.error());
+    auto line = open_hid(listed.path);
+    if (!line) return fail(line.error());
+    switch (listed.kind) {
+        case HidKind::puck:
+            return make_space_mouse(std::move(*line), *descriptor, listed.name, listed.id, feel);
+        case HidKind::board:
+            return make_open_ffboard(std::move(*line), *descriptor, listed.name, listed.id, rig);
+        case HidKind::wheel:
+            return make_wheel(std::move(*line), *descriptor, listed.name, listed.id, rig);
+        case HidKind::other:
+            break;
+    }
+    return fail(ErrorCode::no_device, fmt::format("{} is nothing to hold in a hand", listed.name),
+                "a SpaceMouse, or a wheel with force feedback");
+}
+
+Open opener(std::string id, const Rig& rig, const PuckFeel& feel) {
+    return [id = std::move(id), rig, feel]() -> Result<std::unique_ptr<Device>> {
+        for (const Listed& l : list())
+            if (l.id == id) return open(l, rig, feel);
+        Error error;
+        error.code = ErrorCode::no_device;
+        error.what = fmt::format("there is no device {}", id);
+        error.expected = "a device that is plugged in; `boltwright devices` lists them";
+        error.lost = true;
+        return fail(std::move(error));
+    };
+}
+
+}  // namespace bolt::device

@@ -1,0 +1,174 @@
+#include "haptics/device/pid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::device {
+
+namespace {
+
+constexpr Usage pid(std::uint16_t id) { return {0x0f, id}; }
+
+constexpr Usage set_effect = pid(0x21), block_index = pid(0x22), constant_force = pid(0x26),
+                duration = pid(0x50), gain = pid(0x52), axes_enable = pid(0x55), direction_enable = pid(0x56),
+                direction = pid(0x57), magnitude = pid(0x70), set_constant_force = pid(0x73),
+                effect_operation = pid(0x77), op_start = pid(0x79), op_stop = pid(0x7b),
+                loop_count = pid(0x7c), device_gain_report = pid(0x7d), device_gain = pid(0x7e),
+                block_load = pid(0x89), load_success = pid(0x8c), block_free = pid(0x90),
+                enable_actuators = pid(0x97), stop_all_effects = pid(0x99), device_reset = pid(0x9a),
+                create_effect = pid(0xab);
+
+constexpr ReportKind sent[] = {ReportKind::output, ReportKind::feature};
+
+struct Made {
+    PidMessage message;
+    std::span<std::uint8_t> body() { return std::span(message.bytes).subspan(1); }
+};
+
+Made made(const ReportDescriptor& descriptor, const Field& field) {
+    Made m;
+    m.message.kind = field.kind;
+    m.message.bytes.resize(1 + report_size(descriptor, field.kind, field.report));
+    m.message.bytes[0] = field.report;
+    return m;
+}
+
+void put(Made& m, const Field& field, std::int64_t value) {
+    if (field.report == m.message.bytes[0]) put_value(field, value, m.body());
+}
+
+// A message that one choice is the whole point of; none if the device does not offer it.
+std::optional<Made> chosen(const ReportDescriptor& descriptor, Usage option,
+                           std::optional<Usage> within = std::nullopt) {
+    for (const ReportKind kind : sent)
+        if (const auto choice = find_choice(descriptor, kind, option, within)) {
+            Made m = made(descriptor, choice->field);
+            put(m, choice->field, choice->value);
+            if (const Field* block = within ? find_field(descriptor, kind, block_index, within) : nullptr;
+                block != nullptr && block->report == choice->field.report)
+                m.message.block = *block;
+            return m;
+        }
+    return std::nullopt;
+}
+
+const Field* sent_field(const ReportDescriptor& descriptor, Usage usage, Usage within) {
+    for (const ReportKind kind : sent)
+        if (const Field* field = find_field(descriptor, kind, usage, within)) return field;
+    return nullptr;
+}
+
+PidMessage set_effect_message(const ReportDescriptor& descriptor) {
+    std::optional<Made> m = chosen(descriptor, constant_force, set_effect);
+    if (!m) return {};
+    const auto field = [&](Usage usage) {
+        return find_field(descriptor, m->message.kind, usage, set_effect);
+    };
+    if (const Field* f = field(duration)) put(*m, *f, f->high);
+    if (const Field* f = field(gain)) put(*m, *f, f->high);
+    // Of the axes that can be enabled the first is the wheel's. The button that triggers an effect, and the
+    // delay of its start, stay zero: none.
+    for (const Field& f : descriptor.fields)
+        if (f.kind == m->message.kind && f.report == m->message.bytes[0] &&
+            find_field(descriptor, f.kind, f.usage, axes_enable) == &f) {
+            put(*m, f, 1);
+            break;
+        }
+    if (const Field* f = field(direction_enable)) put(*m, *f, 1);
+    // A quarter of a turn from north: from the right. Its slots are called by ordinals or by axes.
+    for (const Field& f : descriptor.fields)
+        if (f.kind == m->message.kind && find_field(descriptor, f.kind, f.usage, direction) == &f) {
+            put(*m, f, f.low + (f.high - f.low) / 4);
+            break;
+        }
+    return std::move(m->message);
+}
+
+}  // namespace
+
+Result<PidLayout> pid_layout(const ReportDescriptor& descriptor) {
+    PidLayout layout;
+    const Field* strength = sent_field(descriptor, magnitude, set_constant_force);
+    if (strength == nullptr)
+        return fail(ErrorCode::no_device, "the device offers no constant force",
+                    "a wheel with USB's force feedback (PID)");
+    if (strength->low >= 0 || strength->high <= 0)
+        return fail(ErrorCode::no_device, "the device's constant force pulls one way only",
+                    "a magnitude with a sign");
+    std::optional<Made> start = chosen(descriptor, op_start, effect_operation);
+    std::optional<Made> stop = chosen(descriptor, op_stop, effect_operation);
+    if (!start || !stop)
+        return fail(ErrorCode::no_device, "the device does not let effects be started and stopped",
+                    "the report \"effect operation\" of USB's force feedback");
+    if (const Field* loops = find_field(descriptor, start->message.kind, loop_count, effect_operation))
+        put(*start, *loops, 1);
+    layout.start = std::move(start->message);
+    layout.stop = std::move(stop->message);
+
+    Made force = made(descriptor, *strength);
+    layout.magnitude = *strength;
+    if (const Field* block = find_field(descriptor, strength->kind, block_index, set_constant_force))
+        force.message.block = *block;
+    layout.force = std::move(force.message);
+
+    const auto control = [&](Usage option) {
+        std::optional<Made> m = chosen(descriptor, option);
+        return m ? std::move(m->message) : PidMessage{};
+    };
+    layout.reset = control(device_reset);
+    layout.stop_all = control(stop_all_effects);
+    layout.enable = control(enable_actuators);
+    if (const Field* f = sent_field(descriptor, device_gain, device_gain_report)) {
+        Made m = made(descriptor, *f);
+        put(m, *f, f->high);
+        layout.gain = std::move(m.message);
+    }
+    if (std::optional<Made> m = chosen(descriptor, constant_force, create_effect))
+        layout.create = std::move(m->message);
+    layout.set = set_effect_message(descriptor);
+    if (const Field* f = sent_field(descriptor, block_index, block_free)) {
+        Made m = made(descriptor, *f);
+        m.message.block = *f;
+        layout.free = std::move(m.message);
+    }
+    if (const Field* f = find_field(descriptor, ReportKind::feature, block_index, block_load)) {
+        Made m = made(descriptor, *f);
+        m.message.block = *f;
+        layout.loaded = std::move(m.message);
+        if (const auto well = find_choice(descriptor, ReportKind::feature, load_success, block_load)) {
+            layout.status = well->field;
+            layout.loaded_well = well->value;
+        }
+    }
+    return layout;
+}
+
+Result<std::optional<std::int64_t>> loaded_block(const PidLayout& layout,
+                                                 std::span<const std::uint8_t> answer) {
+    if (answer.empty() || !layout.loaded.block) return std::nullopt;
+    const auto body = answer.subspan(1);
+    const auto block = value_of(*layout.loaded.block, body);
+    if (!block) return std::nullopt;
+    if (layout.status && layout.status->array) {
+        const auto status = value_of(*layout.status, body);
+        if (!status || *status < layout.status->low || *status > layout.status->high) return std::nullopt;
+        if (*status != layout.loaded_well)
+            return fail(ErrorCode::no_device, "the device has no room for an effect",
+                        "a device that no other program pulls at; unplug it and plug it in again");
+    }
+    if (*block < layout.loaded.block->low || *block > layout.loaded.block->high) return std::nullopt;
+    return block;
+}
+
+void use_block(PidLayout& layout, std::int64_t block) {
+    for (PidMessage* m : {&layout.set, &layout.force, &layout.start, &layout.stop, &layout.free})
+        if (m->block && !m->bytes.empty()) put_value(*m->block, block, std::span(m->bytes).subspan(1));
+}
+
+void put_share(PidLayout& layout, double share) {
+    const double s = std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0.0;
+    const auto most = static_cast<double>(s < 0.0 ? -layout.magnitude.low : layout.magnitude.high);
+    put_value(layout.magnitude, std::llround(s * most), std::span(layout.force.bytes).subspan(1));
+}
+
+}  // namespace bolt::device

@@ -1,0 +1,95 @@
+#include "haptics/device/space_mouse.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace bolt::device {
+
+namespace {
+
+constexpr double usual_rate = 125.0;  // 1/s; what wired ones send while they are pushed
+constexpr int most_at_once = 64;      // reports that the kernel keeps for a reader
+
+class SpaceMouse : public Device {
+  public:
+    SpaceMouse(std::unique_ptr<HidLine> line, SixAxisLayout layout, Description description,
+               const PuckFeel& feel, Clock clock)
+        : line_(std::move(line)),
+          layout_(std::move(layout)),
+          description_(std::move(description)),
+          feel_(feel),
+          clock_(std::move(clock)) {}
+
+    [[nodiscard]] const Description& describe() const override { return description_; }
+
+    Result<std::optional<Sample>> read(double patience) override {
+        const double asked = clock_();
+        if (pushed_) patience = std::clamp(told_ + feel_.silence - asked, 0.0, patience);
+        for (int i = 0; i < most_at_once; ++i) {
+            const auto report = line_->read(i == 0 ? patience : 0.0);
+            if (!report) return fail(report.error());
+            if (report->empty()) break;
+            if (!take_report(layout_, *report, state_)) continue;
+            told_ = clock_();
+            const auto moves = [&](double share) { return std::abs(share) > feel_.dead; };
+            pushed_ = std::any_of(state_.share.begin(), state_.share.end(), moves);
+            news_ = true;
+        }
+        const double now = clock_();
+        if (!std::exchange(news_, false) && pushed_) {
+            if (now - told_ < feel_.silence) return std::nullopt;
+            state_.share.fill(0.0);
+            pushed_ = false;
+        }
+        Sample sample;
+        const PuckRates rates = rates_of(state_, feel_);
+        sample.velocity = rates.velocity;
+        sample.angular_velocity = rates.angular_velocity;
+        sample.buttons = state_.buttons;
+        sample.time = now;
+        return sample;
+    }
+
+    Status write(const force::OutputCommand&) override { return {}; }
+
+  private:
+    std::unique_ptr<HidLine> line_;
+    SixAxisLayout layout_;
+    Description description_;
+    PuckFeel feel_;
+    Clock clock_;
+    SixAxisState state_;
+    double told_ = 0.0;
+    bool pushed_ = false, news_ = false;
+};
+
+}  // namespace
+
+PuckRates rates_of(const SixAxisState& state, const PuckFeel& feel) {
+    const auto rate = [&](std::size_t axis, double most) {
+        const double share = std::clamp(state.share[axis], -1.0, 1.0);
+        const double felt = std::max(std::abs(share) - feel.dead, 0.0) / (1.0 - feel.dead);
+        return std::copysign(most * felt * felt, share);
+    };
+    // 3Dconnexion: x right, y towards the user, z down.
+    const double v = feel.speed, w = feel.turn_speed;
+    return {{rate(0, v), -rate(2, v), rate(1, v)}, {rate(3, w), -rate(5, w), rate(4, w)}};
+}
+
+Result<std::unique_ptr<Device>> make_space_mouse(std::unique_ptr<HidLine> line,
+                                                 const ReportDescriptor& descriptor, std::string name,
+                                                 std::string id, const PuckFeel& feel, Clock clock) {
+    Result<SixAxisLayout> layout = six_axis_layout(descriptor);
+    if (!layout) return fail(layout.error());
+    Description description;
+    description.name = std::move(name);
+    description.id = std::move(id);
+    description.sensing = Sensing::rate;
+    description.limits.force = description.limits.torque = 0.0;
+    description.rate = usual_rate;
+    description.buttons = static_cast<int>(layout->buttons.size());
+    return std::make_unique<SpaceMouse>(std::move(line), std::move(*layout), std::move(description), feel,
+                                        std::move(clock));
+}
+
+}  // namespace bolt::device
