@@ -37,7 +37,7 @@ class SpaceMouse : public Device {
         }
         const double now = clock_();
         if (!std::exchange(news_, false) && pushed_) {
-            if (now - told_ < feel_.silence) return std::nullopt;
+            if (now < told_ + feel_.silence) return std::nullopt;
             state_.share.fill(0.0);
             pushed_ = false;
         }

@@ -1,0 +1,137 @@
+#include "haptics/device/pid.hpp"
+
+#include <doctest/doctest.h>
+
+#include "haptics/device/board_request.hpp"
+#include "haptics/device/list.hpp"
+#include "tests/device/descriptors.hpp"
+#include "tools/emulate/puck.hpp"
+#include "tools/emulate/wheel_reports.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+ReportDescriptor parsed(const Bytes& bytes) {
+    Result<ReportDescriptor> d = parse_report_descriptor(bytes);
+    REQUIRE_MESSAGE(d, (d ? "" : d.error().message()));
+    return std::move(*d);
+}
+
+}  // namespace
+
+TEST_CASE("the messages of an OpenFFBoard, byte for byte as its firmware reads them") {
+    auto layout = pid_layout(parsed(emulate::board_descriptor()));
+    REQUIRE(layout);
+    CHECK(layout->reset.bytes == Bytes{12, 0x08});
+    CHECK(layout->stop_all.bytes == Bytes{12, 0x04});
+    CHECK(layout->enable.bytes == Bytes{12, 0x01});
+    CHECK(layout->gain.bytes == Bytes{13, 255});
+    CHECK(layout->create.kind == ReportKind::feature);
+    CHECK(layout->create.bytes == Bytes{17, 1, 0, 0});
+    CHECK(layout->loaded.bytes.size() == 5);
+    use_block(*layout, 3);
+    CHECK(layout->start.bytes == Bytes{10, 3, 1, 1});
+    CHECK(layout->stop.bytes == Bytes{10, 3, 3, 0});
+    CHECK(layout->free.bytes == Bytes{11, 3});
+    // Constant force, for ever, at once, all of it, no button, direction of 90 degrees.
+    const unsigned direction = 35900 / 4;
+    CHECK(layout->set.bytes == Bytes{1, 3, 1, 0xff, 0x7f, 0, 0, 0, 0, 0, 0, 255, 0, 0x01 | 0x04,
+                                     static_cast<std::uint8_t>(direction),
+                                     static_cast<std::uint8_t>(direction >> 8U), 0, 0});
+    put_share(*layout, 1.0);
+    CHECK(layout->force.bytes == Bytes{5, 3, 0xff, 0x7f});
+    put_share(*layout, -2.0);
+    CHECK(layout->force.bytes == Bytes{5, 3, 0x01, 0x80});
+    put_share(*layout, 0.0);
+    CHECK(layout->force.bytes == Bytes{5, 3, 0, 0});
+
+    CHECK(*loaded_block(*layout, Bytes{18, 7, 1, 0, 0}) == 7);
+    CHECK(!loaded_block(*layout, Bytes{18, 7, 2, 0, 0}));   // full
+    CHECK(!*loaded_block(*layout, Bytes{18, 7, 0, 0, 0}));  // not yet
+    CHECK(!*loaded_block(*layout, Bytes{18, 77, 1, 0, 0}));
+    CHECK(!*loaded_block(*layout, Bytes{18}));
+    CHECK(!*loaded_block(*layout, Bytes{}));
+}
+
+TEST_CASE("a wheel that leaves things out and numbers others otherwise") {
+    auto layout = pid_layout(parsed(emulate::other_wheel_descriptor()));
+    REQUIRE(layout);
+    CHECK(layout->reset.bytes == Bytes{0x1c, 1});
+    CHECK(layout->stop_all.bytes == Bytes{0x1c, 2});
+    CHECK(layout->enable.bytes == Bytes{0x1c, 3});
+    CHECK(layout->create.bytes.empty());
+    CHECK(layout->loaded.bytes.empty());
+    CHECK(layout->free.bytes.empty());
+    use_block(*layout, 1);
+    CHECK(layout->set.bytes == Bytes{0x11, 1, 2, 0xff, 0xff, 100, 0x05, 63, 0});
+    CHECK(layout->start.bytes == Bytes{0x1a, 1, 2});
+    CHECK(layout->stop.bytes == Bytes{0x1a, 1, 1});
+    put_share(*layout, 0.5);
+    CHECK(layout->force.bytes == Bytes{0x15, 0x88, 0x13});
+}
+
+TEST_CASE("what cannot be pulled at is refused, with the reason") {
+    const auto why = [](const Bytes& bytes) {
+        const auto layout = pid_layout(parsed(bytes));
+        REQUIRE(!layout);
+        return layout.error().message();
+    };
+    CHECK(why(mouse()).find("no constant force") != std::string::npos);
+    Items one_way;
+    one_way.page(1).usage(4).begin(1).page(15).usage(0x73).begin(2).id(5);
+    one_way.usage(0x70).range(0, 255).fields(1, 8).output(2).end();
+    CHECK(why(one_way.end().out).find("one way only") != std::string::npos);
+    Items no_start;
+    no_start.page(1).usage(4).begin(1).page(15).usage(0x73).begin(2).id(5);
+    no_start.usage(0x70).range(-127, 127).fields(1, 8).output(2).end();
+    CHECK(why(no_start.end().out).find("started and stopped") != std::string::npos);
+}
+
+TEST_CASE("an OpenFFBoard's questions and answers") {
+    const auto bytes = board::bytes_of({.command = 9});
+    Bytes expected(25);
+    expected[0] = 0xa1;
+    expected[1] = 1;
+    expected[2] = 0x01;
+    expected[3] = 0x0a;
+    expected[5] = 9;
+    CHECK(Bytes(bytes.begin(), bytes.end()) == expected);
+
+    Bytes reply = expected;
+    for (std::size_t i = 9; i < 17; ++i) reply[i] = 0xff;
+    reply[9] = 0xfe;
+    const auto message = board::message_in(reply);
+    REQUIRE(message);
+    CHECK(board::answer_to(board::Command::position, *message) == -2);
+    CHECK(!board::answer_to(board::Command::power, *message));
+    for (const std::size_t spoiled : {1U, 2U, 4U, 6U}) {
+        Bytes other = reply;
+        other[spoiled] ^= 0x0fU;
+        CHECK(!board::answer_to(board::Command::position, *board::message_in(other)));
+    }
+    const board::Message m{board::Type::write, 0xa02, 3, 0x12345678, -5, 0x123456789abcdef0};
+    CHECK(board::message_in(board::bytes_of(m)) == m);
+    reply.pop_back();
+    CHECK(!board::message_in(reply));
+    CHECK(!board::message_in(Bytes{}));
+}
+
+TEST_CASE("which of all HID devices are for hands") {
+    CHECK(kind_of({0x1209, 0xffb0, "", ""}, parsed(emulate::board_descriptor())) == HidKind::board);
+    CHECK(kind_of({0x1234, 0x5678, "", ""}, parsed(emulate::other_wheel_descriptor())) == HidKind::wheel);
+    CHECK(kind_of({0x256f, 0xc62e, "", ""}, parsed(puck_in_one())) == HidKind::puck);
+    CHECK(kind_of({0x046d, 0xc077, "", ""}, parsed(mouse())) == HidKind::other);
+    CHECK(id_of({0x46d, 0xc626, "SpaceNavigator", ""}) == "046d:c626");
+    CHECK(id_of({0x1209, 0xffb0, "OpenFFBoard", "AB12"}) == "1209:ffb0:AB12");
+    CHECK(udev_line({0x46d, 0xc626, "", ""}) ==
+          R"(KERNEL=="hidraw*", KERNELS=="*:046D:C626.*", TAG+="uaccess")");
+    const auto gone = opener("0000:0000:nothing")();
+    REQUIRE(!gone);
+    CHECK(gone.error().lost);
+    CHECK(gone.error().message().find("plugged in") != std::string::npos);
+}

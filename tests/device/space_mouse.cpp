@@ -1,0 +1,148 @@
+#include "haptics/device/space_mouse.hpp"
+
+#include <doctest/doctest.h>
+
+#include <utility>
+
+#include "tools/emulate/hid_line.hpp"
+#include "tools/emulate/puck.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+
+namespace {
+
+struct Bench {
+    explicit Bench(const emulate::PuckDesign& design = {}) : puck(design) {
+        plug.device = &puck;
+        const auto descriptor = parse_report_descriptor(puck.design().descriptor);
+        REQUIRE(descriptor);
+        auto made = make_space_mouse(std::make_unique<emulate::HidLine>(plug), *descriptor, "Puck", "1:2",
+                                     feel, [this] { return plug.time; });
+        REQUIRE(made);
+        device = std::move(*made);
+    }
+    std::optional<Sample> read(double patience = 0.01) {
+        const auto sample = device->read(patience);
+        REQUIRE(sample);
+        return *sample;
+    }
+    // The last of what it says within so long.
+    Sample after(double seconds) {
+        std::optional<Sample> last;
+        for (const double until = plug.time + seconds; plug.time < until;)
+            if (const auto sample = read(0.002)) last = sample;
+        REQUIRE(last);
+        return *last;
+    }
+
+    emulate::Puck puck;
+    emulate::Plug plug;
+    PuckFeel feel;
+    std::unique_ptr<Device> device;
+};
+
+}  // namespace
+
+TEST_CASE("a puck's pushes and turns are speeds in the device's frame, whichever reports it sends") {
+    for (const bool in_one : {true, false}) {
+        Bench b({.in_one = in_one});
+        CHECK(b.device->describe().sensing == Sensing::rate);
+        CHECK(b.device->describe().limits.force == 0.0);
+        CHECK(b.device->describe().buttons == 2);
+        // 3Dconnexion's z is down and its y towards the user; ours are up and towards the user.
+        const Vec3 ours[] = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (const double way : {1.0, -1.0}) {
+                b.puck.share = {};
+                b.puck.share[axis] = way;
+                b.puck.share[3 + axis] = -way;
+                const Sample s = b.after(0.05);
+                CHECK(glm::length(s.velocity - way * b.feel.speed * ours[axis]) < 1e-12);
+                CHECK(glm::length(s.angular_velocity + way * b.feel.turn_speed * ours[axis]) < 1e-12);
+            }
+        b.puck.buttons = 2;
+        CHECK(b.after(0.05).buttons == 2U);
+    }
+}
+
+TEST_CASE("speed rises from nothing without a step, the more the further it is pushed") {
+    const PuckFeel feel;
+    double last = -1.0;
+    for (double share = 0.0; share <= 1.0; share += 1.0 / 350.0) {
+        SixAxisState state;
+        state.share[0] = share;
+        const double v = rates_of(state, feel).velocity.x;
+        CHECK(v - std::max(last, 0.0) < 0.01 * feel.speed);
+        if (share > feel.dead + 0.01) CHECK(v > last);
+        if (share < feel.dead) CHECK(v == 0.0);
+        state.share[0] = -share;
+        CHECK(rates_of(state, feel).velocity.x == -v);
+        last = v;
+    }
+}
+
+TEST_CASE(
+    "let go it stands still at once, fallen silent while pushed after its silence, and unplugged is an "
+    "error") {
+    Bench b;
+    b.puck.share[0] = 1.0;
+    CHECK(b.after(0.05).velocity.x == b.feel.speed);
+    b.puck.share[0] = 0.0;
+    CHECK(b.after(0.009).velocity.x == 0.0);
+
+    b.puck.share[0] = 0.5;
+    CHECK(b.after(0.05).velocity.x > 0.0);
+    b.puck.stalled = true;
+    const double stalled = b.plug.time;
+    std::optional<Sample> sample;
+    while (!(sample = b.read(0.003)) || sample->velocity.x > 0.0) REQUIRE(b.plug.time < stalled + 1.0);
+    CHECK(b.plug.time - stalled <= b.feel.silence + 0.001);
+    CHECK(b.plug.time - stalled > 0.5 * b.feel.silence);
+
+    // One that rests says that it rests, as often as it is asked.
+    b.puck.stalled = false;
+    b.puck.share[0] = 0.0;
+    CHECK(b.after(0.05).velocity.x == 0.0);
+    for (int i = 0; i < 100; ++i) CHECK(b.read(0.01));
+
+    b.plug.pulled = true;
+    const auto gone = b.device->read(0.01);
+    REQUIRE(!gone);
+    CHECK(gone.error().lost);
+}
+
+TEST_CASE("a reader that is late gets what is now, not what was") {
+    Bench b;
+    struct Backlog : emulate::Puck {
+        std::vector<emulate::Bytes> go_on(double) override { return std::exchange(waiting, {}); }
+        std::vector<emulate::Bytes> waiting;
+    } late;
+    for (int i = 0; i <= 40; ++i)
+        late.waiting.push_back({1, static_cast<std::uint8_t>(i), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    b.plug.device = &late;
+    const auto sample = b.read(0.02);
+    REQUIRE(sample);
+    SixAxisState last;
+    last.share[0] = 40.0 / 350.0;
+    CHECK(sample->velocity.x == rates_of(last, b.feel).velocity.x);
+    CHECK(sample->velocity.x > 0.0);
+    CHECK(late.waiting.empty());
+}
+
+TEST_CASE("reports that are cut off, strange or spoiled never make it faster than it can be") {
+    Bench b({.faults = {.cut = 0.2, .strange = 0.2, .changed = 0.3, .seed = 3}});
+    Random random(5);
+    int moved = 0;
+    for (int i = 0; i < 4000; ++i) {
+        for (double& share : b.puck.share) share = random.uniform(-1.0, 1.0);
+        const auto sample = b.read(0.008);
+        if (!sample) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            CHECK(std::abs(sample->velocity[axis]) <= b.feel.speed);
+            CHECK(std::abs(sample->angular_velocity[axis]) <= b.feel.turn_speed);
+        }
+        moved += glm::length(sample->velocity) > 0.0 ? 1 : 0;
+    }
+    CHECK(moved > 1000);
+}

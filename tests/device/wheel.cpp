@@ -1,0 +1,215 @@
+#include "tools/emulate/wheel.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "haptics/device/wheel.hpp"
+#include "tools/emulate/hid_line.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+
+namespace {
+
+struct Bench {
+    explicit Bench(const emulate::WheelDesign& design, const Rig& rig_ = {}) : rig(rig_), wheel(design) {
+        plug.device = &wheel;
+        if (!design.board) rig.range = to_radians(design.degrees);
+        rig.full_torque = design.full_torque;
+        opened = open();
+        if (opened) device = std::move(*opened);
+    }
+    Result<std::unique_ptr<Device>> open() {
+        const auto descriptor = parse_report_descriptor(wheel.design().descriptor);
+        REQUIRE_MESSAGE(descriptor, (descriptor ? "" : descriptor.error().message()));
+        const auto make = wheel.design().vendor == 0x1209 ? make_open_ffboard : make_wheel;
+        return make(std::make_unique<emulate::HidLine>(plug), *descriptor, "Wheel", "1:2", rig,
+                    [this] { return plug.time; });
+    }
+    // A loop as an I/O thread has it.
+    template <class F>
+    void run(double seconds, const F& command) {
+        for (const double until = plug.time + seconds; plug.time < until;) {
+            const auto sample = device->read(0.002);
+            REQUIRE(sample);
+            if (*sample) last = **sample;
+            samples += *sample ? 1 : 0;
+            REQUIRE(device->write({.torque = rig.axis * command()}));
+        }
+    }
+
+    Rig rig;
+    emulate::Wheel wheel;
+    emulate::Plug plug;
+    Result<std::unique_ptr<Device>> opened = fail(ErrorCode::failed, "not opened");
+    std::unique_ptr<Device> device;
+    Sample last;
+    int samples = 0;
+};
+
+emulate::WheelDesign design_of(bool board) { return {.board = board, .power = board ? 0.5 : 1.0}; }
+
+}  // namespace
+
+TEST_CASE(
+    "the torque that is asked for is the torque that the motor gives, either way, no more than described") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        Bench b(design_of(board), {.most_torque = 3.0});
+        REQUIRE_MESSAGE(b.opened, (b.opened ? "" : b.opened.error().message()));
+        CHECK(b.device->describe().limits.torque == doctest::Approx(3.0));
+        CHECK(b.device->describe().limits.force == 0.0);
+        CHECK(b.device->describe().renders[5]);
+        CHECK(!b.device->describe().renders[3]);
+        for (const double torque : {0.5, -1.25, 3.0, 0.0, -3.0}) {
+            b.run(0.01, [&] { return torque; });
+            CHECK(b.wheel.torque() == doctest::Approx(torque).epsilon(0.001).scale(10.0));
+        }
+        b.run(0.01, [] { return 50.0; });
+        CHECK(b.wheel.torque() == doctest::Approx(3.0).epsilon(0.002));
+        b.run(0.01, [] { return std::numeric_limits<double>::quiet_NaN(); });
+        CHECK(b.wheel.torque() == 0.0);
+        // Across the axis there is nothing to be felt.
+        REQUIRE(b.device->write({.force = Vec3(5.0), .torque = {2.0, 2.0, 0.0}}));
+        CHECK(b.wheel.torque() == 0.0);
+    }
+}
+
+TEST_CASE(
+    "a motor that is stronger than the rig says pulls more, a weaker one less: the default takes the "
+    "strongest") {
+    Bench b({.full_torque = 10.0, .power = 1.0});
+    b.device.reset();
+    b.rig.full_torque = Rig{}.full_torque;
+    auto made = b.open();
+    REQUIRE(made);
+    b.device = std::move(*made);
+    b.run(0.01, [] { return 1.0; });
+    CHECK(b.wheel.torque() > 0.0);
+    CHECK(b.wheel.torque() < 1.0);
+}
+
+TEST_CASE("a hand turns the wheel and the angle is told; a torque turns it too") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        Bench b(design_of(board));
+        REQUIRE(b.opened);
+        b.wheel.hand_stiffness = 20.0;
+        b.wheel.hand = 1.5;
+        b.run(3.0, [] { return 0.0; });
+        CHECK(b.wheel.angle() == doctest::Approx(1.5).epsilon(0.01));
+        CHECK(b.last.turn == doctest::Approx(b.wheel.angle()).epsilon(0.001));
+        b.wheel.hand = -2.0;
+        b.run(3.0, [] { return 0.0; });
+        CHECK(b.last.turn == doctest::Approx(-2.0).epsilon(0.01));
+        b.wheel.hand = 0.0;
+        b.run(4.0, [] { return -2.0; });
+        CHECK(b.last.turn == doctest::Approx(-0.1).epsilon(0.05));  // torque over the hand's stiffness
+    }
+}
+
+TEST_CASE("a spring made of torques over the line holds the wheel still") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        Bench b(design_of(board), {.most_torque = 4.0});
+        REQUIRE(b.opened);
+        b.wheel.hand_stiffness = 5.0;
+        b.wheel.hand = 0.8;
+        b.run(6.0, [&] { return 5.0 * (0.2 - b.last.turn); });
+        CHECK(b.wheel.angle() == doctest::Approx(0.5).epsilon(0.02));
+        const double rests = b.wheel.angle();
+        b.run(0.5, [&] { return 5.0 * (0.2 - b.last.turn); });
+        CHECK(std::abs(b.wheel.angle() - rests) < 1e-3);
+    }
+}
+
+TEST_CASE("an OpenFFBoard turns without end where its counts are known, and lives while it rests") {
+    Bench b({}, {.counts_per_turn = 4000.0});
+    REQUIRE(b.opened);
+    b.wheel.hand_stiffness = 50.0;
+    for (double turns = 0.5; turns <= 6.0; turns += 0.5) {  // its stops are at one and a half
+        b.wheel.hand = turns * 2.0 * pi;
+        b.run(2.0, [] { return 0.0; });
+        CHECK(b.last.turn == doctest::Approx(b.wheel.hand).epsilon(0.01));
+    }
+    b.samples = 0;
+    b.run(1.0, [] { return 0.0; });
+    CHECK(b.samples > 400);
+
+    Bench by_range({});
+    by_range.run(1.0, [] { return 0.0; });
+    CHECK(by_range.samples > 400);
+    by_range.wheel.stalled = true;
+    by_range.run(0.1, [] { return 0.0; });
+    by_range.samples = 0;
+    by_range.run(0.5, [] { return 0.0; });
+    CHECK(by_range.samples == 0);
+}
+
+TEST_CASE("a wheel that rests is believed for a while, one that is dead is not") {
+    Bench b(design_of(false));
+    b.run(0.2, [] { return 0.0; });
+    CHECK(b.samples > 50);
+    b.run(1.0, [] { return 0.0; });
+    b.samples = 0;
+    b.run(0.5, [] { return 0.0; });
+    CHECK(b.samples == 0);
+}
+
+TEST_CASE("a device that lets a force die is told again; closed it is left without one") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        emulate::WheelDesign design = design_of(board);
+        design.effect_life = 1.5;
+        Bench b(design);
+        REQUIRE(b.opened);
+        b.wheel.hand_stiffness = 30.0;
+        for (int i = 0; i < 60; ++i) {
+            b.run(0.1, [] { return 1.0; });
+            CHECK(b.wheel.torque() == doctest::Approx(1.0).epsilon(0.002));
+        }
+        b.device.reset();
+        CHECK(b.wheel.torque() == 0.0);
+        if (board) CHECK(!b.wheel.has_effect());
+    }
+}
+
+TEST_CASE("what is not there or does not answer is an error in words, and unplugged is lost") {
+    {
+        emulate::Wheel dead;
+        dead.stalled = true;
+        emulate::Plug plug{.device = &dead};
+        const auto descriptor = parse_report_descriptor(dead.design().descriptor);
+        REQUIRE(descriptor);
+        const auto made = make_open_ffboard(std::make_unique<emulate::HidLine>(plug), *descriptor, "Board",
+                                            "1:2", {}, [&] { return plug.time; });
+        REQUIRE(!made);
+        CHECK(made.error().message().find("does not say how far") != std::string::npos);
+        CHECK(plug.time < 1.0);
+    }
+    Bench b({});
+    b.plug.pulled = true;
+    const auto sample = b.device->read(0.01);
+    REQUIRE(!sample);
+    CHECK(sample.error().lost);
+    CHECK(!b.device->write({.torque = {0, 0, 1}}));
+}
+
+TEST_CASE("spoiled reports never make a wheel jump further than its stops, and it goes on afterwards") {
+    Bench b({.faults = {.cut = 0.1, .strange = 0.1, .changed = 0.1, .seed = 9}});
+    if (!b.opened) b.opened = b.open();
+    REQUIRE(b.opened);
+    for (int i = 0; i < 2000; ++i) {
+        b.run(0.004, [] { return 0.5; });
+        CHECK(std::isfinite(b.last.turn));
+        CHECK(std::abs(b.last.turn) <= 0.5 * to_radians(1080.0) + 1e-9);
+    }
+    CHECK(b.samples > 1000);
+}
+
+TEST_CASE("turned round in the rig it pulls the other way and is told the same angle") {
+    Bench b({.power = 1.0}, {.reversed = true});
+    b.run(0.01, [] { return 1.0; });
+    CHECK(b.wheel.torque() == doctest::Approx(-1.0).epsilon(0.01));
+}

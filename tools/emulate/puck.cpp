@@ -1,0 +1,65 @@
+#include "tools/emulate/puck.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/emulate/hid_items.hpp"
+
+namespace bolt::emulate {
+
+namespace {
+
+constexpr double period = 0.008;  // s
+constexpr double counts = 350.0;  // either way
+
+Bytes descriptor(bool in_one) {
+    Items d;
+    d.page(1).usage(8).begin(1);
+    d.begin(0).id(1).range(-350, 350);
+    if (in_one) {
+        d.usages(0x30, 0x35).fields(6, 16).input(2).end();
+    } else {
+        d.usages(0x30, 0x32).fields(3, 16).input(6).end();
+        d.begin(0).id(2).usages(0x33, 0x35).fields(3, 16).input(6).end();
+    }
+    d.begin(2).id(3).page(9).usages(1, 2).range(0, 1).fields(2, 1).input(2).fields(14, 1).input(3).end();
+    return d.end().out;
+}
+
+}  // namespace
+
+Puck::Puck(const PuckDesign& design)
+    : in_one_(design.in_one), faults_(design.faults), random_(design.faults.seed) {
+    design_ = in_one_
+                  ? HidDesign{0x256f, 0xc62e, "Emulated SpaceMouse", design.serial, descriptor(true)}
+                  : HidDesign{0x046d, 0xc626, "Emulated SpaceNavigator", design.serial, descriptor(false)};
+}
+
+std::vector<Bytes> Puck::go_on(double now) {
+    std::vector<Bytes> out;
+    for (; next_ <= now; next_ += period) {
+        if (next_ < now - 1.0) next_ = now - 1.0;  // it was not asked for long: nobody wants all of it
+        if (stalled) continue;
+        const bool pushes = std::any_of(share.begin(), share.end(), [](double s) { return s != 0.0; });
+        if (pushes || pushed_) {
+            Bytes report{1};
+            for (std::size_t i = 0; i < share.size(); ++i) {
+                const auto v =
+                    static_cast<std::int16_t>(std::lround(std::clamp(share[i], -1.0, 1.0) * counts));
+                if (i == 3 && !in_one_) {
+                    out.push_back(report);
+                    report = {2};
+                }
+                report.push_back(static_cast<std::uint8_t>(v & 0xff));
+                report.push_back(static_cast<std::uint8_t>(v >> 8 & 0xff));
+            }
+            out.push_back(report);
+        }
+        pushed_ = pushes;
+        if (buttons != told_buttons_) out.push_back({3, static_cast<std::uint8_t>(buttons & 3U), 0});
+        told_buttons_ = buttons;
+    }
+    return spoiled(std::move(out), faults_, random_);
+}
+
+}  // namespace bolt::emulate

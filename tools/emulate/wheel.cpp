@@ -1,0 +1,183 @@
+#include "tools/emulate/wheel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/math.hpp"
+#include "tools/emulate/wheel_reports.hpp"
+
+namespace bolt::emulate {
+
+namespace {
+
+constexpr double step = 0.00025;     // s of its mechanics
+constexpr double period = 0.001;     // s of its reports
+constexpr double told_anyway = 0.1;  // s: a board's, without news
+constexpr std::uint8_t block = 1;    // where its one effect lies
+
+unsigned word(std::span<const std::uint8_t> report, std::size_t at) {
+    return at + 1 < report.size() ? report[at] | static_cast<unsigned>(report[at + 1]) << 8U : 0U;
+}
+
+}  // namespace
+
+Wheel::Wheel(const WheelDesign& design) : design_(design), random_(design.faults.seed) {
+    shown_ = design.board
+                 ? HidDesign{0x1209, 0xffb0, "Emulated OpenFFBoard", design.serial, board_descriptor()}
+                 : HidDesign{0x1234, 0x5678, "Emulated wheel", design.serial, other_wheel_descriptor()};
+    if (!design.board) design_.power = 1.0;
+}
+
+double Wheel::torque() const {
+    if (!enabled_ || !loaded_ || !set_ || !playing_ || time_ - started_ > design_.effect_life) return 0.0;
+    // A force that comes from the right turns to the left.
+    return -magnitude_ * effect_gain_ * gain_ * design_.power * design_.full_torque;
+}
+
+std::vector<Bytes> Wheel::go_on(double now) {
+    std::vector<Bytes> out;
+    if (now - time_ > 1.0) time_ = next_ = now - 1.0;
+    for (; time_ + step <= now; time_ += step) {
+        const double pull = torque() + hand_stiffness * (hand - angle_) - design_.damping * speed_;
+        speed_ += pull / design_.inertia * step;
+        angle_ += speed_ * step;
+        if (time_ < next_) continue;
+        next_ += period;
+        if (stalled) continue;
+        Bytes report = axis_report();
+        if (report != told_ || (design_.board && time_ - told_at_ >= told_anyway)) {
+            told_ = report;
+            told_at_ = time_;
+            out.push_back(std::move(report));
+        }
+        // An endpoint carries one report in a millisecond.
+        if (!answers_.empty()) {
+            out.push_back(std::move(answers_.front()));
+            answers_.erase(answers_.begin());
+        }
+    }
+    return spoiled(std::move(out), design_.faults, random_);
+}
+
+Bytes Wheel::axis_report() const {
+    const double share = std::clamp(angle_ / (0.5 * to_radians(design_.degrees)), -1.0, 1.0);
+    if (design_.board) {
+        Bytes report(1 + 8 + 16);
+        report[0] = 1;
+        for (std::size_t i = 0; i < 4; ++i) report[1 + i] = static_cast<std::uint8_t>(buttons >> (8 * i));
+        const auto x = static_cast<std::int16_t>(std::lround(share * 32767.0));
+        report[9] = static_cast<std::uint8_t>(x & 0xff);
+        report[10] = static_cast<std::uint8_t>(x >> 8 & 0xff);
+        return report;
+    }
+    const auto x = static_cast<unsigned>(std::lround((share + 1.0) * 0.5 * 65535.0));
+    return {1, static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(x >> 8U),
+            static_cast<std::uint8_t>(buttons)};
+}
+
+void Wheel::control(std::uint8_t what) {
+    if ((what & 0x01U) != 0) enabled_ = true;
+    if ((what & 0x02U) != 0) enabled_ = false;
+    if ((what & 0x0cU) != 0) playing_ = false;
+    if ((what & 0x08U) != 0) {
+        enabled_ = false;
+        loaded_ = set_ = false;
+        magnitude_ = 0.0;
+    }
+}
+
+void Wheel::answer(std::span<const std::uint8_t> question) {
+    if (question.size() < 25 || question[1] != 1) return;
+    Bytes reply(question.begin(), question.begin() + 25);
+    std::int64_t value = 0;
+    if (word(question, 2) != 0xa01 || question[4] != 0 || question[6] != 0)
+        reply[1] = 13;  // not found
+    else if (question[5] == 0)
+        value = std::lround(design_.power * 32767.0);
+    else if (question[5] == 1)
+        value = std::lround(design_.degrees);
+    else if (question[5] == 9)
+        value = std::lround(angle_ / (2.0 * pi) * design_.counts_per_turn);
+    else
+        reply[1] = 13;
+    for (std::size_t i = 0; i < 8; ++i)
+        reply[9 + i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i));
+    answers_.push_back(std::move(reply));
+}
+
+void Wheel::output(std::span<const std::uint8_t> report) {
+    if (stalled || report.empty()) return;
+    ++heard_;
+    const auto byte = [&](std::size_t at) { return at < report.size() ? report[at] : std::uint8_t{0}; };
+    const auto start_or_stop = [&](bool start) {
+        playing_ = start;
+        if (start) started_ = time_;
+    };
+    if (design_.board) {
+        const bool ours = byte(1) == block && loaded_;
+        switch (report[0]) {
+            case 0x01:
+                if (!ours || byte(2) != 1) return;
+                effect_gain_ = byte(11) / 255.0;
+                // North is no direction for a wheel.
+                if ((byte(13) & 4U) != 0) effect_gain_ *= std::sin(word(report, 14) / 36000.0 * 2.0 * pi);
+                set_ = true;
+                return;
+            case 0x05:
+                if (ours) magnitude_ = static_cast<std::int16_t>(word(report, 2)) / 32767.0;
+                return;
+            case 0x0a:
+                if (ours && (byte(2) == 1 || byte(2) == 3)) start_or_stop(byte(2) == 1);
+                return;
+            case 0x0b:
+                if (ours) loaded_ = set_ = playing_ = false;
+                return;
+            case 0x0c:
+                return control(byte(1));
+            case 0x0d:
+                gain_ = byte(1) / 255.0;
+                return;
+            case 0xa1:
+                return answer(report);
+            default:
+                return;
+        }
+    }
+    switch (report[0]) {
+        case 0x11:
+            if (byte(1) != block || byte(2) != 2) return;
+            effect_gain_ = byte(5) / 100.0 * std::sin(byte(7) / 256.0 * 2.0 * pi);
+            set_ = true;
+            return;
+        case 0x15:
+            magnitude_ = static_cast<std::int16_t>(word(report, 1)) / 10000.0;
+            return;
+        case 0x1a:
+            if (byte(1) == block && (byte(2) == 1 || byte(2) == 2)) start_or_stop(byte(2) == 2);
+            return;
+        case 0x1c: {
+            constexpr std::uint8_t as_bits[] = {0, 0x08, 0x04, 0x01, 0x02};
+            if (byte(1) < std::size(as_bits)) control(as_bits[byte(1)]);
+            loaded_ = true;  // its effect has a fixed place
+            return;
+        }
+        case 0x1d:
+            gain_ = byte(1) / 100.0;
+            return;
+        default:
+            return;
+    }
+}
+
+void Wheel::set_feature(std::span<const std::uint8_t> report) {
+    if (stalled || !design_.board || report.size() < 2) return;
+    ++heard_;
+    if (report[0] == 17 && report[1] == 1) loaded_ = true;
+}
+
+Bytes Wheel::get_feature(std::uint8_t report) {
+    if (stalled || !design_.board || report != 18) return {};
+    return {18, loaded_ ? block : std::uint8_t{0}, loaded_ ? std::uint8_t{1} : std::uint8_t{2}, 39, 0};
+}
+
+}  // namespace bolt::emulate
