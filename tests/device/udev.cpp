@@ -1,0 +1,49 @@
+#include <doctest/doctest.h>
+#include <fnmatch.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "haptics/device/list.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+
+namespace {
+
+const std::filesystem::path rules = BOLT_UDEV_RULES;
+
+// Whether a rule gives the device that the kernel calls so to whoever sits at the machine.
+bool gives(const std::string& line, const std::string& kernel_name) {
+    static const std::regex rule(R"re(^KERNEL=="hidraw\*", KERNELS=="([^"]+)", TAG\+="uaccess"$)re");
+    std::smatch match;
+    return std::regex_match(line, match, rule) &&
+           fnmatch(match[1].str().c_str(), kernel_name.c_str(), 0) == 0;
+}
+
+bool any_gives(const std::string& kernel_name) {
+    std::ifstream file(rules);
+    for (std::string line; std::getline(file, line);)
+        if (gives(line, kernel_name)) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("the udev rule gives pucks and OpenFFBoards to who sits there, and no keyboard") {
+    CHECK(rules.filename() < "73-seat-late.rules");
+    for (const char* ours :
+         {"0003:256F:C62E.0001", "0003:256F:C652.00AF", "0005:256F:C63A.0002", "0003:046D:C626.0001",
+          "0003:046D:C62B.0004", "0003:046D:C603.0004", "0003:1209:FFB0.0011"})
+        CHECK_MESSAGE(any_gives(ours), ours);
+    for (const char* others :
+         {"0003:046D:C52B.0001", "0003:046D:C077.0001", "0003:1209:FFB1.0001", "0003:256:C62E.1"})
+        CHECK_MESSAGE(!any_gives(others), others);
+}
+
+TEST_CASE("the line that is told for another wheel is a rule for it alone") {
+    const std::string line = udev_line({0x0eb7, 0x0e03, "Some wheel", ""});
+    CHECK(gives(line, "0003:0EB7:0E03.0007"));
+    CHECK(!gives(line, "0003:0EB7:0E04.0007"));
+}

@@ -1,0 +1,36 @@
+#include "tests/kernel/guest.hpp"
+
+#include <chrono>
+#include <thread>
+
+namespace bolt::test {
+
+bool becomes(const std::function<bool()>& so, double seconds) {
+    for (const double until = device::steady_seconds() + seconds; !so();) {
+        if (device::steady_seconds() > until) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return true;
+}
+
+emulate::Uhid plugged(std::unique_ptr<emulate::HidDevice> device) {
+    auto plug = emulate::Uhid::plug_in(std::move(device));
+    REQUIRE_MESSAGE(plug, (plug ? "" : plug.error().message()));
+    return std::move(*plug);
+}
+
+device::Listed listed(const std::string& id) {
+    device::Listed found;
+    const auto is_there = [&] {
+        for (const device::Listed& l : device::list())
+            if (l.id == id) {
+                found = l;
+                return true;
+            }
+        return false;
+    };
+    REQUIRE_MESSAGE(becomes(is_there), id << " does not appear");
+    return found;
+}
+
+}  // namespace bolt::test

@@ -1,0 +1,100 @@
+// How long a report is on its way from the device to whoever reads it, and an order to the device. Measured
+// by the guest's clock, which counts instructions: it says what is done in between, not how fast this machine
+// is.
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "haptics/device/hid_node.hpp"
+#include "tests/kernel/guest.hpp"
+#include "tools/emulate/puck.hpp"
+#include "tools/emulate/wheel_reports.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+
+namespace {
+
+constexpr std::size_t reports = 1000;
+
+struct Times {
+    std::array<std::atomic<double>, reports> sent{};
+    std::array<std::atomic<double>, reports> heard{};
+};
+
+// Numbers its reports, one every millisecond: no device is faster.
+class Metronome : public emulate::HidDevice {
+  public:
+    explicit Metronome(Times& times) : times_(times) {
+        design_ = {0x1209, 0xffb0, "Metronome", "", emulate::board_descriptor()};
+    }
+    [[nodiscard]] const emulate::HidDesign& design() const override { return design_; }
+    std::vector<emulate::Bytes> go_on(double now) override {
+        if (now < next_ || number_ == reports) return {};
+        next_ = now + 0.0009;
+        emulate::Bytes report(25);
+        report[0] = 1;
+        report[1] = static_cast<std::uint8_t>(number_);
+        report[2] = static_cast<std::uint8_t>(number_ >> 8U);
+        times_.sent[number_++] = steady_seconds();
+        return {report};
+    }
+    void output(std::span<const std::uint8_t> report) override {
+        const std::size_t n = report[1] | static_cast<std::size_t>(report[2]) << 8U;
+        if (n < reports) times_.heard[n] = steady_seconds();
+    }
+    void set_feature(std::span<const std::uint8_t>) override {}
+    emulate::Bytes get_feature(std::uint8_t) override { return {}; }
+
+  private:
+    Times& times_;
+    emulate::HidDesign design_;
+    std::size_t number_ = 0;
+    double next_ = 0.0;
+};
+
+void tell(const std::string& what, std::vector<double>& took) {
+    std::sort(took.begin(), took.end());
+    const auto at = [&](double share) {
+        return took[static_cast<std::size_t>(share * static_cast<double>(took.size() - 1))] * 1e3;
+    };
+    MESSAGE(what << ": p50 " << at(0.5) << " ms, p99 " << at(0.99) << " ms, worst " << at(1.0) << " ms of "
+                 << took.size());
+}
+
+}  // namespace
+
+TEST_CASE("a report is read, and an order is heard, within a period of the device") {
+    Times times;
+    const auto plug = plugged(std::make_unique<Metronome>(times));
+    const Listed l = listed("1209:ffb0");
+    auto line = open_hid(l.path);
+    REQUIRE(line);
+    std::vector<double> reads, writes, orders;
+    std::size_t last = 0;
+    while (last + 1 < reports) {
+        const auto report = (*line)->read(0.5);
+        REQUIRE(report);
+        REQUIRE(!report->empty());
+        const double now = steady_seconds();
+        last = (*report)[1] | static_cast<std::size_t>((*report)[2]) << 8U;
+        reads.push_back(now - times.sent[last]);
+        emulate::Bytes order(4);
+        order[0] = 5;
+        order[1] = (*report)[1];
+        order[2] = (*report)[2];
+        REQUIRE((*line)->write(order));
+        writes.push_back(steady_seconds() - now);
+    }
+    CHECK(reads.size() > reports / 2);
+    CHECK(becomes([&] { return times.heard[last] > 0.0; }));
+    for (std::size_t i = 0; i < reports; ++i)
+        if (times.heard[i] > 0.0) orders.push_back(times.heard[i] - times.sent[i]);
+    tell("from the device to the reader", reads);
+    tell("a write", writes);
+    tell("from the device to the reader and back", orders);
+    CHECK(reads[reads.size() / 2] < 0.001);
+    CHECK(reads[reads.size() * 99 / 100] < 0.001);
+    CHECK(orders.size() > reports / 2);
+}

@@ -1,0 +1,108 @@
+#include "tools/emulate/puck.hpp"
+
+#include "tests/kernel/guest.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+
+namespace {
+
+// The last that it says within so long.
+Sample after(Device& device, double seconds) {
+    std::optional<Sample> last;
+    for (const double until = steady_seconds() + seconds; steady_seconds() < until;) {
+        const auto sample = device.read(0.01);
+        REQUIRE(sample);
+        if (*sample) last = *sample;
+    }
+    REQUIRE(last);
+    return *last;
+}
+
+}  // namespace
+
+TEST_CASE("with nothing plugged in nothing is listed") {
+    CHECK(list(true).empty());
+    CHECK(!opener("256f:c62e")());
+}
+
+TEST_CASE("a SpaceMouse is found, told what it is, and read") {
+    const auto plug = plugged(std::make_unique<emulate::Puck>(emulate::PuckDesign{.serial = "S1"}));
+    const Listed l = listed("256f:c62e:S1");
+    CHECK(l.kind == HidKind::puck);
+    CHECK(l.name == "Emulated SpaceMouse");
+    CHECK(l.path.starts_with("/dev/hidraw"));
+    REQUIRE_MESSAGE(!l.trouble, (l.trouble ? l.trouble->message() : ""));
+    auto device = opener(l.id)();
+    REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
+    CHECK((*device)->describe().sensing == Sensing::rate);
+    with<emulate::Puck>(plug, [](emulate::Puck& p) { p.share = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
+    const Sample pushed = after(**device, 0.1);
+    CHECK(pushed.velocity.x == doctest::Approx(PuckFeel{}.speed));
+    CHECK(pushed.angular_velocity.y == doctest::Approx(PuckFeel{}.turn_speed));
+    with<emulate::Puck>(plug, [](emulate::Puck& p) {
+        p.share = {};
+        p.buttons = 1;
+    });
+    const Sample rests = after(**device, 0.1);
+    CHECK(rests.velocity == Vec3(0.0));
+    CHECK(rests.buttons == 1U);
+}
+
+TEST_CASE("unplugged while it is read it is lost at once; plugged in again it is opened within two seconds") {
+    auto plug = std::make_unique<emulate::Uhid>(plugged(std::make_unique<emulate::Puck>()));
+    const std::string id = listed("256f:c62e").id;
+    const Open open = opener(id);
+    for (int round = 0; round < 5; ++round) {
+        auto device = open();
+        REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
+        with<emulate::Puck>(*plug, [](emulate::Puck& p) { p.share[0] = 0.5; });
+        CHECK(after(**device, 0.05).velocity.x > 0.0);
+
+        plug.reset();
+        const double unplugged = steady_seconds();
+        const auto lost = [&] {
+            const auto sample = (*device)->read(0.005);
+            if (!sample) CHECK(sample.error().lost);
+            return !sample;
+        };
+        CHECK(becomes(lost));
+        const double took = steady_seconds() - unplugged;
+        CHECK(took < 0.02);
+        device = fail(ErrorCode::failed, "closed");
+        const auto gone = open();
+        REQUIRE(!gone);
+        CHECK(gone.error().lost);
+
+        plug = std::make_unique<emulate::Uhid>(plugged(std::make_unique<emulate::Puck>()));
+        const double again = steady_seconds();
+        CHECK(becomes([&] { return open().has_value(); }));
+        const double usable = steady_seconds() - again;
+        CHECK(usable < 2.0);
+        MESSAGE("told to be lost after " << took * 1e3 << " ms, usable " << usable * 1e3
+                                         << " ms after plugging in");
+    }
+}
+
+TEST_CASE("two of the same are two, and stay apart") {
+    const auto one = plugged(std::make_unique<emulate::Puck>());
+    listed("256f:c62e");
+    const auto two = plugged(std::make_unique<emulate::Puck>());
+    listed("256f:c62e#2");
+    auto first = opener("256f:c62e")(), second = opener("256f:c62e#2")();
+    REQUIRE(first);
+    REQUIRE(second);
+    with<emulate::Puck>(one, [](emulate::Puck& p) { p.share[0] = 1.0; });
+    CHECK(after(**first, 0.05).velocity.x > 0.0);
+    CHECK(after(**second, 0.05).velocity.x == 0.0);
+}
+
+TEST_CASE("spoiled reports through the kernel do not stop a puck") {
+    const auto plug = plugged(std::make_unique<emulate::Puck>(
+        emulate::PuckDesign{.faults = {.cut = 0.3, .strange = 0.2, .changed = 0.0, .seed = 2}}));
+    auto device = opener(listed("256f:c62e").id)();
+    REQUIRE(device);
+    with<emulate::Puck>(plug, [](emulate::Puck& p) { p.share[0] = 1.0; });
+    CHECK(after(**device, 0.5).velocity.x == doctest::Approx(PuckFeel{}.speed));
+}

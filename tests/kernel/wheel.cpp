@@ -1,0 +1,102 @@
+#include "tools/emulate/wheel.hpp"
+
+#include "tests/kernel/guest.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+
+namespace {
+
+struct Bench {
+    explicit Bench(const emulate::WheelDesign& design)
+        : plug(plugged(std::make_unique<emulate::Wheel>(design))),
+          found(listed(design.board ? "1209:ffb0" : "1234:5678")) {
+        Rig rig;
+        rig.full_torque = design.full_torque;
+        rig.range = to_radians(design.degrees);
+        auto opened = opener(found.id, rig)();
+        REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().message()));
+        device = std::move(*opened);
+    }
+    template <class F>
+    void run(double seconds, const F& torque) {
+        for (const double until = steady_seconds() + seconds; steady_seconds() < until;) {
+            const auto sample = device->read(0.002);
+            REQUIRE_MESSAGE(sample, (sample ? "" : sample.error().message()));
+            if (*sample) last = **sample;
+            const Status written = device->write({.torque = device->describe().axis * torque()});
+            REQUIRE_MESSAGE(written, (written ? "" : written.error().message()));
+        }
+    }
+    // What the motor does, a little later.
+    double motor() const {
+        double torque = 0.0;
+        with<emulate::Wheel>(plug, [&](emulate::Wheel& w) { torque = w.torque(); });
+        return torque;
+    }
+
+    emulate::Uhid plug;
+    Listed found;
+    std::unique_ptr<Device> device;
+    Sample last;
+};
+
+}  // namespace
+
+TEST_CASE("a wheel is found, and the torque that is written is the torque of its motor, which turns it") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        Bench b({.board = board});
+        CHECK(b.found.kind == (board ? HidKind::board : HidKind::wheel));
+        CHECK(b.device->describe().limits.torque == doctest::Approx(2.0));
+        with<emulate::Wheel>(b.plug, [](emulate::Wheel& w) { w.hand_stiffness = 10.0; });
+        for (const double torque : {1.0, -1.5}) {
+            b.run(2.0, [&] { return torque; });
+            CHECK(b.motor() == doctest::Approx(torque).epsilon(0.01));
+            CHECK(b.last.turn == doctest::Approx(0.1 * torque).epsilon(0.05));
+        }
+        b.device.reset();
+        const auto is_quiet = [&] { return b.motor() == 0.0; };
+        CHECK(becomes(is_quiet, 0.1));
+    }
+}
+
+TEST_CASE("a spring over the real line rests where statics have it") {
+    Bench b({});
+    with<emulate::Wheel>(b.plug, [](emulate::Wheel& w) {
+        w.hand_stiffness = 5.0;
+        w.hand = 0.4;
+    });
+    b.run(5.0, [&] { return 5.0 * (0.0 - b.last.turn); });
+    CHECK(b.last.turn == doctest::Approx(0.2).epsilon(0.03));
+}
+
+TEST_CASE("unplugged under torque it is lost, closed without hanging, and pulls nothing when it comes back") {
+    auto b = std::make_unique<Bench>(emulate::WheelDesign{});
+    b->run(0.1, [] { return 1.5; });
+    CHECK(b->motor() == doctest::Approx(1.5).epsilon(0.01));
+    b->plug = plugged(std::make_unique<emulate::Wheel>(emulate::WheelDesign{.serial = "again"}));
+    const auto lost = [&] {
+        return !b->device->write({.torque = {0.0, 0.0, -1.0}}) || !b->device->read(0.002);
+    };
+    CHECK(becomes(lost, 0.1));
+    b->device.reset();
+    auto again = opener(listed("1209:ffb0:again").id)();
+    REQUIRE_MESSAGE(again, (again ? "" : again.error().message()));
+    CHECK(b->motor() == 0.0);
+    REQUIRE((*again)->write({.torque = {0.0, 0.0, -1.0}}));
+    CHECK(becomes([&] { return b->motor() > 0.0; }, 0.1));
+}
+
+TEST_CASE("a board that does not answer is not waited for without end") {
+    auto dead = std::make_unique<emulate::Wheel>();
+    dead->stalled = true;
+    const auto plug = plugged(std::move(dead));
+    const std::string id = listed("1209:ffb0").id;
+    const double begun = steady_seconds();
+    const auto device = opener(id)();
+    REQUIRE(!device);
+    CHECK(device.error().message().find("does not say how far") != std::string::npos);
+    CHECK(steady_seconds() - begun < 2.0);
+}

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Fetches Debian's stock kernel for tests/kernel, unpacked and not installed: its image and the modules for HID devices.
+# From the package archive the first time, without a network ever after. $1: where to.
+set -euo pipefail
+to=$1
+[[ ! -e $to/vmlinuz ]] || exit 0
+if [[ $(dpkg --print-architecture 2>/dev/null) != amd64 ]]; then
+    echo "This is no Debian on amd64, so the test against a real kernel is left out" >&2
+    exit 0
+fi
+as_root=()
+[[ $(id -u) -eq 0 ]] || as_root=(sudo)
+newest() { apt-cache depends linux-image-amd64 2>/dev/null | awk '$1 == "Depends:" && $2 ~ /^linux-image-[0-9]/ { print $2; exit }'; }
+rm -rf "$to"
+mkdir -p "$to/work"
+download() { (cd "$to/work" && apt-get download -qq -o APT::Sandbox::User=root "$(newest)"); }
+echo "Fetching: a Linux kernel for tests"
+if [[ -z $(newest) ]] || ! download 2>/dev/null; then
+    "${as_root[@]}" apt-get update -qq
+    download
+fi
+dpkg-deb --fsys-tarfile "$to"/work/*.deb | tar -x -C "$to/work" --wildcards './boot/vmlinuz-*' \
+    './lib/modules/*/kernel/drivers/hid/hid.ko' './lib/modules/*/kernel/drivers/hid/hid-generic.ko' \
+    './lib/modules/*/kernel/drivers/hid/uhid.ko'
+mv "$to"/work/lib/modules/*/kernel/drivers/hid/*.ko "$to"
+mv "$to"/work/boot/vmlinuz-* "$to/vmlinuz.new"
+rm -r "$to/work"
+mv "$to/vmlinuz.new" "$to/vmlinuz"
