@@ -19,7 +19,8 @@ constexpr double believed_rest = 0.25;   // s
 constexpr double answer_patience = 0.1;  // s for an answer of a board while it is opened
 constexpr double ask_again = 0.02;       // s, for the encoder
 constexpr int most_tries = 3;
-constexpr int most_at_once = 256;  // reports in one read
+constexpr std::int64_t most_degrees = 65535;  // what a board has room for
+constexpr int most_at_once = 256;             // reports in one read
 
 // What wheels and boards have in common: a line, an axis, a force.
 struct Hub {
@@ -203,7 +204,7 @@ Result<std::unique_ptr<Device>> make_open_ffboard(std::unique_ptr<HidLine> line,
     if (!hub) return fail(hub.error());
     const auto degrees = ask(*hub, board::Command::degrees);
     if (!degrees) return fail(degrees.error());
-    if (!*degrees || **degrees <= 0)
+    if (!*degrees || **degrees <= 0 || **degrees > most_degrees)
         return fail(ErrorCode::no_device,
                     fmt::format("{} does not say how far its axis turns", hub->description.name),
                     "an OpenFFBoard whose main class is a force feedback wheel, with commands over HID");
