@@ -37,7 +37,9 @@ class HidNode : public HidLine {
 
     Result<std::span<const std::uint8_t>> read(double patience) override {
         const int ms = static_cast<int>(std::ceil(std::clamp(patience, 0.0, 1e6) * 1e3));
+        errno = 0;
         const int n = hid_read_timeout(device_.get(), read_.data(), read_.size(), ms);
+        if (n < 0 && errno == EINTR) return std::span<const std::uint8_t>();  // a signal, no loss
         if (n < 0) return gone("nothing can be read from");
         return std::span<const std::uint8_t>(read_.data(), static_cast<std::size_t>(n));
     }

@@ -58,13 +58,24 @@ const Field* sent_field(const ReportDescriptor& descriptor, Usage usage, Usage w
     return nullptr;
 }
 
+// Seconds in a field's counts. Those that name no unit mean milliseconds, as the standard's own examples do.
+std::int64_t counts_of(const Field& field, double seconds) {
+    constexpr std::uint32_t si_seconds = 0x1001, english_seconds = 0x1003;
+    const bool says = field.unit == si_seconds || field.unit == english_seconds;
+    const double unit = says ? std::pow(10.0, field.exponent) : 1e-3;
+    double counts = std::clamp(seconds / unit, 0.0, 1e9);
+    const auto physical = static_cast<double>(field.physical_high - field.physical_low);
+    if (says && physical > 0.0) counts *= static_cast<double>(field.high - field.low) / physical;
+    return std::max<std::int64_t>(std::llround(counts), 1);
+}
+
 PidMessage set_effect_message(const ReportDescriptor& descriptor) {
     std::optional<Made> m = chosen(descriptor, constant_force, set_effect);
     if (!m) return {};
     const auto field = [&](Usage usage) {
         return find_field(descriptor, m->message.kind, usage, set_effect);
     };
-    if (const Field* f = field(duration)) put(*m, *f, f->high);
+    if (const Field* f = field(duration)) put(*m, *f, counts_of(*f, effect_life));
     if (const Field* f = field(gain)) put(*m, *f, f->high);
     // Of the axes that can be enabled the first is the wheel's. The button that triggers an effect, and the
     // delay of its start, stay zero: none.

@@ -11,6 +11,9 @@
 
 namespace bolt::device {
 
+// s that a force lasts without being started again: so long it outlives a program that was killed.
+constexpr double effect_life = 1.0;
+
 struct PidMessage {
     ReportKind kind = ReportKind::output;
     std::vector<std::uint8_t> bytes;  // id in front; empty: the device knows no such message
@@ -22,7 +25,7 @@ struct PidLayout {
     PidMessage gain;                     // all of it
     PidMessage create;                   // an effect of constant force
     PidMessage loaded;                   // to be asked for: where the effect was put, and whether
-    PidMessage set;                      // the effect: for as long as can be said, from the right
+    PidMessage set;                      // the effect: for its life, from the right
     PidMessage force;                    // how strong it is
     PidMessage start, stop, free;        // the effect
     Field magnitude;                     // in `force`

@@ -4,9 +4,9 @@ namespace bolt::device {
 
 namespace {
 
-constexpr double tell_again = 0.1;   // s
-constexpr double start_again = 1.0;  // s; the shortest "for ever" that is known of is some 32 s
-constexpr int most_questions = 60;   // until an effect is loaded; as many as Linux asks
+constexpr double tell_again = 0.1;                  // s
+constexpr double start_again = 0.25 * effect_life;  // s
+constexpr int most_questions = 60;                  // until an effect is loaded; as many as Linux asks
 
 Status send(HidLine& line, const PidMessage& message) {
     if (message.bytes.empty()) return {};

@@ -12,8 +12,8 @@ class PidForce {
 
     // Takes the device over from whoever used it before: all effects stopped, ours made and started at zero.
     Status begin(HidLine& line, double now);
-    // −1 … 1 of what the device can, to the left. Sends what is new, and now and then what is not: there are
-    // devices that let a force die, and none that minds to be told again.
+    // −1 … 1 of what the device can, to the left. Sends what is new, and now and then what is not: the effect
+    // is given a short life, and there are devices that let a force die of themselves.
     Status push(HidLine& line, double share, double now);
     // As far as it still can be told.
     void end(HidLine& line);

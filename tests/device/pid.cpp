@@ -38,9 +38,9 @@ TEST_CASE("the messages of an OpenFFBoard, byte for byte as its firmware reads t
     CHECK(layout->start.bytes == Bytes{10, 3, 1, 1});
     CHECK(layout->stop.bytes == Bytes{10, 3, 3, 0});
     CHECK(layout->free.bytes == Bytes{11, 3});
-    // Constant force, for ever, at once, all of it, no button, direction of 90 degrees.
+    // Constant force, for a second, at once, all of it, no button, direction of 90 degrees.
     const unsigned direction = 35900 / 4;
-    CHECK(layout->set.bytes == Bytes{1, 3, 1, 0xff, 0x7f, 0, 0, 0, 0, 0, 0, 255, 0, 0x01 | 0x04,
+    CHECK(layout->set.bytes == Bytes{1, 3, 1, 0xe8, 0x03, 0, 0, 0, 0, 0, 0, 255, 0, 0x01 | 0x04,
                                      static_cast<std::uint8_t>(direction),
                                      static_cast<std::uint8_t>(direction >> 8U), 0, 0});
     put_share(*layout, 1.0);
@@ -68,7 +68,7 @@ TEST_CASE("a wheel that leaves things out and numbers others otherwise") {
     CHECK(layout->loaded.bytes.empty());
     CHECK(layout->free.bytes.empty());
     use_block(*layout, 1);
-    CHECK(layout->set.bytes == Bytes{0x11, 1, 2, 0xff, 0xff, 100, 0x05, 63, 0});
+    CHECK(layout->set.bytes == Bytes{0x11, 1, 2, 0xe8, 0x03, 100, 0x05, 63, 0});
     CHECK(layout->start.bytes == Bytes{0x1a, 1, 2});
     CHECK(layout->stop.bytes == Bytes{0x1a, 1, 1});
     put_share(*layout, 0.5);

@@ -161,7 +161,7 @@ TEST_CASE("a device that lets a force die is told again; closed it is left witho
     for (const bool board : {true, false}) {
         CAPTURE(board);
         emulate::WheelDesign design = design_of(board);
-        design.effect_life = 1.5;
+        design.effect_life = 0.6;
         Bench b(design);
         REQUIRE(b.opened);
         b.wheel.hand_stiffness = 30.0;
@@ -172,6 +172,22 @@ TEST_CASE("a device that lets a force die is told again; closed it is left witho
         b.device.reset();
         CHECK(b.wheel.torque() == 0.0);
         if (board) CHECK(!b.wheel.has_effect());
+    }
+}
+
+TEST_CASE(
+    "a force outlives a program that was killed by a second at most, and comes back when the program does") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        Bench b(design_of(board));
+        REQUIRE(b.opened);
+        b.wheel.hand_stiffness = 30.0;
+        b.run(2.0, [] { return 1.0; });
+        b.plug.time += 1.01;
+        b.wheel.go_on(b.plug.time);
+        CHECK(b.wheel.torque() == 0.0);
+        b.run(0.01, [] { return 1.0; });
+        CHECK(b.wheel.torque() == doctest::Approx(1.0).epsilon(0.002));
     }
 }
 

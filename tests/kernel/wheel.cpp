@@ -1,5 +1,10 @@
 #include "tools/emulate/wheel.hpp"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
 #include "tests/kernel/guest.hpp"
 
 using namespace bolt;
@@ -87,6 +92,25 @@ TEST_CASE("unplugged under torque it is lost, closed without hanging, and pulls 
     CHECK(b->motor() == 0.0);
     REQUIRE((*again)->write({.torque = {0.0, 0.0, -1.0}}));
     CHECK(becomes([&] { return b->motor() > 0.0; }, 0.1));
+}
+
+TEST_CASE("a program that is killed leaves its force for a second at most") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        Bench b({.board = board});
+        b.device.reset();
+        const pid_t child = fork();
+        if (child == 0) {
+            auto device = opener(b.found.id)();
+            while (device) static_cast<void>((*device)->write({.torque = {0.0, 0.0, -1.0}}));
+            _exit(1);
+        }
+        CHECK(becomes([&] { return b.motor() > 0.1; }));
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+        CHECK(b.motor() > 0.1);
+        CHECK(becomes([&] { return b.motor() == 0.0; }, 1.01));
+    }
 }
 
 TEST_CASE("a board that does not answer is not waited for without end") {

@@ -29,7 +29,9 @@ Wheel::Wheel(const WheelDesign& design) : design_(design), random_(design.faults
 }
 
 double Wheel::torque() const {
-    if (!enabled_ || !loaded_ || !set_ || !playing_ || time_ - started_ > design_.effect_life) return 0.0;
+    if (!enabled_ || !loaded_ || !set_ || !playing_ ||
+        time_ - started_ > std::min(design_.effect_life, duration_))
+        return 0.0;
     // A force that comes from the right turns to the left.
     return -magnitude_ * effect_gain_ * gain_ * design_.power * design_.full_torque;
 }
@@ -118,6 +120,7 @@ void Wheel::output(std::span<const std::uint8_t> report) {
         switch (report[0]) {
             case 0x01:
                 if (!ours || byte(2) != 1) return;
+                duration_ = word(report, 3) / 1000.0;
                 effect_gain_ = byte(11) / 255.0;
                 // North is no direction for a wheel.
                 if ((byte(13) & 4U) != 0) effect_gain_ *= std::sin(word(report, 14) / 36000.0 * 2.0 * pi);
@@ -146,6 +149,7 @@ void Wheel::output(std::span<const std::uint8_t> report) {
     switch (report[0]) {
         case 0x11:
             if (byte(1) != block || byte(2) != 2) return;
+            duration_ = word(report, 3) / 1000.0;
             effect_gain_ = byte(5) / 100.0 * std::sin(byte(7) / 256.0 * 2.0 * pi);
             set_ = true;
             return;

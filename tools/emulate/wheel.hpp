@@ -16,9 +16,9 @@ struct WheelDesign {
     double power = 0.5;         // share of it that the board lets through
     double degrees = 1080.0;    // from stop to stop
     double counts_per_turn = 4000.0;
-    double inertia = 0.02;        // kg·m², hand included
-    double damping = 0.5;         // N·m·s/rad
-    double effect_life = 32.767;  // s after which a force dies that was not started again
+    double inertia = 0.02;      // kg·m², hand included
+    double damping = 0.5;       // N·m·s/rad
+    double effect_life = 60.0;  // s after which a force dies that was not started again
     HidFaults faults{};
 };
 
@@ -53,6 +53,7 @@ class Wheel : public HidDevice {
     double angle_ = 0.0, speed_ = 0.0, time_ = 0.0, next_ = 0.0, told_at_ = -1.0, started_ = 0.0;
     bool enabled_ = false, loaded_ = false, set_ = false, playing_ = false;
     double gain_ = 1.0, effect_gain_ = 0.0, magnitude_ = 0.0;  // shares
+    double duration_ = 0.0;                                    // s
     std::uint64_t heard_ = 0;
     Bytes told_;
     std::vector<Bytes> answers_;
