@@ -122,13 +122,15 @@ std::string udev_line(const HidIdentity& who) {
 
 std::vector<Listed> list(bool others) {
     std::vector<Listed> out;
+    for (const Seen& one : seen()) out.push_back(listed(one));
+    // What is for hands comes first, and so has the same numbers whether or not others are asked for: a
+    // puck's receiver is a keyboard too.
+    const auto is_other = [](const Listed& l) { return l.kind == HidKind::other && !l.trouble; };
+    std::stable_partition(out.begin(), out.end(), [&](const Listed& l) { return !is_other(l); });
+    if (!others) std::erase_if(out, is_other);
     std::map<std::string, int> met;
-    for (const Seen& one : seen()) {
-        Listed l = listed(one);
-        if (l.kind == HidKind::other && !l.trouble && !others) continue;
+    for (Listed& l : out)
         if (const int n = ++met[l.id]; n > 1) l.id += fmt::format("#{}", n);
-        out.push_back(std::move(l));
-    }
     return out;
 }
 

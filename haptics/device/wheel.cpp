@@ -72,6 +72,8 @@ Result<Hub> make_hub(std::unique_ptr<HidLine> line, const ReportDescriptor& desc
     d.axis = rig.axis;
     d.limits.force = 0.0;
     d.limits.delay = 2;
+    // Under what a wheel's own damping takes: b/τ with 0.1 N·m·s/rad and 3 ms there and back.
+    d.limits.torsion = 20.0;
     d.rate = usual_rate;
     d.buttons = static_cast<int>(hub.axis.buttons.size());
     for (int i = 0; i < 3; ++i) d.renders[static_cast<std::size_t>(3 + i)] = std::abs(rig.axis[i]) > 0.01;

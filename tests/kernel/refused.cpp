@@ -16,8 +16,8 @@ namespace {
 
 class Plain : public emulate::HidDevice {
   public:
-    explicit Plain(emulate::Bytes descriptor) {
-        design_ = {0x1234, 0x0001, "Some device", "", std::move(descriptor)};
+    explicit Plain(emulate::Bytes descriptor, std::uint16_t vendor = 0x1234, std::uint16_t product = 1) {
+        design_ = {vendor, product, "Some device", "", std::move(descriptor)};
     }
     [[nodiscard]] const emulate::HidDesign& design() const override { return design_; }
     std::vector<emulate::Bytes> go_on(double) override { return {}; }
@@ -67,6 +67,23 @@ TEST_CASE("without permission the rule that gives it is named, and with it the d
     REQUIRE(chmod(a.path.c_str(), 0666) == 0);
     CHECK(holds_for_nobody([&] { return message(a.id) == "usable" && opener(a.id)().has_value(); }));
     CHECK(!holds_for_nobody([&] { return message(b.id) == "usable"; }));
+}
+
+TEST_CASE("a keyboard that came with a puck does not change the puck's name") {
+    emulate::Items keys;
+    keys.page(1).usage(6).begin(1).page(7).usages(0xe0, 0xe7).range(0, 1).fields(8, 1).input(2).end();
+    const auto keyboard = plugged(std::make_unique<Plain>(keys.out, 0x256f, 0xc62e));
+    REQUIRE(becomes([] { return list(true).size() == 1; }));
+    CHECK(list().empty());
+    CHECK(list(true).front().kind == HidKind::other);
+    CHECK(!opener("256f:c62e")());
+    const auto puck = plugged(std::make_unique<emulate::Puck>());
+    CHECK(listed("256f:c62e").kind == HidKind::puck);
+    const auto all = list(true);
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].kind == HidKind::puck);
+    CHECK(all[0].id == "256f:c62e");
+    CHECK(all[1].id == "256f:c62e#2");
 }
 
 TEST_CASE("descriptors that make no sense get no further than the kernel, or are told") {
