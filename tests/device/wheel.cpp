@@ -124,6 +124,30 @@ TEST_CASE("a spring made of torques over the line holds the wheel still") {
     }
 }
 
+TEST_CASE("the stiffness that is described is rendered without trembling, by a wheel that hardly damps") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        emulate::WheelDesign design = design_of(board);
+        design.damping = 0.1;
+        Bench b(design, {.most_torque = 5.0});
+        REQUIRE(b.opened);
+        b.plug.write_takes = 0.001;  // so long it is on the bus
+        const double stiffness = b.device->describe().limits.torsion;
+        b.run(1.0, [] { return 1.0; });  // somewhere else than where the spring rests
+        const auto spring = [&] { return -stiffness * b.last.turn; };
+        double last = 1e9;
+        for (int second = 0; second < 4; ++second) {
+            double most = 0.0;
+            b.run(1.0, [&] {
+                most = std::max(most, std::abs(b.wheel.angle()));
+                return spring();
+            });
+            CHECK(most < std::max(0.5 * last, 1e-3));
+            last = most;
+        }
+    }
+}
+
 TEST_CASE("an OpenFFBoard turns without end where its counts are known, and lives while it rests") {
     Bench b({}, {.counts_per_turn = 4000.0});
     REQUIRE(b.opened);
