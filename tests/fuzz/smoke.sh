@@ -21,5 +21,5 @@ smoke gltf 20000 -dict="$here/gltf.dict" -max_len=16384 "$bin/../corpus/gltf"
 smoke glove 100000 -max_len=4096 -dict="$here/glove.dict"
 smoke cal 100000 "$bin/../corpus/cal"
 smoke report 200000 -max_len=512
-smoke force_device 200000 -max_len=1024
+smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
 echo "$passed passed, 0 failed"
