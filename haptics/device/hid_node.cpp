@@ -20,6 +20,10 @@ namespace {
 
 constexpr std::size_t longest_report = 4096;
 
+constexpr const char* permission =
+    "the udev rule: sudo cp tools/udev/60-boltwright.rules /etc/udev/rules.d/ && "
+    "sudo udevadm control --reload, then plug it in again";
+
 struct Close {
     void operator()(hid_device* device) const { hid_close(device); }
 };
@@ -94,8 +98,7 @@ Status can_open_hid(const std::filesystem::path& node) {
     error.code = ErrorCode::no_device;
     error.what = fmt::format("cannot open {}: {}", node.string(), std::strerror(why));
     if (why == EACCES || why == EPERM)
-        error.expected =
-            "tools/udev/60-boltwright.rules in /etc/udev/rules.d, and the device plugged in again after";
+        error.expected = permission;
     else if (why == ENOENT || why == ENODEV || why == ENXIO) {
         error.expected = "a device that is plugged in";
         error.lost = true;

@@ -93,7 +93,7 @@ Listed listed(const Seen& one) {
     } else if (Status can = can_open_hid(one.path); !can) {
         l.trouble = can.error();
         if (l.kind == HidKind::wheel && !l.trouble->lost)
-            l.trouble->expected += fmt::format(" (with the line {} in it)", udev_line(one.who));
+            l.trouble->expected += fmt::format("; for this wheel with the line {} in it", udev_line(one.who));
     }
     return l;
 }
