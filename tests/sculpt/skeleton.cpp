@@ -1,4 +1,4 @@
-#include "tools/sculpt/hand_skeleton.hpp"
+#include "haptics/hand/skeleton.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,9 @@
 #include "tools/sculpt/field.hpp"
 
 using namespace bolt;
-using namespace bolt::sculpt;
+using namespace bolt::hand;
+using sculpt::mm;
+namespace test = sculpt::test;
 
 namespace {
 

@@ -6,13 +6,6 @@
 namespace bolt::sculpt {
 namespace {
 
-// Half the breadth of the gloved digit at the metacarpal joint, the knuckle, the joints after it and the tip.
-constexpr std::array<std::array<double, 5>, 5> radii_mm{{{15.0, 13.0, 11.9, 9.6, 0.0},
-                                                         {12.5, 11.8, 10.5, 9.7, 8.4},
-                                                         {12.8, 12.0, 10.7, 9.9, 8.6},
-                                                         {12.3, 11.4, 10.1, 9.4, 8.2},
-                                                         {11.5, 10.3, 9.0, 8.4, 7.4}}};
-constexpr double glove_mm = 1.6;   // beyond the skin of the tip
 constexpr double flatness = 0.92;  // depth of a finger over its breadth
 
 // Elliptic tube along z: half axes at stations from the cuff's end to inside the palm.
@@ -93,8 +86,8 @@ HandShape::HandShape() : skeleton_(right_skeleton()) {
             bone.side = axes[0];
             bone.up = axes[1];
             bone.forward = -axes[2];
-            bone.radius_a = radii_mm[d][i] * mm;
-            bone.radius_b = radii_mm[d][i + 1] * mm;
+            bone.radius_a = half_breadths_mm[d][i] * mm;
+            bone.radius_b = half_breadths_mm[d][i + 1] * mm;
             bone.length = glm::length(bone.b - bone.a);
             travel_[d][i + 1] = travel_[d][i] + bone.length;
             if (i + 1 == bone_count_[d]) {  // the last sphere ends at the tip of the glove

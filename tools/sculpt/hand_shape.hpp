@@ -4,11 +4,13 @@
 
 #include <array>
 
+#include "haptics/hand/skeleton.hpp"
 #include "tools/sculpt/field.hpp"
-#include "tools/sculpt/hand_skeleton.hpp"
 #include "tools/sculpt/surface_nets.hpp"
 
 namespace bolt::sculpt {
+
+using namespace hand;  // the joints and their names
 
 // Where a point lies along a digit.
 struct Along {

@@ -1,14 +1,19 @@
 // bolt-sculpt: makes the hands, the workshop and its light; the same bytes every time.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "engine/assets/gltf.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/program.hpp"
+#include "haptics/glove/hand_angles.hpp"
+#include "haptics/hand/limits.hpp"
 #include "tools/sculpt/content_files.hpp"
 #include "tools/sculpt/pose.hpp"
 
@@ -37,7 +42,19 @@ void add_maker(CLI::App& app, int& exit_code, const std::string& name, const std
 
 struct PoseOptions {
     std::string hand, out, pose = "fist";
+    std::vector<double> glove;  // degrees, by glove::Sensor; empty: the named pose
 };
+
+// As a glove would bend it.
+bolt::Result<bolt::assets::Model> gloved(const bolt::assets::Model& model, std::span<const double> degrees,
+                                         bool left) {
+    bolt::glove::BySensor<double> angles{};
+    std::transform(degrees.begin(), degrees.end(), angles.begin(), bolt::to_radians);
+    const bolt::hand::Hand hand =
+        bolt::hand::make_hand(left ? bolt::hand::Side::left : bolt::hand::Side::right);
+    const bolt::hand::Angles bent = bolt::hand::limited(bolt::glove::hand_angles(angles));
+    return bolt::sculpt::posed(model, bolt::hand::joints(hand, bent, bolt::hand::wrist_of(hand, bent, {})));
+}
 
 Status write_posed(const PoseOptions& options) {
     if (Status s = bolt::keep_apart(options.hand, options.out); !s) return s;
@@ -48,7 +65,9 @@ Status write_posed(const PoseOptions& options) {
         return bolt::fail(bolt::ErrorCode::usage, "no pose '" + options.pose + "'",
                           "open, relaxed, fist, pinch or grip");
     const bool left = !hand->meshes.empty() && hand->meshes[0].name == "hand_left";
-    auto model = bolt::sculpt::posed(*hand, left ? bolt::sculpt::mirrored(*right) : *right);
+    auto model = options.glove.empty()
+                     ? bolt::sculpt::posed(*hand, left ? bolt::sculpt::mirrored(*right) : *right)
+                     : gloved(*hand, options.glove, left);
     if (!model) {
         bolt::Error error = model.error();
         error.file = options.hand;
@@ -63,6 +82,11 @@ void add_pose(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<PoseOptions>();
     command->add_option("HAND", options->hand, "hand_left.glb or hand_right.glb")->required();
     command->add_option("--pose", options->pose, "open, relaxed, fist, pinch or grip");
+    command
+        ->add_option("--glove", options->glove,
+                     "22 angles in degrees as a CyberGlove gives them, thumb roll first, wrist yaw last")
+        ->delimiter(',')
+        ->expected(static_cast<int>(bolt::glove::all_sensors));
     command->add_option("-o,--out", options->out, "the .glb to write")->required();
     command->callback([options, &exit_code] {
         const Status done = write_posed(*options);

@@ -97,6 +97,44 @@ Result<Joints> pose_joints(const assets::Model& hand, const Pose& pose) {
     return joints;
 }
 
+Result<assets::Model> skinned(const assets::Model& hand, const Joints& joints) {
+    if (hand.skins.empty() || hand.skins[0].joints.size() != joint_count || hand.meshes.empty()) {
+        return fail(ErrorCode::bad_content, "no skinned mesh", "a hand made by bolt-sculpt");
+    }
+    std::vector<glm::dmat4> bones;
+    for (std::size_t i = 0; i < joint_count; ++i) {
+        const auto node = static_cast<std::size_t>(hand.skins[0].joints[i]);
+        const auto joint = std::find(joint_names.begin(), joint_names.end(), hand.nodes[node].name);
+        if (joint == joint_names.end()) return fail(ErrorCode::bad_content, "a joint of another skeleton");
+        bones.push_back(joints.global[static_cast<std::size_t>(joint - joint_names.begin())] *
+                        glm::dmat4(hand.skins[0].inverse_bind[i]));
+    }
+    assets::Model out = hand;
+    for (assets::Primitive& primitive : out.meshes[0].primitives) {
+        for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+            glm::dmat4 blend(0.0);
+            for (int k = 0; k < 4; ++k) {
+                blend += static_cast<double>(primitive.weights[v][k]) * bones[primitive.joints[v][k]];
+            }
+            const glm::dmat3 turn(blend);
+            primitive.positions[v] = Vec3(blend * glm::dvec4(Vec3(primitive.positions[v]), 1.0));
+            primitive.normals[v] = glm::normalize(turn * Vec3(primitive.normals[v]));
+            if (primitive.tangents.empty()) continue;
+            const Vec3 tangent = glm::normalize(turn * Vec3(primitive.tangents[v]));
+            primitive.tangents[v] = glm::vec4(glm::vec3(tangent), primitive.tangents[v].w);
+        }
+        primitive.joints.clear();
+        primitive.weights.clear();
+    }
+    assets::Node node;
+    node.name = hand.meshes[0].name;
+    node.mesh = 0;
+    out.nodes = {node};
+    out.roots = {0};
+    out.skins.clear();
+    return out;
+}
+
 }  // namespace
 
 void Pose::flex(std::size_t joint, double degrees) { set(joint, degrees, 0.0, 0.0); }
@@ -139,41 +177,16 @@ Result<Skeleton> posed_joints(const assets::Model& hand, const Pose& pose) {
 Result<assets::Model> posed(const assets::Model& hand, const Pose& pose) {
     const Result<Joints> joints = pose_joints(hand, pose);
     if (!joints) return tl::unexpected(joints.error());
-    if (hand.skins.empty() || hand.skins[0].joints.size() != joint_count || hand.meshes.empty()) {
-        return fail(ErrorCode::bad_content, "no skinned mesh", "a hand made by bolt-sculpt");
-    }
-    std::vector<glm::dmat4> bones;
+    return skinned(hand, *joints);
+}
+
+Result<assets::Model> posed(const assets::Model& hand, const Skeleton& joints) {
+    Joints at;
     for (std::size_t i = 0; i < joint_count; ++i) {
-        const auto node = static_cast<std::size_t>(hand.skins[0].joints[i]);
-        const auto joint = std::find(joint_names.begin(), joint_names.end(), hand.nodes[node].name);
-        if (joint == joint_names.end()) return fail(ErrorCode::bad_content, "a joint of another skeleton");
-        bones.push_back(joints->global[static_cast<std::size_t>(joint - joint_names.begin())] *
-                        glm::dmat4(hand.skins[0].inverse_bind[i]));
+        at.global[i] = glm::mat4_cast(joints.rotation[i]);
+        at.global[i][3] = glm::dvec4(joints.position[i], 1.0);
     }
-    assets::Model out = hand;
-    for (assets::Primitive& primitive : out.meshes[0].primitives) {
-        for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
-            glm::dmat4 blend(0.0);
-            for (int k = 0; k < 4; ++k) {
-                blend += static_cast<double>(primitive.weights[v][k]) * bones[primitive.joints[v][k]];
-            }
-            const glm::dmat3 turn(blend);
-            primitive.positions[v] = Vec3(blend * glm::dvec4(Vec3(primitive.positions[v]), 1.0));
-            primitive.normals[v] = glm::normalize(turn * Vec3(primitive.normals[v]));
-            if (primitive.tangents.empty()) continue;
-            const Vec3 tangent = glm::normalize(turn * Vec3(primitive.tangents[v]));
-            primitive.tangents[v] = glm::vec4(glm::vec3(tangent), primitive.tangents[v].w);
-        }
-        primitive.joints.clear();
-        primitive.weights.clear();
-    }
-    assets::Node node;
-    node.name = hand.meshes[0].name;
-    node.mesh = 0;
-    out.nodes = {node};
-    out.roots = {0};
-    out.skins.clear();
-    return out;
+    return skinned(hand, at);
 }
 
 }  // namespace bolt::sculpt

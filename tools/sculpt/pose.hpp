@@ -6,9 +6,11 @@
 
 #include "engine/assets/model.hpp"
 #include "engine/base/result.hpp"
-#include "tools/sculpt/hand_skeleton.hpp"
+#include "haptics/hand/skeleton.hpp"
 
 namespace bolt::sculpt {
+
+using namespace hand;  // the joints and their names
 
 // What each joint of the right hand turns from its rest, in its own frame.
 struct Pose {
@@ -29,6 +31,9 @@ Pose mirrored(const Pose& pose);
 
 // A copy of the hand without its skin, in the pose. Joints are found by name.
 Result<assets::Model> posed(const assets::Model& hand, const Pose& pose);
+
+// The same with its joints where they are put, in the frame of the model.
+Result<assets::Model> posed(const assets::Model& hand, const Skeleton& joints);
 
 // Where the joints are in the pose, in the frame of the wrist.
 Result<Skeleton> posed_joints(const assets::Model& hand, const Pose& pose);

@@ -1,6 +1,7 @@
-// The 26 joints of XR_EXT_hand_tracking (OpenXR 1.0, section 12.31) in a relaxed open hand. Frames as the
-// extension has them: −Z from the wrist towards the tip along the bone that begins at the joint, +Y out of
-// the back of the hand or nail, +X to the right. Positions in the frame of the wrist joint, metres.
+// The 26 joints of XR_EXT_hand_tracking (OpenXR 1.0, section 12.31), of a hand at rest and of a flat one.
+// Frames as the extension has them: −Z from the wrist towards the tip along the bone that begins at the
+// joint, +Y out of the back of the hand or nail, +X to the right. Positions in the frame of the wrist joint,
+// metres.
 //
 // Lengths of the bones and of the soft tissue at the tips are plausible, near those of A. Buryanov, V.
 // Kotiuk, Proportions of hand segments, Int. J. Morphol. 28(3), 2010, 755-758; no copy of that table was at
@@ -13,7 +14,7 @@
 
 #include "engine/base/math.hpp"
 
-namespace bolt::sculpt {
+namespace bolt::hand {
 
 // In the order of XrHandJointEXT; names of nodes are those of the enumeration in lower case.
 enum Joint : std::size_t {
@@ -89,13 +90,26 @@ inline constexpr std::array<Digit, 5> digits{Digit{thumb_metacarpal, 4}, Digit{i
                                              Digit{middle_metacarpal, 5}, Digit{ring_metacarpal, 5},
                                              Digit{little_metacarpal, 5}};
 
+// Half the breadth (mm) of the gloved digit at the metacarpal joint, the knuckle, the joints after it and the
+// tip.
+inline constexpr std::array<std::array<double, 5>, 5> half_breadths_mm{{{15.0, 13.0, 11.9, 9.6, 0.0},
+                                                                        {12.5, 11.8, 10.5, 9.7, 8.4},
+                                                                        {12.8, 12.0, 10.7, 9.9, 8.6},
+                                                                        {12.3, 11.4, 10.1, 9.4, 8.2},
+                                                                        {11.5, 10.3, 9.0, 8.4, 7.4}}};
+inline constexpr double glove_mm = 1.6;  // beyond the skin of the tip
+
+inline constexpr double skeleton_length = 0.189;  // m, wrist to the middle finger's tip along the bones
+
 struct Skeleton {
     std::array<Vec3, joint_count> position{};
     std::array<Quat, joint_count> rotation{};
 };
 
-// The right hand: its thumb points to −X. The left hand is mirrored() in the plane x = 0.
+// The right hand, relaxed and open: its thumb points to −X. The left hand is mirrored() in the plane x = 0.
 Skeleton right_skeleton();
+// The same hand flat: fingers and thumb straight and side by side in the plane of the palm.
+Skeleton flat_right_skeleton();
 Skeleton mirrored(const Skeleton& skeleton);
 
-}  // namespace bolt::sculpt
+}  // namespace bolt::hand

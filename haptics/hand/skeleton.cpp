@@ -1,11 +1,11 @@
-#include "tools/sculpt/hand_skeleton.hpp"
+#include "haptics/hand/skeleton.hpp"
 
 #include <glm/geometric.hpp>
 
-#include "tools/sculpt/field.hpp"
-
-namespace bolt::sculpt {
+namespace bolt::hand {
 namespace {
+
+constexpr double mm = 1e-3;
 
 Quat frame(const Vec3& forward, const Vec3& up) {
     const Vec3 z = -glm::normalize(forward);
@@ -60,35 +60,59 @@ void place_finger(Skeleton& hand, const Bones& finger, const Rest& angles) {
     hand.rotation[finger.first + 4] = hand.rotation[finger.first + 3];
 }
 
-// The thumb's metacarpal stands out of the plane of the palm, and its nail looks to the side.
-void place_thumb(Skeleton& hand) {
-    const std::array<Vec3, 3> forward{glm::normalize(Vec3(-0.60, -0.36, -0.72)),
-                                      glm::normalize(Vec3(-0.47, -0.29, -0.84)),
-                                      glm::normalize(Vec3(-0.36, -0.23, -0.90))};
+struct Thumb {
+    std::array<Vec3, 3> forward;
+    Vec3 up;
+};
+
+// The metacarpal stands out of the plane of the palm, and the nail looks to the side.
+Thumb thumb_at_rest() {
+    return {{glm::normalize(Vec3(-0.60, -0.36, -0.72)), glm::normalize(Vec3(-0.47, -0.29, -0.84)),
+             glm::normalize(Vec3(-0.36, -0.23, -0.90))},
+            Vec3(-0.72, 0.69, 0.0)};
+}
+
+// Beside the index finger: as near as their flesh lets it. The nail is that at rest, rolled back by as much
+// as the metacarpal is out of the palm's plane there (31°).
+Thumb flat_thumb() {
+    return {{direction(-15.0, 0.0), direction(-15.0, 0.0), direction(-15.0, 0.0)}, Vec3(-0.26, 0.965, 0.0)};
+}
+
+void place_thumb(Skeleton& hand, const Thumb& thumb) {
     const std::array<double, 3> length_mm{46.22, 31.57, 21.67 + 5.67};
-    const Vec3 up(-0.72, 0.69, 0.0);
     Vec3 at = Vec3(-19.0, -7.0, -17.0) * mm;
     for (std::size_t bone = 0; bone < 3; ++bone) {
         hand.position[thumb_metacarpal + bone] = at;
-        hand.rotation[thumb_metacarpal + bone] = frame(forward[bone], up);
-        at += forward[bone] * (length_mm[bone] * mm);
+        hand.rotation[thumb_metacarpal + bone] = frame(thumb.forward[bone], thumb.up);
+        at += thumb.forward[bone] * (length_mm[bone] * mm);
     }
     hand.position[thumb_tip] = at;
     hand.rotation[thumb_tip] = hand.rotation[thumb_distal];
 }
 
-}  // namespace
-
-Skeleton right_skeleton() {
+Skeleton place(const Thumb& thumb, const std::array<Rest, 4>& fingers) {
     Skeleton hand;
     hand.position[wrist] = Vec3(0.0);
     hand.rotation[wrist] = Quat(1.0, 0.0, 0.0, 0.0);
-    place_thumb(hand);
-    for (std::size_t i = 0; i < bones.size(); ++i) place_finger(hand, bones[i], rest[i]);
+    place_thumb(hand, thumb);
+    for (std::size_t i = 0; i < bones.size(); ++i) place_finger(hand, bones[i], fingers[i]);
     // The palm joint: the middle of the middle finger's metacarpal.
     hand.position[palm] = 0.5 * (hand.position[middle_metacarpal] + hand.position[middle_proximal]);
     hand.rotation[palm] = hand.rotation[middle_metacarpal];
     return hand;
+}
+
+}  // namespace
+
+Skeleton right_skeleton() { return place(thumb_at_rest(), rest); }
+
+Skeleton flat_right_skeleton() {
+    std::array<Rest, 4> flat = rest;
+    for (Rest& finger : flat) {
+        finger.turn = rest[1].turn;
+        finger.flexion = {-finger.metacarpal_drop, 0.0, 0.0};
+    }
+    return place(flat_thumb(), flat);
 }
 
 Skeleton mirrored(const Skeleton& skeleton) {
@@ -98,4 +122,4 @@ Skeleton mirrored(const Skeleton& skeleton) {
     return out;
 }
 
-}  // namespace bolt::sculpt
+}  // namespace bolt::hand

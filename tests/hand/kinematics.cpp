@@ -1,0 +1,204 @@
+#include "haptics/hand/kinematics.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "engine/base/random.hpp"
+#include "haptics/hand/limits.hpp"
+
+using namespace bolt;
+using namespace bolt::hand;
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+Angles random_angles(Random& random) {
+    const auto in = [&](const Span& span) { return random.uniform(span.low, span.high); };
+    Angles a;
+    a.thumb = {in(thumb_roll_span), in(thumb_abduction_span), in(thumb_mcp_span), in(thumb_ip_span)};
+    for (FingerAngles& f : a.fingers) f = {in(mcp_span), in(pip_span), in(dip_span), in(side_span)};
+    a.arch = in(arch_span);
+    a.wrist_flexion = in(wrist_flexion_span);
+    a.wrist_side = in(wrist_side_span);
+    return a;
+}
+
+Angles fist() {
+    Angles a;
+    for (FingerAngles& f : a.fingers) f = {to_radians(88.0), to_radians(100.0), to_radians(65.0), 0.0};
+    a.thumb = {to_radians(65.0), to_radians(20.0), to_radians(35.0), to_radians(50.0)};
+    a.arch = to_radians(15.0);
+    return a;
+}
+
+double gap(const Skeleton& s, std::size_t a, std::size_t b) {
+    return glm::length(s.position[a] - s.position[b]);
+}
+
+}  // namespace
+
+TEST_CASE("a flat hand is flat: fingers straight, side by side, the thumb beside them") {
+    for (const Side side : {Side::right, Side::left}) {
+        const Skeleton s = joints(make_hand(side), {}, {});
+        const double sign = side == Side::right ? 1.0 : -1.0;
+        for (std::size_t d = 1; d < digit_count; ++d) {
+            const std::size_t first = digits[d].first;
+            const Vec3 finger = glm::normalize(s.position[first + 4] - s.position[first + 1]);
+            CHECK(finger.z < -0.999);
+            for (std::size_t k = 2; k < 4; ++k) {
+                const Vec3 bone = glm::normalize(s.position[first + k + 1] - s.position[first + k]);
+                CHECK(glm::dot(bone, finger) > 1.0 - 1e-12);
+            }
+            CHECK(std::abs(finger.y) < 1e-9);
+            if (d > 1) CHECK(sign * (s.position[first + 2].x - s.position[first - 3].x) > 15.0 * mm);
+        }
+        const Vec3 thumb = glm::normalize(s.position[thumb_tip] - s.position[thumb_metacarpal]);
+        CHECK(std::abs(thumb.y) < 1e-9);
+        CHECK(sign * s.position[thumb_tip].x < sign * s.position[index_proximal].x);
+    }
+}
+
+TEST_CASE("a finger is a planar chain: knuckle, middle and last joint add up") {
+    // Closed form in the plane of the middle finger: each bone drops by the sum of the angles so far.
+    const Hand hand = make_hand(Side::right);
+    Random random(3);
+    for (int trial = 0; trial < 200; ++trial) {
+        Angles a;
+        FingerAngles& f = a.fingers[1];
+        f = {random.uniform(-0.7, 1.7), random.uniform(-0.1, 2.0), random.uniform(-0.1, 1.6), 0.0};
+        const Skeleton s = joints(hand, a, {});
+        const std::size_t knuckle = middle_proximal;
+        const Vec3 forward = hand.flat.rotation[knuckle] * Vec3(0, 0, -1);
+        const Vec3 down = hand.flat.rotation[knuckle] * Vec3(0, -1, 0);
+        Vec3 at = hand.flat.position[knuckle];
+        const std::array<double, 3> sums{f.mcp, f.mcp + f.pip, f.mcp + f.pip + f.dip};
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(glm::length(s.position[knuckle + k] - at) < 1e-12);
+            at += gap(hand.flat, knuckle + k, knuckle + k + 1) *
+                  (std::cos(sums[k]) * forward + std::sin(sums[k]) * down);
+        }
+        CHECK(glm::length(s.position[middle_tip] - at) < 1e-12);
+    }
+}
+
+TEST_CASE("whatever the angles: bones keep their length, frames look along them, the left hand mirrors") {
+    Random random(11);
+    for (int trial = 0; trial < 300; ++trial) {
+        const double length = random.uniform(0.15, 0.22);
+        const Hand right = make_hand(Side::right, length), left = make_hand(Side::left, length);
+        const Angles a = random_angles(random);
+        const Skeleton r = joints(right, a, {}), l = joints(left, a, {});
+        const double scale = length / skeleton_length;
+        for (const Digit& digit : digits)
+            for (std::size_t k = 0; k + 1 < digit.count; ++k) {
+                const std::size_t j = digit.first + k;
+                CHECK(gap(r, j, j + 1) == doctest::Approx(scale * gap(right.flat, j, j + 1)).epsilon(1e-9));
+                const Vec3 bone = glm::normalize(r.position[j + 1] - r.position[j]);
+                CHECK(glm::dot(bone, r.rotation[j] * Vec3(0, 0, -1)) > 1.0 - 1e-9);
+            }
+        for (std::size_t i = 0; i < joint_count; ++i) {
+            CHECK(glm::length(l.position[i] - r.position[i] * Vec3(-1, 1, 1)) < 1e-12);
+            CHECK(glm::length(r.rotation[i]) == doctest::Approx(1.0).epsilon(1e-12));
+            // Of a mirrored frame forward and up are mirrored, and right is turned over.
+            CHECK(glm::length(l.rotation[i] * Vec3(0, 1, 0) -
+                              (r.rotation[i] * Vec3(0, 1, 0)) * Vec3(-1, 1, 1)) < 1e-9);
+        }
+        // Elsewhere: all moves with the wrist.
+        const Pose wrist_pose{{1.0, 2.0, 3.0}, rotation({0.3, -1.0, 0.5})};
+        const Skeleton moved = joints(right, a, wrist_pose);
+        for (std::size_t i = 0; i < joint_count; ++i)
+            CHECK(glm::length(moved.position[i] - wrist_pose * r.position[i]) < 1e-12);
+    }
+}
+
+TEST_CASE("every angle bends the way that it says") {
+    const Hand hand = make_hand(Side::right);
+    const Skeleton flat = joints(hand, {}, {});
+    const auto tip_of = [&](const Angles& a, std::size_t joint) {
+        return joints(hand, a, {}).position[joint] - flat.position[joint];
+    };
+    const double some = 0.3;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t tip = digits[i + 1].first + 4;
+        Angles a;
+        a.fingers[i].mcp = some;
+        CHECK(tip_of(a, tip).y < -10.0 * mm);
+        a = {};
+        a.fingers[i].pip = some;
+        CHECK(tip_of(a, tip).y < -5.0 * mm);
+        a = {};
+        a.fingers[i].dip = some;
+        CHECK(tip_of(a, tip).y < -2.0 * mm);
+        a = {};
+        a.fingers[i].side = some;
+        CHECK((i == 0 ? -1.0 : 1.0) * tip_of(a, tip).x > 10.0 * mm);
+        CHECK(std::abs(tip_of(a, tip).y) < 6.0 * mm);
+    }
+    Angles a;
+    a.thumb.abduction = some;
+    CHECK(tip_of(a, thumb_tip).x < -10.0 * mm);
+    CHECK(std::abs(tip_of(a, thumb_tip).y) < 1e-9);
+    a.thumb.abduction = 0.7;
+    const Vec3 abducted = tip_of(a, thumb_tip);
+    a.thumb.roll = some;
+    CHECK(tip_of(a, thumb_tip).y < abducted.y - 10.0 * mm);
+    a.thumb.roll = 1.2;
+    const Vec3 rolled = tip_of(a, thumb_tip);
+    a.thumb.mcp = 0.8;  // rolled across, it bends over the palm to the little finger
+    CHECK(tip_of(a, thumb_tip).x > rolled.x + 10.0 * mm);
+    a = {};
+    a.arch = 0.4;
+    CHECK(tip_of(a, little_proximal).y < -10.0 * mm);
+    CHECK(tip_of(a, ring_proximal).y < -5.0 * mm);
+    CHECK(tip_of(a, ring_proximal).y > tip_of(a, little_proximal).y);
+    CHECK(glm::length(tip_of(a, index_tip)) == 0.0);
+    a = {};
+    a.wrist_flexion = some;
+    CHECK((wrist_of(hand, a, {}) * flat.position[middle_tip]).y < -20.0 * mm);
+    a = {};
+    a.wrist_side = some;
+    CHECK((wrist_of(hand, a, {}) * flat.position[middle_tip]).x < -20.0 * mm);
+    CHECK((wrist_of(make_hand(Side::left), a, {}) * flat.position[middle_tip]).x > 20.0 * mm);
+}
+
+TEST_CASE("a fist: tips in the palm, fingers side by side and not in each other, the thumb over them") {
+    const Skeleton s = joints(make_hand(Side::right), limited(fist()), {});
+    for (std::size_t d = 1; d < digit_count; ++d) {
+        const std::size_t tip = digits[d].first + 4;
+        CHECK(gap(s, tip, palm) < 55.0 * mm);
+        CHECK(s.position[tip].y < -5.0 * mm);
+        if (d > 1)
+            for (std::size_t k = 1; k < 5; ++k)
+                CHECK(gap(s, digits[d].first + k, digits[d - 1].first + k) > 12.0 * mm);
+    }
+    CHECK(s.position[thumb_tip].y < s.position[palm].y - 25.0 * mm);
+}
+
+TEST_CASE("limits: what a hand can do stays, what it cannot becomes the nearest, what is no number nothing") {
+    Random random(5);
+    for (int trial = 0; trial < 500; ++trial) {
+        Angles a = random_angles(random);
+        const Angles once = limited(a);
+        const Angles twice = limited(once);
+        for (std::size_t i = 0; i < 4; ++i) {
+            CHECK(once.fingers[i].mcp == a.fingers[i].mcp);
+            CHECK(once.fingers[i].side == twice.fingers[i].side);
+            CHECK(std::abs(once.fingers[i].side) <= std::abs(a.fingers[i].side));
+        }
+        a.fingers[2].pip = 3.0;
+        a.thumb.ip = -2.0;
+        a.arch = std::numeric_limits<double>::quiet_NaN();
+        const Angles bound = limited(a);
+        CHECK(bound.fingers[2].pip == pip_span.high);
+        CHECK(bound.thumb.ip == thumb_ip_span.low);
+        CHECK(bound.arch == 0.0);
+    }
+    Angles spread;
+    spread.fingers[3].side = 0.3;
+    CHECK(limited(spread).fingers[3].side == 0.3);
+    spread.fingers[3].mcp = 0.5 * pi;
+    CHECK(limited(spread).fingers[3].side == 0.0);
+}
