@@ -20,6 +20,7 @@ smoke measured 100000 "$bin/../corpus/measured"
 smoke gltf 20000 -dict="$here/gltf.dict" -max_len=16384 "$bin/../corpus/gltf"
 smoke glove 100000 -max_len=4096 -dict="$here/glove.dict"
 smoke cal 100000 "$bin/../corpus/cal"
+smoke calibration 50000 -dict="$here/calibration.dict" -max_len=8192 "$bin/../corpus/calibration"
 smoke report 200000 -max_len=512
 smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
 echo "$passed passed, 0 failed"

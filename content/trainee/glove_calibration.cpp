@@ -1,0 +1,193 @@
+#include "content/trainee/glove_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "content/format/json_document.hpp"
+#include "content/format/json_pointer.hpp"
+#include "content/format/wording.hpp"
+#include "engine/base/file.hpp"
+
+namespace bolt::content {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* format_name = "boltwright glove calibration 1";
+constexpr std::size_t longest_file = 1U << 16U;
+constexpr std::size_t longest_name = 64, longest_text = 200;  // bytes; a trainee's name becomes a file's
+constexpr double steepest = 0.2;                              // rad a count: 255 of them are eight turns
+
+// Sensors as the file calls them: "thumb_roll".
+std::string key_of(glove::Sensor sensor) {
+    std::string key = glove::name_of(sensor);
+    for (char& c : key) c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return key;
+}
+
+std::vector<std::string> sensor_keys(std::size_t sensors) {
+    std::vector<std::string> keys;
+    for (const glove::Sensor sensor : glove::sensors_of(sensors)) keys.push_back(key_of(sensor));
+    return keys;
+}
+
+// Reads members of objects; the first mistake is kept and all that follows is of no account.
+struct Members {
+    const JsonDocument& document;
+    std::optional<Error> wrong;
+
+    void report(const std::string& pointer, Part part, std::string what, std::string expected) {
+        if (!wrong) wrong = document.error(pointer, part, std::move(what), std::move(expected));
+    }
+    const json* find(const json& object, const std::string& at, const char* key) {
+        const auto it = object.find(key);
+        if (it != object.end()) return &*it;
+        report(at, Part::value, fmt::format("\"{}\" is missing", key), {});
+        return nullptr;
+    }
+    std::string text(const json& object, const char* key, std::size_t longest = longest_text) {
+        const json* value = find(object, "", key);
+        if (value == nullptr) return {};
+        if (value->is_string() && value->get_ref<const std::string&>().size() <= longest)
+            return value->get<std::string>();
+        report(std::string("/") + key, Part::value, fmt::format("\"{}\" is no short text", key),
+               fmt::format("expected a text of at most {} bytes", longest));
+        return {};
+    }
+    double number(const json& object, const std::string& at, const char* key, double low, double high) {
+        const json* value = find(object, at, key);
+        if (value == nullptr) return low;
+        const double x = value->is_number() ? value->get<double>() : std::nan("");
+        if (x >= low && x <= high) return x;
+        report(at + "/" + key, Part::value, fmt::format("\"{}\" cannot be {}", key, in_quotes(value->dump())),
+               fmt::format("expected a number from {} to {}", low, high));
+        return low;
+    }
+    void only(const json& object, const std::string& at, const std::vector<std::string>& known) {
+        for (const auto& [key, value] : object.items())
+            if (std::find(known.begin(), known.end(), key) == known.end())
+                report(at + "/" + pointer_token(key), Part::key,
+                       fmt::format("{} is not known here", in_quotes(key)), suggest(key, known));
+    }
+};
+
+bool is_date(const std::string& text) {
+    if (text.size() != 10) return false;
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (i == 4 || i == 7 ? text[i] != '-' : text[i] < '0' || text[i] > '9') return false;
+    const int month = std::stoi(text.substr(5, 2)), day = std::stoi(text.substr(8, 2));
+    return month >= 1 && month <= 12 && day >= 1 && day <= 31;
+}
+
+void read_lines(Members& members, const json& root, GloveCalibration& to) {
+    const json* lines = members.find(root, "", "lines");
+    if (lines == nullptr) return;
+    if (!lines->is_object() || lines->empty())
+        return members.report(
+            "/lines", Part::value, "no sensor is calibrated",
+            "expected an object with a line a sensor, as {\"thumb_mpj\": {\"offset\": 41.5, "
+            "\"gain\": 0.013}}");
+    members.only(*lines, "/lines", sensor_keys(to.sensors));
+    for (const glove::Sensor sensor : glove::sensors_of(to.sensors)) {
+        const std::string key = key_of(sensor), at = "/lines/" + key;
+        const auto line = lines->find(key);
+        if (line == lines->end()) continue;
+        if (!line->is_object())
+            return members.report(at, Part::value, fmt::format("\"{}\" is no line", key),
+                                  "expected an object with \"offset\" and \"gain\"");
+        members.only(*line, at, {"offset", "gain"});
+        to.calibration.lines[glove::index(sensor)] =
+            glove::Line{members.number(*line, at, "gain", -steepest, steepest),
+                        members.number(*line, at, "offset", -1e4, 1e4)};
+    }
+}
+
+}  // namespace
+
+Result<GloveCalibration> parse_glove_calibration(std::string_view text, const std::string& file) {
+    std::vector<Error> errors;
+    const auto document = JsonDocument::parse(text, file, errors);
+    if (!errors.empty()) return fail(errors.front());
+    Members members{*document, {}};
+    const json& root = document->root();
+    GloveCalibration read;
+    if (!root.is_object()) {
+        members.report("", Part::value, "this is no calibration of a glove", "expected a JSON object");
+        return fail(*members.wrong);
+    }
+    if (members.text(root, "format") != format_name)
+        members.report("/format", Part::value, "this is no calibration of a glove that is known here",
+                       fmt::format("expected \"format\": \"{}\"", format_name));
+    members.only(
+        root, "",
+        {"format", "trainee", "glove", "hand", "sensors", "date", "quality", "hand_length_mm", "lines"});
+    read.trainee = members.text(root, "trainee", longest_name);
+    read.glove = members.text(root, "glove");
+    const std::string hand = members.text(root, "hand");
+    if (hand != "left" && hand != "right")
+        members.report("/hand", Part::value, fmt::format("a hand cannot be {}", in_quotes(hand)),
+                       "expected \"left\" or \"right\"");
+    read.hand = hand == "left" ? glove::Hand::left : glove::Hand::right;
+    const double sensors = members.number(root, "", "sensors", 18, 22);
+    if (sensors != 18.0 && sensors != 22.0)
+        members.report("/sensors", Part::value, "a glove has no such number of sensors", "expected 18 or 22");
+    read.sensors = static_cast<std::size_t>(sensors);
+    read.date = members.text(root, "date");
+    if (!is_date(read.date))
+        members.report("/date", Part::value, fmt::format("{} is no date", in_quotes(read.date)),
+                       "expected a date as \"2026-11-22\"");
+    read.quality = members.number(root, "", "quality", 0.0, 1.0);
+    read.hand_length = 1e-3 * members.number(root, "", "hand_length_mm", 100.0, 300.0);
+    read_lines(members, root, read);
+    if (members.wrong) return fail(*members.wrong);
+    return read;
+}
+
+std::string glove_calibration_text(const GloveCalibration& calibration) {
+    nlohmann::ordered_json lines = nlohmann::ordered_json::object();
+    for (const glove::Sensor sensor : glove::sensors_of(calibration.sensors))
+        if (const auto& line = calibration.calibration.lines[glove::index(sensor)])
+            lines[key_of(sensor)] = {{"offset", line->offset}, {"gain", line->gain}};
+    nlohmann::ordered_json root;
+    root["format"] = format_name;
+    root["trainee"] = calibration.trainee;
+    root["glove"] = calibration.glove;
+    root["hand"] = calibration.hand == glove::Hand::left ? "left" : "right";
+    root["sensors"] = calibration.sensors;
+    root["date"] = calibration.date;
+    root["quality"] = calibration.quality;
+    root["hand_length_mm"] = 1e3 * calibration.hand_length;
+    root["lines"] = std::move(lines);
+    // Names come from outside: what is no UTF-8 in them must not make a file that cannot be read.
+    return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+Result<GloveCalibration> load_glove_calibration(const std::filesystem::path& path) {
+    const Result<std::string> text = read_file(path, longest_file, ErrorCode::bad_content);
+    if (!text) return fail(text.error());
+    return parse_glove_calibration(*text, path.string());
+}
+
+Status save_glove_calibration(const std::filesystem::path& path, const GloveCalibration& calibration) {
+    const std::string text = glove_calibration_text(calibration);
+    // What could not be read back is not written over what can.
+    if (const auto again = parse_glove_calibration(text, path.string()); !again) return fail(again.error());
+    return write_file(path, text);
+}
+
+std::filesystem::path glove_calibration_path(const std::filesystem::path& folder, std::string_view trainee,
+                                             glove::Hand hand) {
+    std::string name;
+    for (const char c : trainee) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+        name += plain ? std::string(1, c) : fmt::format("_{:02x}", byte);
+    }
+    return folder / fmt::format("{}.{}.glove.json", name, hand == glove::Hand::left ? "left" : "right");
+}
+
+}  // namespace bolt::content
