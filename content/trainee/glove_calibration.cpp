@@ -160,7 +160,7 @@ std::string glove_calibration_text(const GloveCalibration& calibration) {
     root["sensors"] = calibration.sensors;
     root["date"] = calibration.date;
     root["quality"] = calibration.quality;
-    root["hand_length_mm"] = 1e3 * calibration.hand_length;
+    root["hand_length_mm"] = std::round(1e6 * calibration.hand_length) / 1e3;  // to a micrometre
     root["lines"] = std::move(lines);
     // Names come from outside: what is no UTF-8 in them must not make a file that cannot be read.
     return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

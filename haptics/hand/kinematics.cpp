@@ -11,60 +11,74 @@ constexpr double ring_share = 20.0 / 27.0;  // of the palm's arch
 
 Quat flexed(double angle) { return glm::angleAxis(-angle, along_x); }
 
-struct Bent {
-    const Skeleton& flat;
-    Skeleton out;
+const Quat none(1.0, 0.0, 0.0, 0.0);
 
-    // A joint that hangs on another turns by `turn` in its own frame, after `swing` in that of its parent's.
-    void hang(std::size_t joint, std::size_t parent, const Quat& swing, const Quat& turn) {
+// A right hand of scale 1, bent joint by joint in the frame of the wrist.
+struct Bending {
+    const Skeleton& flat;
+    std::array<Pose, 6> at{};  // the wrist, then the digit's joints
+    std::size_t first = 0;     // the digit's
+
+    explicit Bending(const Skeleton& skeleton) : flat(skeleton) {}
+
+    // The digit's next joint turns by `turn` in its own frame, after `swing` in that of the one it hangs on.
+    void hang(std::size_t k, const Quat& swing, const Quat& turn) {
+        const std::size_t joint = first + k, parent = k == 0 ? static_cast<std::size_t>(wrist) : joint - 1;
         const Quat back = glm::conjugate(flat.rotation[parent]);
-        out.position[joint] = out.position[parent] +
-                              out.rotation[parent] * (back * (flat.position[joint] - flat.position[parent]));
-        out.rotation[joint] =
-            glm::normalize(out.rotation[parent] * swing * (back * flat.rotation[joint]) * turn);
-    }
-    void keep(std::size_t joint, std::size_t parent) {
-        hang(joint, parent, Quat(1.0, 0.0, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0));
+        const Pose& on = at[k];
+        at[k + 1] = {on * (back * (flat.position[joint] - flat.position[parent])),
+                     glm::normalize(on.orientation * swing * (back * flat.rotation[joint]) * turn)};
     }
 };
 
-void bend_thumb(Bent& hand, const ThumbAngles& angles) {
+void bend_thumb(Bending& hand, const ThumbAngles& angles) {
     // In the wrist's frame: to the thumb's side is −X, across the palm is from there to −Y.
-    const Quat swing = glm::angleAxis(angles.roll, along_z) * glm::angleAxis(angles.abduction, along_y);
-    hand.hang(thumb_metacarpal, wrist, swing, Quat(1.0, 0.0, 0.0, 0.0));
-    hand.hang(thumb_proximal, thumb_metacarpal, Quat(1.0, 0.0, 0.0, 0.0), flexed(angles.mcp));
-    hand.hang(thumb_distal, thumb_proximal, Quat(1.0, 0.0, 0.0, 0.0), flexed(angles.ip));
-    hand.keep(thumb_tip, thumb_distal);
+    hand.hang(0, glm::angleAxis(angles.roll, along_z) * glm::angleAxis(angles.abduction, along_y), none);
+    hand.hang(1, none, flexed(angles.mcp));
+    hand.hang(2, none, flexed(angles.ip));
+    hand.hang(3, none, none);
 }
 
-void bend_finger(Bent& hand, std::size_t first, const FingerAngles& angles, double arch, double to_little) {
-    const Quat none(1.0, 0.0, 0.0, 0.0);
-    hand.hang(first, wrist, none, flexed(arch));
-    hand.hang(first + 1, first, glm::angleAxis(-to_little * angles.side, along_y), flexed(angles.mcp));
-    hand.hang(first + 2, first + 1, none, flexed(angles.pip));
-    hand.hang(first + 3, first + 2, none, flexed(angles.dip));
-    hand.keep(first + 4, first + 3);
+void bend_finger(Bending& hand, const FingerAngles& angles, double arch, double to_little) {
+    hand.hang(0, none, flexed(arch));
+    hand.hang(1, glm::angleAxis(-to_little * angles.side, along_y), flexed(angles.mcp));
+    hand.hang(2, none, flexed(angles.pip));
+    hand.hang(3, none, flexed(angles.dip));
+    hand.hang(4, none, none);
+}
+
+// A joint of the right hand at its place on this hand, wherever that is.
+void put(const Hand& hand, const Pose& wrist_pose, std::size_t joint, const Pose& at, Skeleton& out) {
+    const bool right = hand.side == Side::right;
+    const Quat& q = at.orientation;
+    const Vec3 position = right ? at.position : at.position * Vec3(-1.0, 1.0, 1.0);
+    out.position[joint] = wrist_pose * (hand.scale * position);
+    out.rotation[joint] = glm::normalize(wrist_pose.orientation * (right ? q : Quat(q.w, q.x, -q.y, -q.z)));
 }
 
 }  // namespace
 
 Hand make_hand(Side side, double length) { return {side, length / skeleton_length, flat_right_skeleton()}; }
 
+void place_digit(const Hand& hand, const Angles& angles, const Pose& wrist_pose, std::size_t digit,
+                 Skeleton& out) {
+    constexpr std::array<double, 5> arch{0.0, 0.0, 0.0, ring_share, 1.0};
+    Bending bent(hand.flat);
+    bent.first = digits[digit].first;
+    if (digit == 0)
+        bend_thumb(bent, angles.thumb);
+    else
+        bend_finger(bent, angles.fingers[digit - 1], arch[digit] * angles.arch, digit == 1 ? -1.0 : 1.0);
+    for (std::size_t k = 0; k < digits[digit].count; ++k)
+        put(hand, wrist_pose, bent.first + k, bent.at[k + 1], out);
+}
+
 Skeleton joints(const Hand& hand, const Angles& angles, const Pose& wrist_pose) {
-    Bent bent{hand.flat, {}};
-    bent.out.position[wrist] = hand.flat.position[wrist];
-    bent.out.rotation[wrist] = hand.flat.rotation[wrist];
-    bent.keep(palm, wrist);
-    bend_thumb(bent, angles.thumb);
-    const std::array<double, 4> arch{0.0, 0.0, ring_share * angles.arch, angles.arch};
-    const std::array<double, 4> to_little{-1.0, 1.0, 1.0, 1.0};
-    for (std::size_t i = 0; i < angles.fingers.size(); ++i)
-        bend_finger(bent, digits[i + 1].first, angles.fingers[i], arch[i], to_little[i]);
-    Skeleton out = hand.side == Side::right ? bent.out : mirrored(bent.out);
-    for (std::size_t i = 0; i < joint_count; ++i) {
-        out.position[i] = wrist_pose * (hand.scale * out.position[i]);
-        out.rotation[i] = glm::normalize(wrist_pose.orientation * out.rotation[i]);
-    }
+    Skeleton out;
+    for (const std::size_t joint : {wrist, palm})
+        put(hand, wrist_pose, joint, {hand.flat.position[joint], hand.flat.rotation[joint]}, out);
+    for (std::size_t digit = 0; digit < digit_count; ++digit)
+        place_digit(hand, angles, wrist_pose, digit, out);
     return out;
 }
 

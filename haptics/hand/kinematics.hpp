@@ -27,6 +27,9 @@ Hand make_hand(Side side, double length = skeleton_length);
 // The joints where the wrist's are given. Angles as they come, not limited; those of the wrist do not matter.
 Skeleton joints(const Hand& hand, const Angles& angles, const Pose& wrist);
 
+// Of these only one digit's, 0 the thumb: what else is in `out` stays.
+void place_digit(const Hand& hand, const Angles& angles, const Pose& wrist, std::size_t digit, Skeleton& out);
+
 // The wrist, of a forearm whose frame is the wrist's while that is straight: bent by a glove's sensors.
 Pose wrist_of(const Hand& hand, const Angles& angles, const Pose& forearm);
 

@@ -1,0 +1,245 @@
+#include "haptics/grip/closing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "haptics/hand/limits.hpp"
+
+namespace bolt::grip {
+namespace {
+
+using contact::near_point;
+using contact::nothing_near;
+using hand::Angles;
+using hand::digits;
+using hand::Tube;
+
+constexpr std::size_t links = 3;        // parts that the three joints move
+constexpr std::size_t most_balls = 12;  // of a link
+constexpr double leap = 0.5e-3;         // m that a ball may get into the tool before it is taken back
+constexpr double sight = 60e-3;         // m: what is further from a ball is taken to be that far
+constexpr double careful = 3e-3;        // m: a link nearer than this is looked at ball by ball
+constexpr double sure = 5e-3;           // m: a ball that is surely this far is not looked at anew
+constexpr int halvings = 10;
+
+// What was found of a ball, and at which share of the digit's way.
+struct Known {
+    double deep = -nothing_near, share = 0.0;
+};
+
+struct Three {
+    std::array<double*, 3> at;
+};
+Three joints_of(Angles& angles, std::size_t digit) {
+    if (digit == 0) return {{&angles.thumb.abduction, &angles.thumb.mcp, &angles.thumb.ip}};
+    hand::FingerAngles& finger = angles.fingers[digit - 1];
+    return {{&finger.mcp, &finger.pip, &finger.dip}};
+}
+
+double signed_distance(const contact::ToolShape& tool, const Vec3& at) {
+    const double distance = near_point(tool.solid, at, sight, 0.0, {}).distance;
+    return distance == nothing_near ? sight : distance;
+}
+
+std::size_t balls_of(const Tube& tube) {
+    const double length = glm::length(tube.to - tube.from);
+    return std::min(most_balls, static_cast<std::size_t>(std::ceil(length / ball_spacing)) + 1);
+}
+
+struct Digit {
+    const contact::ToolShape& tool;
+    const hand::Hand& hand;
+    const Pose& wrist;
+    std::size_t number;
+    std::array<double, 3> from{}, to{};  // rad, of its joints
+    Angles angles;                       // the others' as measured
+    hand::Skeleton joints;
+    // How deep each ball is with the digit open (m, below 0), which is no reason to stop.
+    std::array<std::array<double, most_balls>, links> before{};
+    std::array<std::array<Known, most_balls>, links> known{};  // on the way that it is on now
+
+    // Of a link: its tube. The thumb's metacarpal, the first, is in the flesh of the palm and touches
+    // nothing.
+    [[nodiscard]] bool bare(std::size_t link) const { return number != 0 || link != 0; }
+    [[nodiscard]] Tube tube_of(std::size_t link) const {
+        return hand::tube(hand, joints, number, link + (number == 0 ? 0 : 1));
+    }
+
+    void bend(const std::array<double, 3>& share) {
+        const Three joint = joints_of(angles, number);
+        for (std::size_t k = 0; k < 3; ++k) *joint.at[k] = from[k] + share[k] * (to[k] - from[k]);
+        place_digit(hand, angles, wrist, number, joints);
+    }
+
+    [[nodiscard]] Vec3 joint_at(std::size_t k) const {
+        return joints.position[digits[number].first + k + (number == 0 ? 0 : 1)];
+    }
+
+    // How far (m) a point of a link goes at most while the shares of the joints from `first` on grow by 1.
+    [[nodiscard]] double speed(std::size_t link, std::size_t first, const Vec3& at) const {
+        double speed = 0.0;
+        // A joint is never further from the point than the bones between them are long.
+        double reach = glm::length(at - joint_at(link));
+        for (std::size_t k = link + 1; k-- > 0;) {
+            if (k < link) reach += glm::length(joint_at(k + 1) - joint_at(k));
+            if (k >= first) speed += std::abs(to[k] - from[k]) * reach;
+        }
+        return speed;
+    }
+};
+
+struct Room {
+    double step = 1.0;              // the share that may be added before anything can be `leap` deep
+    bool free = true;               // nothing is deeper than the tolerance
+    std::size_t link = 0;           // that is deepest
+    double deepest = nothing_near;  // m, signed, beyond what was before
+};
+
+// At this share of the way, with the digit bent so. A ball that is surely further than `enough` from touching
+// is not looked at again.
+Room look(Digit& digit, std::size_t first, double share, double enough) {
+    Room room;
+    const auto found = [&](std::size_t link, double deep, double speed) {
+        room.step = std::min(room.step, std::max(deep + leap, 0.0) / std::max(speed, 1e-9));
+        if (deep >= room.deepest) return;
+        room.deepest = deep;
+        room.link = link;
+    };
+    for (std::size_t link = 0; link < links; ++link) {
+        if (!digit.bare(link)) continue;
+        const Tube tube = digit.tube_of(link);
+        const double length = glm::length(tube.to - tube.from);
+        const double around = 0.5 * length + std::max(tube.radius_from, tube.radius_to);
+        const double clear = signed_distance(digit.tool, 0.5 * (tube.from + tube.to)) - around;
+        if (clear > careful) {
+            found(link, clear, digit.speed(link, first, tube.to));
+            continue;
+        }
+        const std::size_t balls = balls_of(tube);
+        for (std::size_t i = 0; i < balls; ++i) {
+            const double t = static_cast<double>(i) / static_cast<double>(balls - 1);
+            const Vec3 at = tube.from + t * (tube.to - tube.from);
+            const double speed = digit.speed(link, first, at);
+            Known& known = digit.known[link][i];
+            const double surely = known.deep - speed * std::abs(share - known.share);
+            if (surely > enough) {
+                found(link, surely, speed);
+                continue;
+            }
+            const double radius = tube.radius_from + t * (tube.radius_to - tube.radius_from);
+            known = {signed_distance(digit.tool, at) - radius - digit.before[link][i], share};
+            found(link, known.deep, speed);
+        }
+    }
+    room.free = room.deepest >= -stop_tolerance;
+    return room;
+}
+
+void remember_open(Digit& digit) {
+    digit.bend({0.0, 0.0, 0.0});
+    for (std::size_t link = 0; link < links; ++link) {
+        if (!digit.bare(link)) continue;
+        const Tube tube = digit.tube_of(link);
+        const std::size_t balls = balls_of(tube);
+        for (std::size_t i = 0; i < balls; ++i) {
+            const double t = static_cast<double>(i) / static_cast<double>(balls - 1);
+            const Vec3 at = tube.from + t * (tube.to - tube.from);
+            const double radius = tube.radius_from + t * (tube.radius_to - tube.radius_from);
+            digit.before[link][i] = std::min(0.0, signed_distance(digit.tool, at) - radius);
+        }
+    }
+}
+
+// The shares of the joints from `first` on, all alike, grow until something touches. Which link did; none:
+// they are as measured, or there were too many steps.
+std::optional<std::size_t> advance(Digit& digit, std::size_t first, DigitStop& stop) {
+    double share = stop.share[first];
+    const auto bend_to = [&](double s) {
+        for (std::size_t k = first; k < 3; ++k) stop.share[k] = s;
+        digit.bend(stop.share);
+    };
+    for (auto& balls : digit.known) balls.fill({});
+    bend_to(share);
+    Room room = look(digit, first, share, sure);
+    for (; share < 1.0 && stop.steps < most_steps; ++stop.steps) {
+        double free = share, hit = std::min(1.0, share + room.step);
+        bend_to(hit);
+        room = look(digit, first, hit, sure);
+        if (room.free) {
+            share = hit;
+            continue;
+        }
+        std::size_t link = room.link;
+        for (int i = 0; i < halvings; ++i) {
+            const double half = 0.5 * (free + hit);
+            bend_to(half);
+            room = look(digit, first, half, 0.0);
+            if (!room.free) link = room.link;
+            (room.free ? free : hit) = half;
+        }
+        bend_to(free);
+        return link;
+    }
+    return std::nullopt;
+}
+
+contact::FingertipContact nearest_of(const Digit& digit) {
+    contact::FingertipContact best;
+    for (std::size_t link = 1; link < links; ++link) {
+        const Tube tube = digit.tube_of(link);
+        const std::size_t balls = balls_of(tube);
+        for (std::size_t i = 0; i < balls; ++i) {
+            const double t = static_cast<double>(i) / static_cast<double>(balls - 1);
+            const Vec3 at = tube.from + t * (tube.to - tube.from);
+            const double radius = tube.radius_from + t * (tube.radius_to - tube.radius_from);
+            const double centre = signed_distance(digit.tool, at);
+            if (centre >= sight || centre - radius >= best.distance) continue;
+            std::array<contact::Side, 1> side;
+            const double band = std::abs(centre) + 1e-6;
+            if (near_point(digit.tool.solid, at, band, band, side).sides == 0) continue;
+            best = {side[0].distance - radius, side[0].point, side[0].normal};
+        }
+    }
+    return best;
+}
+
+// Whether the tool is too far to be reached by anything of the hand.
+bool out_of_reach(const contact::ToolShape& tool, const hand::Hand& hand, const Pose& wrist) {
+    constexpr double reach = 0.24;  // m, of a hand of scale 1 with its flesh
+    return glm::length(wrist.position - tool.solid.middle) > tool.solid.radius + hand.scale * reach;
+}
+
+}  // namespace
+
+Closing close_on(const contact::ToolShape& tool, const hand::Hand& hand, const Angles& measured,
+                 const Pose& wrist) {
+    Closing closing;
+    closing.shown = measured;
+    if (out_of_reach(tool, hand, wrist)) return closing;
+    for (std::size_t number = 0; number < hand::digit_count; ++number) {
+        Digit digit{tool, hand, wrist, number, {}, {}, measured, {}, {}, {}};
+        DigitStop& stop = closing.digits[number];
+        const Three joint = joints_of(digit.angles, number);
+        for (std::size_t k = 0; k < 3; ++k) {
+            digit.to[k] = *joint.at[k];
+            digit.from[k] = std::min(digit.to[k], 0.0);  // bent back beyond straight: it stays there
+        }
+        if (number == 0) digit.from[0] = std::max(digit.to[0], hand::thumb_abduction_span.high);
+        remember_open(digit);
+        stop.share = {0.0, 0.0, 0.0};
+        for (std::size_t first = 0; first < links;) {
+            const auto link = advance(digit, first, stop);
+            if (!link) break;
+            stop.touches = true;
+            first = std::max(first, *link) + 1;  // what is between the wrist and the part that touches stays
+        }
+        stop.nearest = nearest_of(digit);
+        const Three shown = joints_of(closing.shown, number);
+        for (std::size_t k = 0; k < 3; ++k) *shown.at[k] = *joint.at[k];
+    }
+    return closing;
+}
+
+}  // namespace bolt::grip

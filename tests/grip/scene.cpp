@@ -1,0 +1,82 @@
+#include "tests/grip/scene.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "haptics/hand/limits.hpp"
+
+namespace grip_test {
+
+Held of(const std::vector<contact::ContactMesh>& parts) {
+    Held held{contact::make_tool(parts).value(), {}};
+    for (const contact::ContactMesh& part : parts)
+        for (const auto& triangle : contact_test::soup(part)) held.soup.push_back(triangle);
+    return held;
+}
+
+Held bar() {
+    return of({contact_test::box(Vec3(-115.0, -3.5, -12.0) * mm, Vec3(115.0, 3.5, 12.0) * mm).mesh()});
+}
+
+Pose across_the_palm() {
+    return inverse({Vec3(0.0, -28.0, -98.0) * mm, rotation({0.0, to_radians(-17.5), 0.0})});
+}
+
+hand::Angles closed(double share) {
+    hand::Angles a;
+    const auto bent = [&](double degrees) { return share * to_radians(degrees); };
+    for (hand::FingerAngles& f : a.fingers) f = {bent(70.0), bent(95.0), bent(60.0), 0.0};
+    a.thumb = {to_radians(70.0), to_radians(60.0) - bent(48.0), bent(50.0), bent(65.0)};
+    a.arch = to_radians(8.0);
+    return a;
+}
+
+hand::Angles opened(const hand::Angles& angles) {
+    hand::Angles out = angles;
+    for (hand::FingerAngles& f : out.fingers)
+        f = {std::min(f.mcp, 0.0), std::min(f.pip, 0.0), std::min(f.dip, 0.0), f.side};
+    out.thumb.abduction = std::max(out.thumb.abduction, hand::thumb_abduction_span.high);
+    out.thumb.mcp = std::min(out.thumb.mcp, 0.0);
+    out.thumb.ip = std::min(out.thumb.ip, 0.0);
+    return out;
+}
+
+namespace {
+
+double depth(const Held& held, const hand::Tube& tube, double t) {
+    const double radius = tube.radius_from + t * (tube.radius_to - tube.radius_from);
+    return radius - contact_test::brute_signed_distance(held.soup, tube.from + t * (tube.to - tube.from));
+}
+
+}  // namespace
+
+double deeper(const Held& held, const hand::Hand& hand, const Pose& wrist, std::size_t digit,
+              const hand::Angles& angles, const hand::Angles& than) {
+    const hand::Skeleton now = hand::joints(hand, angles, wrist), before = hand::joints(hand, than, wrist);
+    double most = -1.0;
+    for (std::size_t bone = 1; bone + 1 < hand::digits[digit].count; ++bone) {
+        const hand::Tube a = hand::tube(hand, now, digit, bone), b = hand::tube(hand, before, digit, bone);
+        const auto points = static_cast<int>(glm::length(a.to - a.from) / mm) + 1;
+        for (int i = 0; i <= points; ++i) {
+            const double t = static_cast<double>(i) / points;
+            const double deep = depth(held, a, t);
+            if (deep > most) most = std::max(most, deep - std::max(0.0, depth(held, b, t)));
+        }
+    }
+    return most;
+}
+
+double deepest(const Held& held, const hand::Hand& hand, const Pose& wrist, std::size_t digit,
+               const hand::Angles& angles) {
+    const hand::Skeleton joints = hand::joints(hand, angles, wrist);
+    double most = -1.0;
+    for (std::size_t bone = 1; bone + 1 < hand::digits[digit].count; ++bone) {
+        const hand::Tube tube = hand::tube(hand, joints, digit, bone);
+        const auto points = static_cast<int>(glm::length(tube.to - tube.from) / mm) + 1;
+        for (int i = 0; i <= points; ++i)
+            most = std::max(most, depth(held, tube, static_cast<double>(i) / points));
+    }
+    return most;
+}
+
+}  // namespace grip_test
