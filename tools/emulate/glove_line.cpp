@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "engine/base/math.hpp"
+#include "engine/base/triple_buffer.hpp"
 
 namespace bolt::emulate {
 
@@ -33,6 +34,7 @@ struct GloveLine::Shared {
     int keep = -1;  // of the port: as long as it is open, a driver that closes it does not hang us up
     std::filesystem::path port;
     std::atomic<bool> stalled{false};
+    TripleBuffer<glove::BySensor<std::uint8_t>> shown;
     std::jthread thread;
 
     void run(const std::stop_token& stop, double period) {
@@ -48,6 +50,7 @@ struct GloveLine::Shared {
                 const double bent = 0.5 - 0.5 * std::cos(2.0 * pi * now / period);
                 glove.raw.fill(static_cast<std::uint8_t>(60.0 + 120.0 * bent));
             }
+            if (shown.update()) glove.raw = shown.latest();
             glove.stalled = stalled;
             const auto out =
                 glove.go_on(std::span(heard).first(static_cast<std::size_t>(std::max<ssize_t>(n, 0))), now);
@@ -87,6 +90,7 @@ GloveLine& GloveLine::operator=(GloveLine&&) noexcept = default;
 GloveLine::~GloveLine() = default;
 
 const std::filesystem::path& GloveLine::port() const { return shared_->port; }
+void GloveLine::show(const glove::BySensor<std::uint8_t>& raw) { shared_->shown.write(raw); }
 void GloveLine::stall(bool stalled) { shared_->stalled = stalled; }
 
 }  // namespace bolt::emulate

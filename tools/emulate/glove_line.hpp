@@ -19,6 +19,9 @@ class GloveLine {
     ~GloveLine();  // pulls the plug: the port is gone
 
     [[nodiscard]] const std::filesystem::path& port() const;
+    // What the hand in it does from the next moment on, unless it opens and closes by itself. One thread at a
+    // time.
+    void show(const glove::BySensor<std::uint8_t>& raw);
     void stall(bool stalled);  // from the next moment on it neither sends nor hears
 
   private:

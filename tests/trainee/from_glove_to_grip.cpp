@@ -1,0 +1,187 @@
+// All of it in one: an emulated glove on a pseudo-terminal, the driver that reads it, the session that
+// calibrates it, the file that keeps that, and the hand that takes a wrench and keeps it while the glove is
+// gone. Waits are for things to happen, however long that takes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "content/trainee/glove_calibration.hpp"
+#include "haptics/glove/calibration_session.hpp"
+#include "haptics/glove/driver.hpp"
+#include "haptics/glove/gloved_hand.hpp"
+#include "haptics/grip/grip.hpp"
+#include "haptics/hand/limits.hpp"
+#include "tests/grip/scene.hpp"
+#include "tests/support/eventually.hpp"
+#include "tools/emulate/glove_line.hpp"
+
+using namespace bolt;
+using glove::Sensor;
+
+namespace {
+
+// How this emulated glove's sensors bend: what the calibration is to find.
+constexpr glove::Line truth(std::size_t sensor) {
+    const double gain = 0.0125 + 0.0002 * static_cast<double>(sensor % 7);
+    return sensor % 5 == 3 ? glove::Line{-gain, 220.0}
+                           : glove::Line{gain, 45.0 + static_cast<double>(sensor)};
+}
+
+std::uint8_t raw_of(std::size_t sensor, double angle) {
+    const glove::Line line = truth(sensor);
+    return static_cast<std::uint8_t>(std::clamp(std::lround(angle / line.gain + line.offset), 1L, 255L));
+}
+
+glove::BySensor<std::uint8_t> raw_of(glove::Posture posture) {
+    glove::BySensor<std::uint8_t> raw{};
+    for (std::size_t i = 0; i < glove::all_sensors; ++i)
+        raw[i] = raw_of(i, glove::angle_in(posture, static_cast<Sensor>(i)).value_or(0.1));
+    return raw;
+}
+
+glove::BySensor<std::uint8_t> raw_of(const hand::Angles& a) {
+    glove::BySensor<double> angle{};
+    const auto set = [&](Sensor sensor, double value) { angle[glove::index(sensor)] = value; };
+    set(Sensor::thumb_roll, a.thumb.roll);
+    set(Sensor::thumb_abduction, a.thumb.abduction);
+    set(Sensor::thumb_mpj, a.thumb.mcp);
+    set(Sensor::thumb_ij, a.thumb.ip);
+    constexpr std::array<Sensor, 4> first{Sensor::index_mpj, Sensor::middle_mpj, Sensor::ring_mpj,
+                                          Sensor::little_mpj};
+    for (std::size_t i = 0; i < 4; ++i) {
+        angle[glove::index(first[i])] = a.fingers[i].mcp;
+        angle[glove::index(first[i]) + 1] = a.fingers[i].pip;
+        angle[glove::index(first[i]) + 2] = a.fingers[i].dip;
+    }
+    set(Sensor::palm_arch, a.arch);
+    glove::BySensor<std::uint8_t> raw{};
+    for (std::size_t i = 0; i < glove::all_sensors; ++i) raw[i] = raw_of(i, angle[i]);
+    return raw;
+}
+
+// Whoever reads the driver: every new sample once.
+struct Reader {
+    glove::Driver driver;
+    std::uint64_t last = 0;
+    const glove::Sample* next() {
+        const glove::Sample& sample = driver.sample();
+        if (sample.number == last) return nullptr;
+        last = sample.number;
+        return &sample;
+    }
+};
+
+glove::Calibrated calibrated(emulate::GloveLine& line, Reader& reader) {
+    glove::CalibrationSession session;
+    session.options.hold = 0.4;  // nobody's hand here trembles
+    session.options.settle = 0.1;
+    session.options.silence = 5.0;  // nor is a busy machine a silent glove
+    double now = 0.0;
+    REQUIRE(test::eventually([&] {
+        line.show(raw_of(session.asked));
+        const glove::Sample* sample = reader.next();
+        if (sample != nullptr) now = sample->time;
+        if (now > 0.0) go_on(session, sample == nullptr ? nullptr : &sample->frame, now);
+        return session.phase == glove::Phase::done;
+    }));
+    return *session.result;
+}
+
+}  // namespace
+
+TEST_CASE("from an emulated glove to a wrench in the hand") {
+    for (const std::size_t sensors : {18U, 22U}) {
+        const bool right = sensors == 18;
+        auto line = emulate::GloveLine::start(
+            {.sensors = sensors, .hand = right ? glove::Hand::right : glove::Hand::left});
+        REQUIRE(line);
+        Reader reader{glove::Driver::start(line->port())};
+        REQUIRE(test::eventually([&] { return reader.next() != nullptr; }));
+        const glove::Identity identity = reader.driver.report().identity;
+        REQUIRE(identity.sensors == sensors);
+
+        // Calibrated and kept, and read again.
+        const glove::Calibrated made = calibrated(*line, reader);
+        CHECK(made.figure > 0.5);
+        content::GloveCalibration kept;
+        kept.trainee = "Ada";
+        kept.hand = identity.hand;
+        kept.sensors = identity.sensors;
+        kept.date = "2026-11-22";
+        kept.quality = made.figure;
+        kept.calibration = made.calibration;
+        const auto path = content::glove_calibration_path(std::filesystem::temp_directory_path(),
+                                                          "boltwright test", kept.hand);
+        REQUIRE(content::save_glove_calibration(path, kept));
+        const auto loaded = content::load_glove_calibration(path);
+        std::filesystem::remove(path);
+        REQUIRE(loaded);
+        for (const Sensor sensor : glove::sensors_of(sensors)) {
+            const auto& found = loaded->calibration.lines[glove::index(sensor)];
+            if (sensor == Sensor::wrist_pitch || sensor == Sensor::wrist_yaw) continue;
+            REQUIRE(found);
+            CHECK(found->gain == doctest::Approx(truth(glove::index(sensor)).gain).epsilon(0.05));
+        }
+
+        // Worn: the hand closes on a bar, and the glove's cable is pulled.
+        glove::Wearer wearer;
+        wearer.calibration = loaded->calibration;
+        wearer.hand = hand::make_hand(glove::side_of(loaded->hand), loaded->hand_length);
+        glove::GlovedHand worn;
+        grip::Grip grip;
+        const grip_test::Held bar = grip_test::bar();
+        Pose wrist = grip_test::across_the_palm();
+        if (!right) {  // the bar is the same mirrored
+            const Quat& q = wrist.orientation;
+            wrist = {wrist.position * Vec3(-1.0, 1.0, 1.0), Quat(q.w, q.x, -q.y, -q.z)};
+        }
+        grip::Told told = grip::Told::nothing;
+        const auto turn = [&] {
+            const glove::Sample* sample = reader.next();
+            if (sample != nullptr) take(worn, wearer, sample->frame, sample->time);
+            const grip::Told now =
+                step(grip, {}, bar.tool, wearer.hand, {sample != nullptr, worn.angles, wrist}, 0.01);
+            if (now != grip::Told::nothing) told = now;
+        };
+        line->show(raw_of(hand::Angles{}));
+        REQUIRE(test::eventually([&] {
+            turn();
+            return grip.any && std::abs(worn.angles.fingers[1].pip) < 0.03;
+        }));
+        CHECK(!grip.held);
+        const hand::Angles fist = grip_test::closed(1.0);
+        line->show(raw_of(fist));
+        REQUIRE(test::eventually([&] {
+            turn();
+            return grip.held && !grip.lost && worn.angles.fingers[1].pip > fist.fingers[1].pip - 0.05;
+        }));
+        // What was measured is what the hand does, to the glove's own width; what is shown stops at the bar.
+        CHECK(worn.angles.fingers[2].mcp == doctest::Approx(fist.fingers[2].mcp).epsilon(0.03));
+        CHECK(worn.angles.thumb.roll == doctest::Approx(fist.thumb.roll).epsilon(0.03));
+        for (std::size_t d = 1; d < hand::digit_count; ++d) {
+            CHECK(grip.closing.digits[d].touches);
+            CHECK(grip.closing.shown.fingers[d - 1].mcp < 0.8 * worn.angles.fingers[d - 1].mcp);
+        }
+        line->stall(true);
+        REQUIRE(test::eventually([&] {
+            turn();
+            return grip.lost;
+        }));
+        for (int i = 0; i < 100; ++i) turn();
+        CHECK(grip.held);
+        CHECK(told == grip::Told::glove_lost);
+        line->stall(false);
+        REQUIRE(test::eventually([&] {
+            turn();
+            return !grip.lost;
+        }));
+        CHECK(grip.held);
+        line->show(raw_of(hand::Angles{}));
+        REQUIRE(test::eventually([&] {
+            turn();
+            return !grip.held;
+        }));
+    }
+}
