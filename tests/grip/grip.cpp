@@ -2,10 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "engine/base/random.hpp"
 #include "tests/grip/scene.hpp"
+#include "tests/support/forbidden.hpp"
 #include "tests/support/sanitized.hpp"
 
 using namespace bolt;
@@ -79,6 +81,19 @@ TEST_CASE("grip: what is held goes with the hand, wherever that goes") {
     step(play.grip, play.options, play.held.tool, play.hand, input, dt);
     CHECK(play.grip.held);
     CHECK(play.grip.wrist.position == across_the_palm().position);
+}
+
+TEST_CASE("grip: a step allocates nothing, locks nothing, asks nobody") {
+    Play play;
+    for (const double share : {0.0, 0.9, 1.0, 1.0, 1.0, 0.0}) {
+        const GripInput input{true, closed(share), across_the_palm()};
+        Told told{};
+        const test::Forbidden forbidden = test::forbidden_in(
+            [&] { told = step(play.grip, play.options, play.held.tool, play.hand, input, 0.02); });
+        CHECK(forbidden.all() == 0);
+        play.told.push_back(told);
+    }
+    CHECK(std::count(play.told.begin(), play.told.end(), Told::taken) == 1);
 }
 
 TEST_CASE("grip: fingers alone do not hold, nor the thumb alone") {

@@ -177,6 +177,47 @@ TEST_CASE("a fist: tips in the palm, fingers side by side and not in each other,
     CHECK(s.position[thumb_tip].y < s.position[palm].y - 25.0 * mm);
 }
 
+TEST_CASE("the thumb can oppose every finger, pad to pad") {
+    // As a hand does that is not hurt (A. Kapandji's score of opposition, Ann. Chir. Main 5(1), 1986). The
+    // angles are searched for: anywhere at random, then ever nearer to the best.
+    const Hand hand = make_hand(Side::right);
+    for (std::size_t finger = 1; finger < digit_count; ++finger) {
+        Random random(finger);
+        Angles best;
+        double least = 1.0;
+        for (int i = 0; i < 6000; ++i) {
+            Angles a = random_angles(random);
+            if (i > 1000) {
+                const double reach = 0.3 * std::exp(-i / 1500.0);
+                const auto near = [&](double& angle, double to) { angle = to + reach * random.normal(); };
+                near(a.thumb.roll, best.thumb.roll);
+                near(a.thumb.abduction, best.thumb.abduction);
+                near(a.thumb.mcp, best.thumb.mcp);
+                near(a.thumb.ip, best.thumb.ip);
+                FingerAngles& f = a.fingers[finger - 1];
+                const FingerAngles& to = best.fingers[finger - 1];
+                near(f.mcp, to.mcp);
+                near(f.pip, to.pip);
+                near(f.dip, to.dip);
+                near(f.side, to.side);
+                near(a.arch, best.arch);
+            }
+            a = limited(a);
+            const Skeleton s = joints(hand, a, {});
+            const Vec3 thumb = s.rotation[thumb_distal] * Vec3(0, -1, 0);
+            const Vec3 other = s.rotation[digits[finger].first + 3] * Vec3(0, -1, 0);
+            const double apart = glm::length(pad(hand, s, 0) - pad(hand, s, finger)) - 2.0 * pad_radius;
+            // Pads touch, and look at each other.
+            const double badness = std::abs(apart) + 20.0 * mm * std::max(0.0, 0.5 + glm::dot(thumb, other));
+            if (badness >= least) continue;
+            least = badness;
+            best = a;
+        }
+        CAPTURE(finger);
+        CHECK(least < 1.0 * mm);
+    }
+}
+
 TEST_CASE("limits: what a hand can do stays, what it cannot becomes the nearest, what is no number nothing") {
     Random random(5);
     for (int trial = 0; trial < 500; ++trial) {
