@@ -146,6 +146,21 @@ TEST_CASE("closing: who squeezes harder is shown the same where it touches, and 
     CHECK(held_back > (test::sanitized ? 20 : 200));
 }
 
+TEST_CASE(
+    "closing: a bar that is in the back of the hand does not keep the fingers from bending away from it") {
+    const Held held = bar();
+    const hand::Hand hand = hand::make_hand(hand::Side::right);
+    const Pose wrist = inverse({Vec3(0.0, 14.5, -96.0) * mm, rotation({0.0, to_radians(-17.5), 0.0})});
+    const hand::Angles measured = closed(1.0);
+    const Closing closing = close_on(held.tool, hand, measured, wrist);
+    int in = 0;
+    for (std::size_t d = 1; d < hand::digit_count; ++d) {
+        if (in_it(held, hand, wrist, d, opened(measured))) ++in;
+        CHECK(closing.shown.fingers[d - 1].mcp == doctest::Approx(measured.fingers[d - 1].mcp));
+    }
+    CHECK(in >= 2);
+}
+
 TEST_CASE("closing: nothing in reach, nothing changed; and the same bits each time, with nothing forbidden") {
     const Held held = bar();
     const hand::Hand hand = hand::make_hand(hand::Side::right);
