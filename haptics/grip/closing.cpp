@@ -18,11 +18,12 @@ using hand::Tube;
 
 constexpr std::size_t links = 3;        // parts that the three joints move
 constexpr std::size_t most_balls = 12;  // of a link
-constexpr double leap = 0.5e-3;         // m that a ball may get into the tool before it is taken back
+constexpr double leap = 0.1e-3;         // m that a ball may be in an edge that it passes by
 constexpr double sight = 60e-3;         // m: what is further from a ball is taken to be that far
 constexpr double careful = 3e-3;        // m: a link nearer than this is looked at ball by ball
 constexpr double sure = 5e-3;           // m: a ball that is surely this far is not looked at anew
-constexpr int halvings = 10;
+constexpr double exact = 1e-6;          // m from where a digit stops; or after so many guesses:
+constexpr int most_guesses = 12;
 
 // What was found of a ball, and at which share of the digit's way.
 struct Known {
@@ -38,14 +39,33 @@ Three joints_of(Angles& angles, std::size_t digit) {
     return {{&finger.mcp, &finger.pip, &finger.dip}};
 }
 
-double signed_distance(const contact::ToolShape& tool, const Vec3& at) {
-    const double distance = near_point(tool.solid, at, sight, 0.0, {}).distance;
+// Of a point to the tool. Beyond `enough` a lower bound of it does as well.
+double signed_distance(const contact::ToolShape& tool, const Vec3& at, double enough) {
+    const contact::Look seen = contact::look(tool.vicinity, at);
+    if (seen.lower > enough) return seen.lower;
+    const double distance = near_point(tool.solid, at, std::min(sight, seen.upper + 1e-6), 0.0, {}).distance;
     return distance == nothing_near ? sight : distance;
 }
 
 std::size_t balls_of(const Tube& tube) {
     const double length = glm::length(tube.to - tube.from);
     return std::min(most_balls, static_cast<std::size_t>(std::ceil(length / ball_spacing)) + 1);
+}
+
+struct Ball {
+    Vec3 at;
+    double radius;
+};
+Ball ball_of(const Tube& tube, std::size_t i, std::size_t balls) {
+    const double t = static_cast<double>(i) / static_cast<double>(balls - 1);
+    return {tube.from + t * (tube.to - tube.from),
+            tube.radius_from + t * (tube.radius_to - tube.radius_from)};
+}
+
+// No ball of a tube is nearer to the tool than this (m). Beyond `enough` it may be less than it could be.
+double clearance(const contact::ToolShape& tool, const Tube& tube, double enough) {
+    const double around = 0.5 * glm::length(tube.to - tube.from) + std::max(tube.radius_from, tube.radius_to);
+    return signed_distance(tool, 0.5 * (tube.from + tube.to), around + enough) - around;
 }
 
 struct Digit {
@@ -110,26 +130,23 @@ Room look(Digit& digit, std::size_t first, double share, double enough) {
     for (std::size_t link = 0; link < links; ++link) {
         if (!digit.bare(link)) continue;
         const Tube tube = digit.tube_of(link);
-        const double length = glm::length(tube.to - tube.from);
-        const double around = 0.5 * length + std::max(tube.radius_from, tube.radius_to);
-        const double clear = signed_distance(digit.tool, 0.5 * (tube.from + tube.to)) - around;
+        const double clear = clearance(digit.tool, tube, careful);
         if (clear > careful) {
             found(link, clear, digit.speed(link, first, tube.to));
             continue;
         }
         const std::size_t balls = balls_of(tube);
         for (std::size_t i = 0; i < balls; ++i) {
-            const double t = static_cast<double>(i) / static_cast<double>(balls - 1);
-            const Vec3 at = tube.from + t * (tube.to - tube.from);
-            const double speed = digit.speed(link, first, at);
+            const Ball ball = ball_of(tube, i, balls);
+            const double speed = digit.speed(link, first, ball.at);
             Known& known = digit.known[link][i];
             const double surely = known.deep - speed * std::abs(share - known.share);
             if (surely > enough) {
                 found(link, surely, speed);
                 continue;
             }
-            const double radius = tube.radius_from + t * (tube.radius_to - tube.radius_from);
-            known = {signed_distance(digit.tool, at) - radius - digit.before[link][i], share};
+            const double distance = signed_distance(digit.tool, ball.at, ball.radius + sure);
+            known = {distance - ball.radius - digit.before[link][i], share};
             found(link, known.deep, speed);
         }
     }
@@ -142,12 +159,12 @@ void remember_open(Digit& digit) {
     for (std::size_t link = 0; link < links; ++link) {
         if (!digit.bare(link)) continue;
         const Tube tube = digit.tube_of(link);
+        if (clearance(digit.tool, tube, 0.0) > 0.0) continue;
         const std::size_t balls = balls_of(tube);
         for (std::size_t i = 0; i < balls; ++i) {
-            const double t = static_cast<double>(i) / static_cast<double>(balls - 1);
-            const Vec3 at = tube.from + t * (tube.to - tube.from);
-            const double radius = tube.radius_from + t * (tube.radius_to - tube.radius_from);
-            digit.before[link][i] = std::min(0.0, signed_distance(digit.tool, at) - radius);
+            const Ball ball = ball_of(tube, i, balls);
+            digit.before[link][i] =
+                std::min(0.0, signed_distance(digit.tool, ball.at, ball.radius) - ball.radius);
         }
     }
 }
@@ -164,20 +181,24 @@ std::optional<std::size_t> advance(Digit& digit, std::size_t first, DigitStop& s
     bend_to(share);
     Room room = look(digit, first, share, sure);
     for (; share < 1.0 && stop.steps < most_steps; ++stop.steps) {
-        double free = share, hit = std::min(1.0, share + room.step);
+        double free = share, hit = std::min(1.0, share + room.step), above = room.deepest + stop_tolerance;
         bend_to(hit);
         room = look(digit, first, hit, sure);
         if (room.free) {
             share = hit;
             continue;
         }
+        // Back to where it touches: where the line between the two would, and half the way now and then.
+        double below = room.deepest + stop_tolerance;
         std::size_t link = room.link;
-        for (int i = 0; i < halvings; ++i) {
-            const double half = 0.5 * (free + hit);
-            bend_to(half);
-            room = look(digit, first, half, 0.0);
+        for (int i = 0; i < most_guesses && above > exact; ++i) {
+            const double part = i % 3 == 2 ? 0.5 : std::clamp(above / (above - below), 0.1, 0.9);
+            const double guess = free + part * (hit - free);
+            bend_to(guess);
+            room = look(digit, first, guess, stop_tolerance);
             if (!room.free) link = room.link;
-            (room.free ? free : hit) = half;
+            (room.free ? free : hit) = guess;
+            (room.free ? above : below) = room.deepest + stop_tolerance;
         }
         bend_to(free);
         return link;
@@ -191,15 +212,15 @@ contact::FingertipContact nearest_of(const Digit& digit) {
         const Tube tube = digit.tube_of(link);
         const std::size_t balls = balls_of(tube);
         for (std::size_t i = 0; i < balls; ++i) {
-            const double t = static_cast<double>(i) / static_cast<double>(balls - 1);
-            const Vec3 at = tube.from + t * (tube.to - tube.from);
-            const double radius = tube.radius_from + t * (tube.radius_to - tube.radius_from);
-            const double centre = signed_distance(digit.tool, at);
-            if (centre >= sight || centre - radius >= best.distance) continue;
+            const Ball ball = ball_of(tube, i, balls);
+            const contact::Look seen = contact::look(digit.tool.vicinity, ball.at);
+            if (seen.lower - ball.radius >= best.distance) continue;
+            const double centre = signed_distance(digit.tool, ball.at, sight);
+            if (centre >= sight || centre - ball.radius >= best.distance) continue;
             std::array<contact::Side, 1> side;
             const double band = std::abs(centre) + 1e-6;
-            if (near_point(digit.tool.solid, at, band, band, side).sides == 0) continue;
-            best = {side[0].distance - radius, side[0].point, side[0].normal};
+            if (near_point(digit.tool.solid, ball.at, band, band, side).sides == 0) continue;
+            best = {side[0].distance - ball.radius, side[0].point, side[0].normal};
         }
     }
     return best;
