@@ -14,5 +14,6 @@ void add_export(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
+void add_glove(CLI::App& app, int& exit_code);
 
 }  // namespace bolt::cli

@@ -208,6 +208,17 @@ expect 1 'cannot be made|Not a directory' "$bin/boltwright" train --no-pictures 
 expect 1 'session' "$bin/boltwright" report ticks.csv --html never.html
 expect 1 'nowhere' "$bin/boltwright" report nowhere --html never.html
 
+# A glove's calibration: the vendor's file is taken over and kept by trainee; what is wrong is said where.
+expect 0 'Kept in gloves/' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee 'Ada L.' --sensors 22 --folder gloves
+check "it is there" test -s gloves/_41da_20_4c_2e.right.glove.json
+head -8 "$sources/tests/fuzz/corpus/hand.cal" > short.cal
+expect 3 '^(boltwright: |error: )?short.cal:[0-9]+' "$bin/boltwright" glove import short.cal --trainee Ada --folder gloves
+sed 's/"gain": /"gian": /' gloves/_41da_20_4c_2e.right.glove.json > misspelt.json
+expect 3 'misspelt.json:13:7: .*did you mean "gain"' "$bin/boltwright" glove show misspelt.json --port /dev/null
+expect 4 'no serial port' "$bin/boltwright" glove calibrate --trainee Ada --port /dev/null --folder gloves
+expect 2 'trainee is required' "$bin/boltwright" glove calibrate --port /dev/null
+expect 1 'cannot be' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee Ada --folder /dev/null/gloves
+
 # Killed in the middle: what was recorded opens, reports, and says that it was cut short.
 for delay in 0.05 0.15 0.3; do
     rm -rf killed

@@ -1,0 +1,260 @@
+// boltwright glove: calibrates a glove for a trainee, takes over a calibration of the vendor's, and shows
+// what a glove measures with one.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <memory>
+#include <thread>
+
+#include "content/trainee/glove_calibration.hpp"
+#include "engine/base/console.hpp"
+#include "engine/base/file.hpp"
+#include "game/cli/commands.hpp"
+#include "haptics/glove/cal_file.hpp"
+#include "haptics/glove/calibration_session.hpp"
+#include "haptics/glove/driver.hpp"
+#include "haptics/glove/gloved_hand.hpp"
+#include "haptics/glove/serial_line.hpp"
+
+namespace bolt::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double patience = 10.0;      // s for a glove to give its first frame
+constexpr double port_patience = 1.0;  // s for its port to open
+constexpr auto look_again = std::chrono::milliseconds(5);
+
+struct Options {
+    std::string port, trainee, folder, file, hand = "right";
+    std::size_t sensors = 18;
+    double hand_length_mm = 1e3 * hand::skeleton_length;
+    double seconds = 10.0;
+};
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr))); }
+
+// Where calibrations are kept unless somebody says otherwise, by the XDG base directory specification.
+Result<fs::path> kept_in(const Options& options) {
+    if (!options.folder.empty()) return fs::path(options.folder);
+    // NOLINTBEGIN(concurrency-mt-unsafe): nothing sets them
+    if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && fs::path(data).is_absolute())
+        return fs::path(data) / "boltwright" / "gloves";
+    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+        return fs::path(home) / ".local" / "share" / "boltwright" / "gloves";
+    // NOLINTEND(concurrency-mt-unsafe)
+    return fail(ErrorCode::usage, "there is no home folder to keep the calibration in", "--folder");
+}
+
+// Reads every sample of a glove once.
+struct Reader {
+    glove::Driver driver;
+    std::uint64_t last = 0;
+    const glove::Sample* next() {
+        const glove::Sample& sample = driver.sample();
+        if (sample.number == last) return nullptr;
+        last = sample.number;
+        return &sample;
+    }
+};
+
+// On the port that is named, or on the only one there is, and streaming.
+Result<Reader> open(Options& options) {
+    if (options.port.empty()) {
+        const std::vector<fs::path> ports = glove::serial_ports();
+        if (ports.size() != 1)
+            return fail(ErrorCode::no_device,
+                        ports.empty() ? "there is no serial port that a glove could be on"
+                                      : fmt::format("there are {} serial ports", ports.size()),
+                        ports.empty() ? "plug in the glove's adapter, or name its port with --port"
+                                      : "name the glove's with --port, such as " + ports.front().string());
+        options.port = ports.front().string();
+    }
+    Reader reader{glove::Driver::start(options.port)};
+    for (const double from = now(); now() - from < patience; std::this_thread::sleep_for(look_again)) {
+        if (reader.next() != nullptr) return reader;
+        if (!reader.driver.report().open && now() - from > port_patience) break;
+    }
+    const glove::Report& report = reader.driver.report();
+    return fail(ErrorCode::no_device,
+                report.trouble[0] != '\0' ? std::string(report.trouble.data())
+                                          : options.port + " gives nothing that a glove would",
+                report.open ? "is the glove switched on and plugged into its box?" : "");
+}
+
+Result<std::string> keep(const Options& options, content::GloveCalibration calibration) {
+    calibration.trainee = options.trainee;
+    calibration.date = today();
+    calibration.hand_length = 1e-3 * options.hand_length_mm;
+    const Result<fs::path> folder = kept_in(options);
+    if (!folder) return fail(folder.error());
+    std::error_code failed;
+    fs::create_directories(*folder, failed);  // what goes wrong here goes wrong when the file is written
+    const fs::path path = content::glove_calibration_path(*folder, options.trainee, calibration.hand);
+    if (const Status saved = content::save_glove_calibration(path, calibration); !saved)
+        return fail(saved.error());
+    return "Kept in " + path.string() + "\n";
+}
+
+Result<glove::Calibrated> ask_for_postures(Reader& reader) {
+    glove::CalibrationSession session;
+    std::optional<glove::Posture> asked;
+    glove::Trouble told = glove::Trouble::none;
+    while (session.phase != glove::Phase::done && session.phase != glove::Phase::failed) {
+        if (asked != session.asked) {
+            asked = session.asked;
+            const std::string text =
+                fmt::format("{}/{}  {}\n", static_cast<int>(*asked) + 1, glove::poses, glove::prompt(*asked));
+            if (Status said = say(text); !said) return fail(said.error());
+        }
+        if (told != session.trouble) {
+            told = session.trouble;
+            if (told != glove::Trouble::none)
+                if (Status said = say(fmt::format("     {}\n", glove::words(told))); !said)
+                    return fail(said.error());
+        }
+        std::this_thread::sleep_for(look_again);
+        const glove::Sample* sample = reader.next();
+        go_on(session, sample == nullptr ? nullptr : &sample->frame, now());
+    }
+    if (!session.result) return fail(ErrorCode::failed, glove::words(session.trouble), "calibrate again");
+    return std::move(*session.result);
+}
+
+Status calibrate(Options options) {
+    Result<Reader> reader = open(options);
+    if (!reader) return fail(reader.error());
+    const glove::Identity identity = reader->driver.report().identity;
+    if (Status said =
+            say(fmt::format("A {} glove of {} sensors. Hold each posture still until the next.\n",
+                            identity.hand == glove::Hand::left ? "left" : "right", identity.sensors));
+        !said)
+        return said;
+    const Result<glove::Calibrated> made = ask_for_postures(*reader);
+    if (!made) return fail(made.error());
+    std::string text = fmt::format("Quality {:.2f} (1 is as good as gloves are)\n", made->figure);
+    for (const std::string& remark : made->remarks) text += "  " + remark + "\n";
+    if (Status said = say(text); !said) return said;
+    if (made->figure == 0.0)
+        return fail(ErrorCode::failed, "a sensor is of no use, nothing is kept", "calibrate again");
+    const Result<std::string> kept =
+        keep(options,
+             {{}, options.port, identity.hand, identity.sensors, {}, made->figure, 0.0, made->calibration});
+    return kept ? say(*kept) : fail(kept.error());
+}
+
+Status take_over(const Options& options) {
+    const Result<std::string> text = read_file(options.file, std::size_t{1} << 20U, ErrorCode::bad_content);
+    if (!text) return fail(text.error());
+    const Result<glove::Calibration> calibration = glove::parse_cal(*text, options.file);
+    if (!calibration) return fail(calibration.error());
+    const Result<std::string> kept =
+        keep(options, {{},
+                       {},
+                       options.hand == "left" ? glove::Hand::left : glove::Hand::right,
+                       options.sensors,
+                       {},
+                       0.0,
+                       0.0,
+                       *calibration});
+    return kept ? say(*kept) : fail(kept.error());
+}
+
+// The hand, a line a tenth of a second: degrees of thumb and fingers.
+std::string line_of(const hand::Angles& a) {
+    std::string text =
+        fmt::format("thumb {:3.0f} {:3.0f} {:3.0f} {:3.0f}", to_degrees(a.thumb.roll),
+                    to_degrees(a.thumb.abduction), to_degrees(a.thumb.mcp), to_degrees(a.thumb.ip));
+    constexpr std::array<const char*, 4> names{"index", "middle", "ring", "little"};
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += fmt::format("  {} {:3.0f} {:3.0f} {:3.0f}", names[i], to_degrees(a.fingers[i].mcp),
+                            to_degrees(a.fingers[i].pip), to_degrees(a.fingers[i].dip));
+    return text + "\n";
+}
+
+Status show(Options options) {
+    const Result<content::GloveCalibration> kept = content::load_glove_calibration(options.file);
+    if (!kept) return fail(kept.error());
+    Result<Reader> reader = open(options);
+    if (!reader) return fail(reader.error());
+    const glove::Identity identity = reader->driver.report().identity;
+    if (identity.hand != kept->hand || identity.sensors != kept->sensors)
+        return fail(ErrorCode::usage, "this calibration is of another glove",
+                    fmt::format("one of a {} hand with {} sensors",
+                                identity.hand == glove::Hand::left ? "left" : "right", identity.sensors));
+    glove::Wearer wearer;
+    wearer.calibration = kept->calibration;
+    wearer.hand = hand::make_hand(glove::side_of(kept->hand), kept->hand_length);
+    glove::GlovedHand worn;
+    double told = 0.0;
+    for (const double until = now() + options.seconds; now() < until;
+         std::this_thread::sleep_for(look_again)) {
+        const glove::Sample* sample = reader->next();
+        if (sample == nullptr) continue;
+        take(worn, wearer, sample->frame, sample->time);
+        if (sample->time - told < 0.1) continue;
+        told = sample->time;
+        if (Status said = say(line_of(worn.angles)); !said) return said;
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_glove(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("glove", "Calibrate a CyberGlove for a trainee, and look at it");
+    command->require_subcommand(1);
+    const auto options = std::make_shared<Options>();
+    const auto run = [&exit_code, options](CLI::App* sub, Status (*work)(Options)) {
+        sub->callback([&exit_code, options, work] {
+            const Status done = work(*options);
+            exit_code = done ? 0 : complain(done.error());
+        });
+    };
+    const auto whose = [&](CLI::App* sub) {
+        sub->add_option("--trainee", options->trainee, "Whose hand it is")->required();
+        sub->add_option("--hand-length-mm", options->hand_length_mm,
+                        "From the crease of the wrist to the tip of the middle finger")
+            ->check(CLI::Range(100.0, 300.0))
+            ->capture_default_str();
+        sub->add_option("--folder", options->folder, "Where to keep it; else the user's data folder");
+    };
+    const auto where = [&](CLI::App* sub) {
+        sub->add_option("--port", options->port, "The glove's serial port, if there are several");
+    };
+
+    CLI::App* made = command->add_subcommand("calibrate", "By four postures that the trainee is asked for");
+    where(made);
+    whose(made);
+    run(made, calibrate);
+
+    CLI::App* taken = command->add_subcommand("import", "From the vendor's .cal file");
+    taken->add_option("FILE", options->file, "The .cal file")->required();
+    taken->add_option("--hand", options->hand, "left or right")
+        ->check(CLI::IsMember({"left", "right"}))
+        ->capture_default_str();
+    taken->add_option("--sensors", options->sensors, "18 or 22")
+        ->check(CLI::IsMember({18, 22}))
+        ->capture_default_str();
+    whose(taken);
+    run(taken, [](Options o) { return take_over(o); });
+
+    CLI::App* shown = command->add_subcommand("show", "What the glove measures, in degrees");
+    shown->add_option("FILE", options->file, "The calibration that was kept")->required();
+    where(shown);
+    shown->add_option("--seconds", options->seconds, "For how long")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    run(shown, show);
+}
+
+}  // namespace bolt::cli
