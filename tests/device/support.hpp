@@ -1,0 +1,76 @@
+// Devices for tests of what is around devices.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "haptics/device/device.hpp"
+#include "haptics/device/timer.hpp"
+
+namespace bolt::test {
+
+inline device::Description arm() {
+    device::Description arm;
+    arm.name = "an arm";
+    arm.id = "arm-1";
+    arm.renders.fill(true);
+    arm.reach = Vec3(0.2);
+    arm.buttons = 2;
+    return arm;
+}
+
+// What a device was told; the device itself gives a sample a millisecond. For one thread but for the atomics.
+struct Written {
+    device::Description description = arm();
+    std::vector<force::OutputCommand> commands;
+    std::vector<double> began;  // s, of each
+    double write_takes = 0.0;   // s
+    bool fails_reading = false, fails_writing = false;
+    int closed = 0;
+};
+
+class Obedient final : public device::Device {
+  public:
+    Obedient(std::shared_ptr<Written> state, device::Timer timer)
+        : state_(std::move(state)), timer_(std::move(timer)) {}
+    Obedient(const Obedient&) = delete;
+    Obedient& operator=(const Obedient&) = delete;
+    ~Obedient() override { ++state_->closed; }
+
+    [[nodiscard]] const device::Description& describe() const override { return state_->description; }
+
+    Result<std::optional<device::Sample>> read(double patience) override {
+        if (state_->fails_reading) return lost();
+        timer_.wait(std::min(patience, 1e-3));
+        device::Sample sample;
+        sample.time = timer_.now();
+        return sample;
+    }
+    Status write(const force::OutputCommand& command) override {
+        if (state_->fails_writing) return lost();
+        state_->began.push_back(timer_.now());
+        timer_.wait(state_->write_takes);
+        state_->commands.push_back(command);
+        return {};
+    }
+
+  private:
+    static tl::unexpected<Error> lost() {
+        Error error;
+        error.code = ErrorCode::no_device;
+        error.what = "pulled";
+        error.lost = true;
+        return fail(error);
+    }
+
+    std::shared_ptr<Written> state_;
+    device::Timer timer_;
+};
+
+inline device::Open opens(std::shared_ptr<Written> state, device::Timer timer) {
+    return [state = std::move(state), timer = std::move(timer)]() -> Result<std::unique_ptr<device::Device>> {
+        return std::make_unique<Obedient>(state, timer);
+    };
+}
+
+}  // namespace bolt::test
