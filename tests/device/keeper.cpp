@@ -1,0 +1,257 @@
+// How soon a device is back, how soon its forces are gone, and what is said meanwhile, in virtual time.
+#include "haptics/device/keeper.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "engine/base/random.hpp"
+#include "haptics/device/simulated.hpp"
+#include "tests/device/support.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+
+namespace {
+
+// A keeper of a simulated device, and a servo that gives it an order a millisecond while it is `ordering`.
+struct Kept {
+    explicit Kept(Description description = test::arm(), const std::vector<Trouble>& troubles = {})
+        : thing({std::move(description), [](double) { return Sample{}; }, std::nullopt, troubles},
+                timer_of(time)),
+          keeper(thing.open(), timer_of(time)) {}
+
+    VirtualTime time;
+    Simulated thing;
+    Keeper keeper;
+    force::OutputCommand wanted{Vec3(1, 2, 3), Vec3(0.1, 0, 0)};
+    bool ordering = true, enabled = true;
+    std::uint64_t samples = 0;
+
+    std::optional<Sample> turn() {
+        const auto sample = keeper.turn([&] {
+            if (ordering) number_ = 1 + static_cast<std::uint64_t>(time.now * 1e3);
+            return Order{wanted, enabled, number_};
+        });
+        if (sample) ++samples;
+        return sample;
+    }
+    void until(double end) {
+        while (time.now < end) turn();
+    }
+    [[nodiscard]] double force() const { return glm::length(thing.rendered().force); }
+    [[nodiscard]] double torque() const { return glm::length(thing.rendered().torque); }
+
+  private:
+    std::uint64_t number_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("what cannot be opened is tried ever less often, and why is said at once") {
+    VirtualTime time;
+    std::vector<double> tries;
+    Keeper keeper(
+        [&]() -> Result<std::unique_ptr<Device>> {
+            tries.push_back(time.now);
+            return fail(ErrorCode::no_device, "no arm", "plug it in");
+        },
+        timer_of(time));
+    const auto none = [] { return Order{}; };
+    CHECK_FALSE(keeper.turn(none));
+    CHECK(keeper.report().trouble == "no arm; plug it in");
+    CHECK(keeper.report().state == State::absent);
+    while (time.now < 10.0) CHECK_FALSE(keeper.turn(none));
+    const double pauses[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.0, 1.0, 1.0};
+    REQUIRE(tries.size() > 8);
+    CHECK(tries[0] == 0.0);
+    for (std::size_t i = 0; i < 8; ++i)
+        CHECK(tries[i + 1] - tries[i] == doctest::Approx(pauses[i]).epsilon(0.01));
+    CHECK(keeper.report().refusals == tries.size());
+}
+
+TEST_CASE("a device that is lost at its first word is not opened a hundred times a second") {
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    state->fails_reading = true;
+    Keeper keeper(test::opens(state, timer_of(time)), timer_of(time));
+    while (time.now < 10.0) keeper.turn([] { return Order{}; });
+    CHECK(keeper.report().openings == keeper.report().losses);
+    CHECK(keeper.report().openings < 16);
+    CHECK(keeper.report().openings > 8);
+}
+
+TEST_CASE("unplugged and plugged in again at any moment: said within 10 ms, usable within 2 s") {
+    Random random(1);
+    for (int run = 0; run < 200; ++run) {
+        Kept kept;
+        kept.until(random.uniform(0.01, 0.5));
+        REQUIRE(kept.keeper.report().state == State::usable);
+        REQUIRE(kept.keeper.report().trouble.empty());
+        const double pulled = kept.time.now;
+        const double back = pulled + random.uniform(0.001, 5.0);
+        kept.thing.happen({Mishap::unplugged, pulled, back});
+        kept.until(pulled + 0.01);
+        if (back > pulled + 0.01) {
+            CHECK(kept.keeper.report().state == State::absent);
+            CHECK(kept.keeper.report().trouble.find("not plugged in") != std::string::npos);
+            CHECK(kept.keeper.report().losses == 1);
+        }
+        kept.until(back);
+        while (kept.keeper.report().state != State::usable && kept.time.now < back + 3.0) kept.turn();
+        CHECK(kept.time.now <= back + 2.0);
+        kept.turn();
+        kept.turn();
+        CHECK(kept.force() == doctest::Approx(std::sqrt(14.0)));
+        CHECK(kept.keeper.report().trouble.empty());
+    }
+}
+
+TEST_CASE("when orders stay away the force is gone within 20 ms, at any moment") {
+    Random random(2);
+    for (int run = 0; run < 200; ++run) {
+        Kept kept;
+        kept.until(random.uniform(0.05, 0.2));
+        REQUIRE(kept.force() > 3.0);
+        kept.ordering = false;
+        const double last = kept.time.now;
+        kept.until(last + 0.010);
+        CHECK(kept.force() > 3.0);  // a late servo is not yet a dead one
+        kept.until(last + 0.020);
+        CHECK(kept.force() == 0.0);
+        CHECK(kept.torque() == 0.0);
+        CHECK(kept.keeper.report().lapses == 1);
+        kept.until(last + 0.5);
+        CHECK(kept.keeper.report().lapses == 1);
+        kept.ordering = true;
+        kept.until(last + 0.51);
+        CHECK(kept.force() > 3.0);
+    }
+}
+
+TEST_CASE("no force without the dead-man, for what is no number, and when it is closed") {
+    Kept kept;
+    kept.until(0.1);
+    REQUIRE(kept.force() > 3.0);
+    kept.enabled = false;
+    kept.until(0.103);
+    CHECK(kept.force() == 0.0);
+    kept.enabled = true;
+    kept.until(0.106);
+    REQUIRE(kept.force() > 3.0);
+    kept.wanted.torque.z = std::numeric_limits<double>::quiet_NaN();
+    kept.until(0.109);
+    CHECK(kept.force() == 0.0);
+    kept.wanted.torque.z = 0.0;
+    kept.until(0.112);
+    REQUIRE(kept.force() > 3.0);
+    kept.keeper.close();
+    CHECK(kept.force() == 0.0);
+
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    {
+        Keeper keeper(test::opens(state, timer_of(time)), timer_of(time));
+        std::uint64_t number = 0;
+        for (int i = 0; i < 50; ++i)
+            keeper.turn([&] { return Order{{Vec3(1, 0, 0), Vec3(0.0)}, true, ++number}; });
+        REQUIRE(state->commands.back().force.x == 1.0);
+    }
+    CHECK(state->commands.back().force.x == 0.0);
+    CHECK(state->closed == 1);
+}
+
+TEST_CASE(
+    "nothing that was wanted before it was opened is rendered; its first word is that there is no force") {
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    Keeper keeper(test::opens(state, timer_of(time)), timer_of(time));
+    for (int i = 0; i < 100; ++i) keeper.turn([] { return Order{{Vec3(9, 0, 0), Vec3(0.0)}, true, 77}; });
+    REQUIRE(state->commands.size() == 1);
+    CHECK(state->commands[0].force == Vec3(0.0));
+    keeper.turn([] { return Order{{Vec3(9, 0, 0), Vec3(0.0)}, true, 78}; });
+    REQUIRE(state->commands.size() == 2);
+    CHECK(state->commands[1].force == Vec3(9, 0, 0));
+    CHECK(keeper.report().lapses == 0);
+}
+
+TEST_CASE("a device gets no more than it described, along no axis that it did not") {
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    state->description.renders = {true, true, false, false, false, true};
+    state->description.limits.force = 5.0;
+    state->description.limits.torque = 0.5;
+    Keeper keeper(test::opens(state, timer_of(time)), timer_of(time));
+    keeper.turn([] { return Order{}; });
+    keeper.turn([] { return Order{{Vec3(30, 40, 50), Vec3(1, 1, -2)}, true, 1}; });
+    CHECK(glm::length(state->commands.back().force - Vec3(3, 4, 0)) < 1e-12);
+    CHECK(glm::length(state->commands.back().torque - Vec3(0, 0, -0.5)) < 1e-12);
+}
+
+TEST_CASE("a sample of no sense is counted and goes no further; many are silence, and that is said") {
+    Kept kept;
+    kept.until(0.1);
+    const std::uint64_t before = kept.samples;
+    kept.thing.happen({Mishap::no_number, 0.1, 0.2});
+    kept.until(0.199);
+    CHECK(kept.samples == before);
+    CHECK(kept.keeper.report().malformed >= 98);
+    CHECK(kept.keeper.report().state == State::usable);
+    kept.until(0.3);
+    CHECK(kept.samples > before + 90);
+    kept.thing.happen({Mishap::no_number, 0.3, 0.7});
+    kept.until(0.6);
+    CHECK(kept.keeper.report().state == State::silent);
+    CHECK(kept.keeper.report().trouble.find("nothing of sense") != std::string::npos);
+    kept.until(0.8);
+    CHECK(kept.keeper.report().state == State::usable);
+    CHECK(kept.keeper.report().trouble.empty());
+    CHECK(kept.keeper.report().openings == 1);
+}
+
+TEST_CASE("what has fallen mute is opened anew; said within a second, usable within 2 s of coming to") {
+    Kept kept;
+    kept.until(0.1);
+    kept.thing.happen({Mishap::silent, 0.1, 4.0});
+    kept.until(0.5);
+    CHECK(kept.keeper.report().state == State::silent);
+    CHECK_FALSE(kept.keeper.report().trouble.empty());
+    CHECK(kept.keeper.report().openings == 1);
+    kept.until(3.9);
+    CHECK(kept.keeper.report().silences >= 2);
+    CHECK_FALSE(kept.keeper.report().trouble.empty());
+    kept.until(4.0);
+    while (kept.keeper.report().state != State::usable && kept.time.now < 8.0) kept.turn();
+    CHECK(kept.time.now < 6.0);
+}
+
+TEST_CASE("a puck or a wheel without a motor may rest as long as it likes") {
+    for (const Sensing sensing : {Sensing::rate, Sensing::turn}) {
+        Description description = test::arm();
+        description.sensing = sensing;
+        description.renders = {};
+        Kept kept(description, {{Mishap::silent, 0.0, 100.0}});
+        kept.until(10.0);
+        CHECK(kept.keeper.report().state == State::usable);
+        CHECK(kept.keeper.report().openings == 1);
+        CHECK(kept.keeper.report().trouble.empty());
+        CHECK(kept.keeper.report().writes == 0);
+    }
+}
+
+TEST_CASE("while a write hangs for 15 ms orders go on, and only the newest goes out after it") {
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    state->write_takes = 0.015;
+    Keeper keeper(test::opens(state, timer_of(time)), timer_of(time));
+    while (time.now < 1.0)
+        keeper.turn([&] {
+            const auto tick = static_cast<std::uint64_t>(time.now * 1e3);
+            return Order{{Vec3(1e-3 * static_cast<double>(tick), 0, 0), Vec3(0.0)}, true, tick};
+        });
+    REQUIRE(state->commands.size() > 50);
+    CHECK(state->commands.size() < 70);
+    for (std::size_t i = 1; i < state->commands.size(); ++i)
+        CHECK(state->commands[i].force.x == doctest::Approx(state->began[i]).epsilon(1e-2).scale(0.1));
+    CHECK(keeper.report().lapses == 0);
+}
