@@ -8,11 +8,11 @@ namespace {
 
 // The share of the wanted wrench that the device can give. One for force and torque: a contact that is felt
 // at a lever keeps its place. Clamped each for itself they would be the wrench of no contact, and a hand that
-// goes round such a field gains or loses energy.
+// goes round such a field gains or loses energy. What a device renders none of takes nothing from the rest.
 double share_of(const OutputLimits& limits, const OutputCommand& wanted) {
     const double force = glm::length(wanted.force), torque = glm::length(wanted.torque);
     double share = 1.0;
-    if (force > limits.force) share = limits.force / force;
+    if (limits.force > 0.0 && force > limits.force) share = limits.force / force;
     if (limits.torque > 0.0 && torque > limits.torque) share = std::min(share, limits.torque / torque);
     return share;
 }

@@ -58,6 +58,8 @@ Setup make_setup(const Description& d) {
         greatest / to_radians(2.5);  // wrench and wrists give 2.5° at the greatest torque
 
     setup.limits = d.limits;
+    // What a device cannot render must not count as stored by it.
+    if (d.limits.force <= 0.0) setup.hold_stiffness = 0.0;
     setup.torque = force::make_torque_rendering(d.limits, d.greatest_torque, d.handle_length);
     setup.guiding.greatest = std::min(3.0, 0.2 * d.limits.force);
     setup.guiding.stiffness = std::min(setup.guiding.stiffness, d.limits.stiffness);

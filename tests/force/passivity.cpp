@@ -180,3 +180,15 @@ TEST_CASE("the ramp lets the store in as a grant") {
     CHECK(s.balance == doctest::Approx(0.0));
     CHECK(s.stored == doctest::Approx(2e-3));
 }
+
+TEST_CASE("a device of torque alone, or of force alone, gets that whole whatever is wanted of the other") {
+    for (const bool torque : {true, false}) {
+        OutputLimits limits;
+        (torque ? limits.force : limits.torque) = 0.0;
+        PassivityState s;
+        const Wanted wanted{{Vec3(5, 0, 0), Vec3(0, 1, 0)}, 10.0, 0.0};
+        const OutputCommand out = control(limits, s, moved(Vec3(0.0)), wanted, 1.0, 1.0, dt);
+        if (torque) CHECK(out.torque.y == doctest::Approx(1.0));
+        if (!torque) CHECK(out.force.x == doctest::Approx(5.0));
+    }
+}

@@ -143,6 +143,24 @@ TEST_CASE("a device without torque feels it as a force across the handle, agains
     CHECK(glm::length(output.torque) == 0.0);
 }
 
+TEST_CASE("a wheel, which renders torque and no force, gets the nut's torque whole, held off centre or not") {
+    force::OutputLimits limits;
+    limits.force = 0.0;
+    const Setup setup = test::two_joints(limits);
+    State state = initial_state(setup);
+    const NutPlace& nut = setup.nuts[0];
+    Output output;
+    double angle = setup.wrench.head_angle;
+    for (int i = 0; i < 20'000; ++i) {
+        const Vec3 at = nut_centre(nut, state.joints[0].nut.angle) + 0.5e-3 * nut.e1;
+        output = tick(setup, state, test::holding(Grip::wrench, test::tool_at(nut, at, angle)));
+        if (output.wrench_torque < 150.0) angle += to_radians(0.05);
+    }
+    REQUIRE(output.wrench_torque > 140.0);
+    CHECK(output.torque.y == doctest::Approx(output.wrench_torque * setup.torque.scale).epsilon(0.02));
+    CHECK(glm::length(output.force) == 0.0);
+}
+
 TEST_CASE("fingers run the nut down, slip at its seat, and leave it there") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
