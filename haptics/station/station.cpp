@@ -1,0 +1,125 @@
+#include "haptics/station/station.hpp"
+
+#include <atomic>
+
+#include "engine/base/spsc_ring.hpp"
+
+namespace bolt::station {
+
+namespace {
+
+constexpr std::size_t kept_ticks = 8192;  // s for a recorder to come by: eight at 1 kHz
+
+}  // namespace
+
+struct Station::Shared {
+    Layout layout;
+    servo::Setup setup;
+    servo::State state;
+    State mapped;
+    std::optional<device::Line> mover, wheel;
+    std::optional<glove::Driver> glove;
+    TripleBuffer<Wishes> wishes;
+    TripleBuffer<Ticked> ticked;
+    SpscRing<Ticked> ticks{kept_ticks};
+    std::atomic<std::uint64_t> lost{0};
+    std::optional<servo::Thread> thread;  // the last member: it stops first
+
+    bool tick(const servo::Beat& beat) {
+        Heard heard;
+        if (mover) heard.mover = mover->told();
+        if (wheel) heard.wheel = wheel->told();
+        wishes.update();
+        heard.wishes = wishes.latest();
+        heard.missed = beat.missed;
+        const Answer answer = station::tick(layout, setup, mapped, state, heard);
+        if (mover) mover->order(answer.mover, true);
+        if (wheel) wheel->order(answer.wheel, true);
+        const Ticked now{beat.number, mapped.input, mapped.output};
+        ticked.write(now);
+        if (!ticks.push(now)) lost.fetch_add(1, std::memory_order_relaxed);
+        return true;
+    }
+};
+
+Station::Station(std::unique_ptr<Shared> shared) : shared_(std::move(shared)) {}
+Station::Station(Station&&) noexcept = default;
+Station& Station::operator=(Station&&) noexcept = default;
+Station::~Station() = default;
+
+namespace {
+
+Status open(const device::Open& opens, const Plan& plan, std::optional<device::Line>& line,
+            std::optional<device::Description>& description) {
+    if (!opens) return {};
+    Result<device::Line> started = device::Line::start(opens, plan.line);
+    if (!started) return fail(started.error());
+    line = std::move(*started);
+    auto found = line->await(plan.patience);
+    if (!found) return fail(found.error());
+    description = **found;
+    return {};
+}
+
+}  // namespace
+
+Result<Station> Station::start(Plan plan) {
+    auto shared = std::make_unique<Shared>();
+    Shared& s = *shared;
+    s.layout.mover_buttons = plan.mover_buttons;
+    s.layout.wheel_buttons = plan.wheel_buttons;
+    s.layout.workspace = plan.workspace;
+    s.layout.home = plan.home;
+    if (Status ok = open(plan.mover, plan, s.mover, s.layout.mover); !ok) return fail(ok.error());
+    if (Status ok = open(plan.wheel, plan, s.wheel, s.layout.wheel); !ok) return fail(ok.error());
+    if (Status ok = check(s.layout); !ok) return fail(ok.error());
+    if (!plan.glove.empty()) s.glove = glove::Driver::start(plan.glove);
+
+    s.setup = plan.setup(limits_of(s.layout), 1.0 / plan.servo.rate);
+    if (plan.state) {
+        Result<servo::State> state = plan.state(s.setup);
+        if (!state) return fail(state.error());
+        s.state = std::move(*state);
+    } else {
+        s.state = servo::initial_state(s.setup);
+    }
+    s.mapped = initial_state(s.layout);
+    Result<servo::Thread> thread =
+        servo::Thread::start(plan.servo, [&s](const servo::Beat& beat) { return s.tick(beat); });
+    if (!thread) return fail(thread.error());
+    s.thread = std::move(*thread);
+    return Station(std::move(shared));
+}
+
+void Station::wish(const Wishes& wishes) { shared_->wishes.write(wishes); }
+
+const Ticked& Station::newest() {
+    shared_->ticked.update();
+    return shared_->ticked.latest();
+}
+
+bool Station::next(Ticked& tick) { return shared_->ticks.pop(tick); }
+std::uint64_t Station::lost() const { return shared_->lost.load(std::memory_order_relaxed); }
+
+std::vector<std::string> Station::troubles() {
+    std::vector<std::string> words;
+    for (auto* line : {&shared_->mover, &shared_->wheel})
+        if (line->has_value() && !(*line)->report().trouble.empty())
+            words.push_back((*line)->report().trouble);
+    const Ticked& tick = newest();
+    // That a device is silent its line has said better.
+    const force::Fault fault = tick.output.fault;
+    if (tick.input.enabled && fault != force::Fault::none && (fault != force::Fault::silent || words.empty()))
+        words.emplace_back(force::name(fault));
+    if (shared_->glove && shared_->glove->report().trouble[0] != '\0')
+        words.emplace_back(shared_->glove->report().trouble.data());
+    return words;
+}
+
+const Layout& Station::layout() const { return shared_->layout; }
+const servo::Setup& Station::setup() const { return shared_->setup; }
+glove::Driver* Station::glove() { return shared_->glove ? &*shared_->glove : nullptr; }
+servo::Thread& Station::servo() { return *shared_->thread; }
+void Station::stop() { shared_->thread->stop(); }
+
+}  // namespace bolt::station

@@ -1,0 +1,67 @@
+// One tick of a station: what its devices told becomes the servo's input, what the servo puts out becomes
+// what the devices are to render. Pure, of fixed dt, without allocation, lock, clock or I/O. Forces come from
+// the servo's output stage only; here they are mapped and made less.
+//
+// A device that is lost, or silent for longer than it may be, moves nothing and gets no force; when it is
+// back the hand may be anywhere, so the tool stays where it is and follows from there, as after a clutch.
+#pragma once
+
+#include "haptics/device/line.hpp"
+#include "haptics/servo/tick.hpp"
+#include "haptics/station/layout.hpp"
+
+namespace bolt::station {
+
+// What devices do not tell: a lesson's, a glove's, a keyboard's.
+struct Wishes {
+    servo::Grip grip = servo::Grip::none;
+    bool held = false;  // the dead-man, besides the devices' buttons
+    bool clutch = false, stop = false, reset = false;
+    std::int16_t guide = -1;
+};
+
+struct Heard {
+    device::Told mover, wheel;
+    Wishes wishes;
+    std::uint64_t missed = 0;  // deadlines of the servo without a tick since the one before
+};
+
+// What is known of one device.
+struct Port {
+    std::uint64_t number = 0, opening = 0;  // of its last sample
+    double quiet = 0.0;                     // s since that
+    bool fresh = false;                     // it told something in this tick
+    bool usable = false;
+    double share = 0.0;  // 0 … 1 of the force that it gets
+};
+
+struct State {
+    Port mover, wheel;
+    force::WorkspaceState workspace;  // `tool` is where the hand has it
+    Pose hand;                        // of the mover, its frame
+    double turn = 0.0;                // rad, of the wheel
+    Vec3 axis{0.0, 1.0, 0.0};         // of the bolt that the wheel turns, or turned last
+    double on_bolt = 0.0;             // 0 … 1: the wheel feels that bolt
+    servo::Input input;               // of the last tick
+    servo::Output output;
+};
+
+struct Answer {
+    force::OutputCommand mover, wheel;  // each in its device's frame
+};
+
+State initial_state(const Layout& layout);
+
+Answer tick(const Layout& layout, const servo::Setup& setup, State& state, servo::State& servo,
+            const Heard& heard);
+
+// The two halves of it.
+servo::Input hear(const Layout& layout, const servo::Setup& setup, State& state, const Heard& heard);
+Answer answer(const Layout& layout, const servo::Setup& setup, State& state, const servo::Output& output);
+
+// A puck's tool may be ahead of what obstacles allow by so much: it turns back at once.
+inline constexpr double ahead = 0.01, turned_ahead = 0.15;  // m, rad
+// A rate is believed for so long without a new one.
+inline constexpr double rate_lasts = 0.25;  // s
+
+}  // namespace bolt::station

@@ -1,0 +1,351 @@
+// What becomes of devices' samples and of the servo's output, without threads and without devices.
+#include "haptics/station/step.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "engine/base/random.hpp"
+#include "tests/station/support.hpp"
+#include "tests/support/forbidden.hpp"
+
+using namespace bolt;
+using namespace bolt::station;
+using device::Told;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+Layout with_arm() {
+    Layout layout;
+    layout.mover = test::arm();
+    layout.home.position = Vec3(0.1, 0.3, 0.0);
+    return layout;
+}
+
+// A station whose devices say what a test wants, every millisecond.
+struct Rig {
+    explicit Rig(const Layout& l)
+        : layout(l),
+          setup(test::two_joints(limits_of(l))),
+          servo(servo::initial_state(setup)),
+          state(initial_state(l)) {
+        for (Told* told : {&heard.mover, &heard.wheel}) {
+            told->usable = true;
+            told->opening = 1;
+        }
+        heard.wishes.held = true;
+        heard.wishes.grip = servo::Grip::wrench;
+    }
+
+    Layout layout;
+    servo::Setup setup;
+    servo::State servo;
+    State state;
+    Heard heard;
+    bool mover_speaks = true, wheel_speaks = true;
+
+    Answer tick() {
+        if (mover_speaks) ++heard.mover.number;
+        if (wheel_speaks) ++heard.wheel.number;
+        return station::tick(layout, setup, state, servo, heard);
+    }
+    Answer ticks(int count) {
+        Answer answer;
+        for (int i = 0; i < count; ++i) answer = tick();
+        return answer;
+    }
+    Pose& hand() { return heard.mover.sample.pose; }
+    [[nodiscard]] const Pose& tool() const { return state.workspace.tool; }
+};
+
+// The tool on the first nut, aligned; a puck moves it, if anything.
+Rig on_nut(Layout layout) {
+    const servo::Setup setup = test::two_joints(limits_of(layout));
+    const servo::NutPlace& nut = setup.nuts[0];
+    const servo::DeviceSample at = test::tool_at(nut, servo::nut_centre(nut, 0.0), setup.wrench.head_angle);
+    const servo::ToolPose pose = servo::pose_of(at);
+    layout.home = {pose.position, pose.orientation};
+    Rig rig(layout);
+    rig.ticks(700);  // the ramp
+    REQUIRE(rig.state.output.joint == 0);
+    return rig;
+}
+
+bool nothing(const force::OutputCommand& c) { return c.force == Vec3(0.0) && c.torque == Vec3(0.0); }
+
+}  // namespace
+
+TEST_CASE("the tool begins at home wherever the hand is, and follows it, scaled") {
+    Layout layout = with_arm();
+    layout.workspace.scale = 3.0;
+    layout.workspace.turn = rotation(Vec3(0, pi / 2, 0));
+    Rig rig(layout);
+    rig.hand() = {Vec3(0.05, -0.02, 0.01), rotation(Vec3(0.3, 0, 0))};
+    rig.tick();
+    CHECK(glm::length(rig.tool().position - layout.home.position) < 1e-12);
+    CHECK(glm::length(rig.state.input.device.position[1] - 0.3F) < 1e-6F);
+    for (int i = 0; i < 100; ++i) {
+        rig.hand().position.x += 1e-4;
+        rig.tick();
+    }
+    CHECK(glm::length(rig.tool().position - (layout.home.position + Vec3(0, 0, -0.03))) < 1e-9);
+}
+
+TEST_CASE("clutched, lost or plugged in elsewhere: the tool stays and follows on from there") {
+    Rig rig(with_arm());
+    rig.ticks(10);
+    const Pose before = rig.tool();
+    rig.heard.mover.sample.buttons = 2;
+    for (int i = 0; i < 50; ++i) {
+        rig.hand().position += Vec3(1e-3, 0, 0);
+        rig.tick();
+    }
+    CHECK(rig.tool().position == before.position);
+    rig.heard.mover.sample.buttons = 0;
+    rig.ticks(10);
+    CHECK(glm::length(rig.tool().position - before.position) < 1e-12);
+    // Unplugged, and plugged in again with the hand a foot away and turned.
+    rig.heard.mover.usable = false;
+    rig.mover_speaks = false;
+    rig.ticks(100);
+    rig.heard.mover.usable = rig.mover_speaks = true;
+    ++rig.heard.mover.opening;
+    rig.hand().position += Vec3(0, 0.3, 0);
+    rig.hand().orientation = rotation(Vec3(0, 0, 1));
+    rig.ticks(10);
+    CHECK(glm::length(rig.tool().position - before.position) < 1e-12);
+    CHECK(rig.state.output.fault != force::Fault::jumped);
+    rig.hand().position += Vec3(0, 0.001, 0);
+    rig.tick();
+    CHECK(glm::length(rig.tool().position - before.position) == doctest::Approx(0.001));
+}
+
+TEST_CASE("buttons do what they are set to, of what is plugged in only") {
+    Rig rig(with_arm());
+    rig.layout.mover_buttons = {4, 8, 16, 32};
+    rig.heard.wishes.held = false;
+    rig.tick();
+    CHECK_FALSE(rig.state.input.enabled);
+    rig.heard.mover.sample.buttons = 4 | 16;
+    rig.tick();
+    CHECK(rig.state.input.enabled);
+    CHECK(rig.state.input.stop);
+    CHECK(rig.state.output.fault == force::Fault::stopped);
+    rig.heard.mover.sample.buttons = 32;
+    rig.tick();
+    CHECK(rig.state.input.reset);
+    CHECK(rig.state.output.fault == force::Fault::none);
+    rig.heard.mover.sample.buttons = 4;
+    rig.heard.mover.usable = false;
+    rig.tick();
+    CHECK_FALSE(rig.state.input.enabled);
+    rig.heard.missed = 40;
+    rig.tick();
+    CHECK(rig.state.input.missed == 15);
+}
+
+TEST_CASE("a silent device has no force 18 ms after its last sample, and gets it back over the ramp") {
+    for (const bool lost : {false, true}) {
+        Rig rig = on_nut(with_arm());
+        rig.hand().position.z += 2e-3;  // the nut draws it back
+        REQUIRE(glm::length(rig.ticks(50).mover.force) > 1.0);
+        rig.mover_speaks = false;
+        rig.heard.mover.usable = !lost;
+        Answer answer = rig.ticks(7);
+        if (!lost) CHECK(glm::length(answer.mover.force) > 1.0);
+        answer = rig.ticks(11);
+        CHECK(nothing(answer.mover));
+        rig.ticks(100);
+        CHECK(nothing(rig.tick().mover));
+        rig.mover_speaks = rig.heard.mover.usable = true;
+        double before = 0.0;
+        for (int i = 0; i < 1500; ++i) {
+            const double now = glm::length(rig.tick().mover.force);
+            CHECK(now - before < 0.1);
+            before = now;
+        }
+        CHECK(before > 1.0);
+    }
+}
+
+TEST_CASE("a puck pushes the tool, at its speed, for as long as it says so, and no further than obstacles") {
+    Layout layout;
+    layout.mover = test::puck();
+    layout.workspace.turn = rotation(Vec3(0, 0, pi / 2));
+    Rig rig(layout);
+    rig.heard.wishes.grip = servo::Grip::none;
+    rig.heard.mover.sample.velocity = Vec3(0.1, 0, 0);
+    rig.heard.mover.sample.angular_velocity = Vec3(0, 0, 0.5);
+    rig.ticks(1000);
+    CHECK(glm::length(rig.tool().position - Vec3(0, 0.1, 0)) < 1e-4);
+    CHECK(rotation_vector(rig.tool().orientation).z == doctest::Approx(0.5).epsilon(1e-3));
+    CHECK(rig.state.output.fault == force::Fault::none);
+    SUBCASE("it has gone quiet while pushed: not for long") {
+        rig.mover_speaks = false;
+        rig.ticks(2000);
+        CHECK(rig.tool().position.y - 0.1 == doctest::Approx(0.1 * rate_lasts).epsilon(0.02));
+    }
+    SUBCASE("it is lost while pushed") {
+        rig.heard.mover.usable = false;
+        rig.ticks(2000);
+        CHECK(rig.tool().position.y == doctest::Approx(0.1).epsilon(1e-3));
+        CHECK(rig.state.output.fault == force::Fault::silent);
+    }
+    SUBCASE("the clutch holds it") {
+        rig.heard.wishes.clutch = true;
+        rig.ticks(2000);
+        CHECK(rig.tool().position.y == doctest::Approx(0.1).epsilon(1e-3));
+    }
+    SUBCASE("something holds the tool back: the hand is not far inside it") {
+        const Pose held = rig.state.output.tool;
+        rig.heard.mover.sample.velocity = Vec3(0.3, 0, 0);
+        for (int i = 0; i < 1000; ++i) {
+            ++rig.heard.mover.number;
+            hear(rig.layout, rig.setup, rig.state, rig.heard);
+            rig.state.output.tool = held;
+        }
+        CHECK(glm::length(rig.tool().position - held.position) == doctest::Approx(ahead).epsilon(0.05));
+        const Vec3 turned =
+            rotation_vector(glm::normalize(rig.tool().orientation * glm::conjugate(held.orientation)));
+        CHECK(glm::length(turned) <= turned_ahead * 1.01);
+    }
+}
+
+TEST_CASE("a wheel turned with the clock tightens, as its user sees it, however its axis is counted") {
+    for (const Vec3 axis : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+        CAPTURE(axis.y);
+        CAPTURE(axis.z);
+        Layout layout;
+        layout.mover = test::puck();
+        layout.wheel = test::wheel_of(10.0, axis);
+        Rig rig = on_nut(layout);
+        // The user looks along −z, or down; with the clock is right-handed about where the user looks to.
+        const double with_clock = axis.y + axis.z < 0.0 ? 1.0 : -1.0;
+        Answer answer;
+        for (int i = 0; i < 30'000 && rig.state.output.wrench_torque < 100.0; ++i) {
+            rig.heard.wheel.sample.turn += with_clock * 1e-3;
+            answer = rig.tick();
+        }
+        REQUIRE(rig.state.output.wrench_torque > 99.0);
+        CHECK(rig.state.output.nut_angle > 0.5);
+        // What it feels is the nut's torque, scaled to its motor, against the way it is turned.
+        const double felt = glm::dot(answer.wheel.torque, axis) * -with_clock;
+        CHECK(felt == doctest::Approx(rig.state.output.wrench_torque * rig.setup.torque.scale).epsilon(0.02));
+        CHECK(glm::length(answer.wheel.torque) <= 10.0);
+        CHECK(nothing(answer.mover));
+        CHECK(rig.state.output.fault == force::Fault::none);
+
+        // The wheel falls mute: nothing is left of that after 18 ms.
+        rig.wheel_speaks = false;
+        CHECK(nothing(rig.ticks(18).wheel));
+        CHECK(rig.state.output.fault == force::Fault::silent);
+    }
+}
+
+TEST_CASE("of two devices that are felt at once each is let go of by itself") {
+    Layout layout = with_arm();
+    layout.wheel = test::wheel_of(10.0);
+    for (const bool arm_falls_mute : {true, false}) {
+        Rig rig = on_nut(layout);
+        rig.hand().position.z += 2e-3;
+        for (int i = 0; i < 30'000 && rig.state.output.wrench_torque < 50.0; ++i) {
+            rig.heard.wheel.sample.turn += 1e-3;
+            rig.tick();
+        }
+        Answer answer = rig.tick();
+        REQUIRE(rig.state.output.wrench_torque > 40.0);
+        REQUIRE(glm::length(answer.mover.force) > 1.0);
+        REQUIRE(glm::length(answer.wheel.torque) > 0.5);
+        (arm_falls_mute ? rig.mover_speaks : rig.wheel_speaks) = false;
+        answer = rig.ticks(18);
+        if (arm_falls_mute) CHECK(nothing(answer.mover));
+        CHECK(nothing(answer.wheel) == !arm_falls_mute);
+    }
+}
+
+TEST_CASE("a wheel turns nothing when the wrench is on no nut, and what it turned meanwhile is forgotten") {
+    Layout layout;
+    layout.mover = test::puck();
+    layout.wheel = test::wheel_of(10.0);
+    layout.home.position = Vec3(0.1, 0.3, 0.0);
+    Rig rig(layout);
+    rig.ticks(700);
+    const Pose before = rig.tool();
+    for (int i = 0; i < 1000; ++i) {
+        rig.heard.wheel.sample.turn += 0.01;
+        CHECK(nothing(rig.tick().wheel));
+    }
+    CHECK(rig.tool().orientation == before.orientation);
+    CHECK(rig.tool().position == before.position);
+
+    Rig on = on_nut(layout);
+    const Pose there = on.tool();
+    ++on.heard.wheel.opening;  // plugged in again, and its count begins anew
+    on.heard.wheel.sample.turn = 40.0;
+    on.ticks(5);
+    CHECK(glm::length(rotation_vector(
+              glm::normalize(on.tool().orientation * glm::conjugate(there.orientation)))) < 1e-9);
+    CHECK(on.state.output.joint == 0);
+}
+
+TEST_CASE("layouts that cannot work are refused in words") {
+    CHECK_FALSE(check({}));
+    Layout layout;
+    layout.mover = test::wheel_of(2.0);
+    REQUIRE_FALSE(check(layout));
+    CHECK(check(layout).error().message().find("a wheel turns about one axis") != std::string::npos);
+    layout.mover = test::arm();
+    CHECK(check(layout));
+    layout.wheel = test::arm();
+    CHECK_FALSE(check(layout));
+    layout.wheel = test::wheel_of(2.0);
+    CHECK(check(layout));
+    layout.mover.reset();
+    CHECK(check(layout));
+}
+
+TEST_CASE("what is rendered together: forces of the mover, torque of the wheel") {
+    Layout layout;
+    layout.mover = test::puck();
+    CHECK(limits_of(layout).force == 0.0);
+    CHECK(limits_of(layout).torque == 0.0);
+    layout.wheel = test::wheel_of(7.0);
+    CHECK(limits_of(layout).torque == 7.0);
+    layout.mover = test::arm();
+    layout.workspace.scale = 2.0;
+    CHECK(limits_of(layout).force == doctest::Approx(0.5 * test::arm().limits.force));
+    CHECK(limits_of(layout).torque == 7.0);
+    layout.wheel.reset();
+    CHECK(limits_of(layout).torque == test::arm().limits.torque);
+    layout.mover->renders = {true, true, true, false, false, false};
+    CHECK(limits_of(layout).torque == 0.0);
+}
+
+TEST_CASE("a station's tick allocates nothing, waits for nothing; the same told gives the same bits") {
+    const auto run = [](test::Forbidden* forbidden) {
+        Layout layout = with_arm();
+        layout.wheel = test::wheel_of(5.0);
+        Rig rig = on_nut(layout);
+        Random random(3);
+        std::uint64_t hash = 14695981039346656037ULL;
+        const auto all = [&] {
+            for (int i = 0; i < 3000; ++i) {
+                rig.heard.wheel.sample.turn += 2e-3 * random.uniform();
+                rig.hand().position.x += 1e-5 * random.normal();
+                rig.mover_speaks = !random.chance(0.1);
+                const Answer answer = rig.tick();
+                unsigned char bytes[sizeof answer];
+                std::memcpy(bytes, &answer, sizeof answer);
+                for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;
+            }
+        };
+        const test::Forbidden seen = test::forbidden_in(all);
+        if (forbidden != nullptr) *forbidden = seen;
+        return hash;
+    };
+    test::Forbidden forbidden;
+    CHECK(run(&forbidden) == run(nullptr));
+    CHECK(forbidden.all() == 0);
+}
