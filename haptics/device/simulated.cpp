@@ -27,9 +27,7 @@ class Simulated::Plug final : public Device {
     explicit Plug(Simulated& thing) : thing_(thing), due_(thing.timer_.now()) {}
     Plug(const Plug&) = delete;
     Plug& operator=(const Plug&) = delete;
-    ~Plug() override {
-        if (!thing_.befallen(Mishap::unplugged)) thing_.command_ = {};
-    }
+    ~Plug() override { thing_.command_ = {}; }
 
     [[nodiscard]] const Description& describe() const override { return thing_.design_.description; }
 
@@ -38,11 +36,11 @@ class Simulated::Plug final : public Device {
         const double until = thing_.timer_.now() + patience;
         if (thing_.befallen(Mishap::silent) || due_ > until) {
             thing_.timer_.wait(patience);
-            if (thing_.befallen(Mishap::unplugged)) return gone(describe());
+            if (thing_.cut()) return gone(describe());
             return std::optional<Sample>{};
         }
         thing_.timer_.wait(due_ - thing_.timer_.now());
-        if (thing_.befallen(Mishap::unplugged)) return gone(describe());
+        if (thing_.cut()) return gone(describe());
         thing_.advance();
         // What is late is not made up for.
         due_ = std::max(due_, thing_.now_.time - 1.0 / describe().rate) + 1.0 / describe().rate;
@@ -60,7 +58,7 @@ class Simulated::Plug final : public Device {
     Status write(const force::OutputCommand& command) override {
         wait_if_stuck();
         if (thing_.befallen(Mishap::slow)) thing_.timer_.wait(slow_write);
-        if (thing_.befallen(Mishap::unplugged)) return gone(describe());
+        if (thing_.cut()) return gone(describe());
         thing_.advance();
         const force::OutputLimits& limits = describe().limits;
         thing_.command_ = {force::at_most(command.force, limits.force),
@@ -86,7 +84,7 @@ Simulated::Simulated(SimulatedDesign design, Timer timer)
 
 Open Simulated::open() {
     return [this]() -> Result<std::unique_ptr<Device>> {
-        if (befallen(Mishap::unplugged)) return gone(design_.description);
+        if (cut()) return gone(design_.description);
         advance();
         return std::make_unique<Plug>(*this);
     };
@@ -106,6 +104,13 @@ const Trouble* Simulated::find(Mishap what) const {
 }
 
 bool Simulated::befallen(Mishap what) const { return find(what) != nullptr; }
+
+// Without power motors also forget what they were told.
+bool Simulated::cut() {
+    if (!befallen(Mishap::unplugged)) return false;
+    command_ = {};
+    return true;
+}
 
 force::OutputCommand Simulated::rendered() const {
     return befallen(Mishap::unplugged) ? force::OutputCommand{} : command_;

@@ -54,6 +54,7 @@ class Simulated {
   private:
     class Plug;
     void advance();
+    bool cut();
     void step(const Sample& meant, double dt);
     [[nodiscard]] const Trouble* find(Mishap what) const;
 

@@ -319,6 +319,7 @@ TEST_CASE("what is rendered together: forces of the mover, torque of the wheel")
     CHECK(limits_of(layout).torque == 7.0);
     layout.wheel.reset();
     CHECK(limits_of(layout).torque == test::arm().limits.torque);
+    CHECK(limits_of(layout).release == doctest::Approx(0.018));
     layout.mover->renders = {true, true, true, false, false, false};
     CHECK(limits_of(layout).torque == 0.0);
 }

@@ -1,0 +1,324 @@
+// Two hours at a station whose devices fail in every way that we know, at random, in virtual time. Two hours
+// by default; BOLTWRIGHT_SOAK_SECONDS says otherwise. Under a sanitizer ten minutes.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <cstdlib>
+#include <deque>
+
+#include "engine/base/random.hpp"
+#include "haptics/glove/conversation.hpp"
+#include "tests/station/support.hpp"
+#include "tests/support/forbidden.hpp"
+#include "tests/support/sanitized.hpp"
+#include "tools/emulate/glove.hpp"
+
+using namespace bolt;
+using namespace bolt::station;
+using device::Mishap;
+
+namespace {
+
+constexpr double dt = 1e-3;
+constexpr double gone = 0.020;        // s until no force is left
+constexpr double said = 1.0;          // s until it is said
+constexpr double usable_again = 2.0;  // s from plugging in
+
+bool nothing(const force::OutputCommand& c) { return c.force == Vec3(0.0) && c.torque == Vec3(0.0); }
+
+bool mutes(Mishap what) {
+    return what == Mishap::unplugged || what == Mishap::silent || what == Mishap::no_number;
+}
+
+// A device of the station, what befalls it, and whether the promises are kept.
+struct Watched {
+    test::VirtualLine line;
+    Random random;
+    device::Trouble trouble{Mishap::silent, -1.0, -1.0};  // the newest; in the past if there is none now
+    double sound_since = 0.0;                             // when the last one ended
+    double undisturbed = 0.0;  // when nothing any more kept a write from going through
+    bool again = true;         // usable since then
+    std::array<std::uint64_t, device::mishaps> counts{};
+    double longest_back = 0.0;  // s from the end of a mishap to being usable
+    double longest_lost = 0.0, longest_let_go = 0.0, longest_hung = 0.0;  // s that a force stayed
+
+    Watched(device::SimulatedDesign design, std::uint64_t seed) : line(std::move(design)), random(seed) {}
+
+    void live(double now) {
+        if (now >= trouble.until && now > sound_since + 0.1 && random.chance(dt / 4.0)) {
+            const auto kind = static_cast<Mishap>(random.bits() % device::mishaps);
+            // A millisecond to three seconds, as many short ones as long ones.
+            const double lasts = 1e-3 * std::exp(random.uniform() * std::log(3000.0));
+            trouble = {kind, now, now + lasts};
+            line.thing.happen(trouble);
+            ++counts[static_cast<std::size_t>(kind)];
+            again = false;
+        }
+        if (now < trouble.until) {
+            sound_since = trouble.until;
+            if (trouble.what == Mishap::stuck || trouble.what == Mishap::slow)
+                undisturbed = trouble.until + device::slow_write;
+        }
+        line.until(now);
+    }
+};
+
+struct Tally {
+    std::uint64_t ticks = 0, forces = 0, releases = 0, hangs = 0, engaged = 0, allocations = 0,
+                  glove_frames = 0;
+    std::uint64_t failures = 0;
+    std::string first;
+    std::uint64_t turned = 0;  // ticks in which the wheel felt the bolt
+    double longest_glove = 0.0;
+
+    void must(bool so, const std::string& what, double now) {
+        if (so) return;
+        if (failures++ == 0) first = fmt::format("at {:.3f} s: {}", now, what);
+    }
+};
+
+Layout arm_and_wheel() {
+    Layout layout;
+    layout.mover = test::arm();
+    layout.wheel = test::wheel_of(8.0);
+    layout.home.position = Vec3(0.0, 0.15, 0.0);
+    return layout;
+}
+
+class Soak {
+  public:
+    explicit Soak(std::uint64_t seed)
+        : layout_(arm_and_wheel()),
+          setup_(test::two_joints(limits_of(layout_))),
+          servo_(servo::initial_state(setup_)),
+          state_(initial_state(layout_)),
+          arm_({test::arm(), [this](double) { return reach(); }, device::HoldingHand{}, {}}, 4 * seed),
+          wheel_({test::wheel_of(8.0),
+                  [this](double) { return turn(); },
+                  device::HoldingHand{0.3, 300.0, 10.0, 0.01, 30.0, 0.5},
+                  {}},
+                 4 * seed + 1),
+          random_(4 * seed + 2),
+          glove_({.sensors = 22, .faults = {1e-4, 1e-4, 1e-4}, .seed = 4 * seed + 3}) {
+        glove_.raw.fill(100);
+    }
+
+    Tally run(double seconds) {
+        const auto ticks = static_cast<std::uint64_t>(seconds / dt);
+        std::size_t used = 0;
+        for (std::uint64_t i = 0; i < ticks; ++i) {
+            now_ = static_cast<double>(i) * dt;
+            wish();
+            arm_.live(now_);
+            wheel_.live(now_);
+            if (i % 5 == 0) talk();
+            if (now_ >= hangs_until_) serve();
+            watch();
+            all_is_well_again();
+            if (i == ticks / 4) used = mallinfo2().uordblks;
+        }
+        const std::size_t at_end = mallinfo2().uordblks;
+        tally_.must(at_end <= used + 65536, fmt::format("{} bytes at a quarter, {} at the end", used, at_end),
+                    now_);
+        return tally_;
+    }
+
+    Watched& arm() { return arm_; }
+    Watched& wheel() { return wheel_; }
+
+  private:
+    // What the hand does: to the first nut, some seconds on it, away, over and over.
+    device::Sample reach() {
+        const servo::NutPlace& nut = setup_.nuts[0];
+        const double phase = std::fmod(now_, 20.0);
+        const double height = phase < 2.0 ? 0.1 : phase < 17.0 ? 0.0 : 0.1;
+        const Vec3 at = servo::nut_centre(nut, servo_.joints[0].nut.angle) + height * nut.axis;
+        const Pose& tool = state_.workspace.tool;
+        const double azimuth = setup_.wrench.head_angle + servo_.joints[0].nut.angle;
+        const servo::ToolPose wanted = servo::pose_of(test::tool_at(nut, at, azimuth));
+        const Vec3 turn =
+            state_.output.joint >= 0
+                ? Vec3(0.0)
+                : rotation_vector(glm::normalize(wanted.orientation * glm::conjugate(tool.orientation)));
+        device::Sample meant;
+        const Pose& hand = state_.hand;
+        meant.pose.position = hand.position + force::at_most(at - tool.position, 0.02);
+        meant.pose.orientation = glm::normalize(rotation(force::at_most(turn, 0.1)) * hand.orientation);
+        return meant;
+    }
+    // Tightens to 120 N·m, loosens to nothing.
+    device::Sample turn() {
+        if (state_.output.wrench_torque > 120.0 && direction_ > 0.0) direction_ = -1.0;
+        if (servo_.joints[0].nut.angle < 0.3 && direction_ < 0.0) direction_ = 1.0;
+        if (now_ > turned_at_) wheel_at_ += direction_ * 1.0 * (now_ - turned_at_);
+        turned_at_ = now_;
+        device::Sample meant;
+        meant.turn = wheel_at_;
+        return meant;
+    }
+
+    void wish() {
+        wishes_.grip = servo::Grip::wrench;
+        if (random_.chance(dt / 10.0)) {
+            wishes_.held = !wishes_.held;
+            if (!wishes_.held) released_ = now_;
+            tally_.releases += wishes_.held ? 0 : 1;
+        }
+        wishes_.clutch =
+            random_.chance(dt / 20.0) ? !wishes_.clutch : wishes_.clutch && !random_.chance(dt / 0.3);
+        if (now_ > hangs_until_ + 1.0 && random_.chance(dt / 30.0)) {
+            ++tally_.hangs;
+            hang_begins_ = now_;
+            hangs_until_ = now_ + random_.uniform(0.001, 0.3);
+        }
+    }
+
+    void serve() {
+        Heard heard;
+        heard.mover = arm_.line.told();
+        heard.wheel = wheel_.line.told();
+        heard.wishes = wishes_;
+        heard.missed = static_cast<std::uint64_t>((now_ - ticked_) / dt + 0.5) - (tally_.ticks > 0 ? 1 : 0);
+        ticked_ = now_;
+        const test::Forbidden forbidden =
+            test::forbidden_in([&] { answer_ = station::tick(layout_, setup_, state_, servo_, heard); });
+        tally_.allocations += static_cast<std::uint64_t>(forbidden.all());
+        arm_.line.order(answer_.mover);
+        wheel_.line.order(answer_.wheel);
+        ++tally_.ticks;
+        if (!nothing(answer_.mover)) ++tally_.forces;
+        if (!nothing(answer_.wheel)) ++tally_.turned;
+        if (state_.output.joint >= 0) ++tally_.engaged;
+    }
+
+    void talk() {
+        if (now_ > glove_until_ && random_.chance(5e-3 / 10.0)) {
+            glove_until_ = now_ + random_.uniform(0.01, 3.0);
+            glove_cut_ = random_.chance(0.5);
+        }
+        const bool troubled = now_ < glove_until_;
+        glove_.stalled = troubled && !glove_cut_;
+        std::vector<std::uint8_t> heard = glove_.go_on(said_, now_);
+        if (troubled && glove_cut_) heard.clear();
+        const std::uint64_t before = tally_.glove_frames;
+        said_ = conversation_.go_on(heard, now_, [&](const glove::Frame&) { ++tally_.glove_frames; });
+        if (troubled && glove_cut_) said_.clear();
+        if (troubled || before != tally_.glove_frames) glove_heard_ = now_;
+        tally_.longest_glove = std::max(tally_.longest_glove, now_ - glove_heard_);
+    }
+
+    void watch() {
+        const bool hangs = now_ < hangs_until_;
+        for (Watched* w : {&arm_, &wheel_}) {
+            const char* who = w == &arm_ ? "arm" : "wheel";
+            const device::Trouble& t = w->trouble;
+            const force::OutputCommand has = w->line.thing.rendered();
+            const force::OutputCommand& ordered = w == &arm_ ? answer_.mover : answer_.wheel;
+            const auto is = [&](const char* what) { return fmt::format("{} {}", who, what); };
+            const force::OutputLimits& limits = (w == &arm_ ? layout_.mover : layout_.wheel)->limits;
+            if (glm::length(has.force) > limits.force * 1.0001 ||
+                glm::length(has.torque) > limits.torque * 1.0001)
+                tally_.must(false, is("renders more than it can"), now_);
+            // A line may be a turn ahead of the servo.
+            if (now_ < t.until && w->line.now() < t.until) {
+                const double since = now_ - t.from;
+                if (mutes(t.what) && !nothing(has)) w->longest_lost = std::max(w->longest_lost, since);
+                if (mutes(t.what) && since > gone && !nothing(has))
+                    tally_.must(false, is("is lost and has a force"), now_);
+                if (t.what == Mishap::stuck && since > gone && !hangs && !nothing(ordered))
+                    tally_.must(false, is("is stuck and a force is ordered"), now_);
+                if (t.what == Mishap::jumped && w == &arm_ && since > gone && since < 0.09 && !nothing(has) &&
+                    jump_seen(*w))
+                    tally_.must(false, is("jumped and has a force"), now_);
+                if (mutes(t.what) && since > said && w->line.report().trouble.empty())
+                    tally_.must(false, is("is lost and nobody says so"), now_);
+                if (t.what == Mishap::stuck && since > said && w == &arm_ && !hangs &&
+                    w->line.report().trouble.empty() && state_.output.fault == force::Fault::none &&
+                    state_.output.joint < 0)
+                    tally_.must(false, is("is stuck and nobody says so"), now_);
+            } else if (!w->again) {
+                if (w->line.report().state == device::State::usable && w->line.told().usable) {
+                    w->again = true;
+                    w->longest_back = std::max(w->longest_back, now_ - t.until);
+                } else if (now_ - w->sound_since > usable_again) {
+                    tally_.must(false, is("is plugged in and not usable"), now_);
+                }
+            }
+            if (now_ > w->undisturbed) {
+                if (!wishes_.held && !hangs && !nothing(has))
+                    w->longest_let_go = std::max(w->longest_let_go, now_ - released_);
+                if (hangs && !nothing(has)) w->longest_hung = std::max(w->longest_hung, now_ - hang_begins_);
+                if (!wishes_.held && now_ - released_ > gone && !hangs && !nothing(has))
+                    tally_.must(false, is("has a force without the dead-man"), now_);
+                if (hangs && now_ - hang_begins_ > gone && !nothing(has))
+                    tally_.must(false, is("has a force and the servo hangs"), now_);
+            }
+        }
+    }
+    void all_is_well_again() {
+        const double since = std::max({arm_.sound_since, wheel_.sound_since, hangs_until_});
+        if (now_ - since > usable_again && state_.output.fault != force::Fault::none)
+            tally_.must(false, fmt::format("all is well and \"{}\"", force::name(state_.output.fault)), now_);
+    }
+    // Of a jump while nothing is rendered anyway nobody needs to take notice.
+    [[nodiscard]] bool jump_seen(const Watched& w) const {
+        return w.line.report().state == device::State::usable;
+    }
+
+    double now_ = 0.0, ticked_ = 0.0, released_ = -1.0;
+    double hangs_until_ = -1.0, hang_begins_ = -1.0;
+    double wheel_at_ = 0.0, turned_at_ = 0.0, direction_ = 1.0;
+    // Before the devices, whose hands look at them.
+    Layout layout_;
+    servo::Setup setup_;
+    servo::State servo_;
+    State state_;
+    Watched arm_, wheel_;
+    Random random_;
+    emulate::Glove glove_;
+    glove::Conversation conversation_;
+    std::vector<std::uint8_t> said_;
+    double glove_until_ = -1.0, glove_heard_ = 0.0;
+    bool glove_cut_ = false;
+    Wishes wishes_{.held = true};
+    Answer answer_;
+    Tally tally_;
+};
+
+double seconds() {
+    if (const char* wanted = std::getenv("BOLTWRIGHT_SOAK_SECONDS")) return std::atof(wanted);
+    return test::sanitized ? 600.0 : 7200.0;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "hours of devices that are unplugged, stall, jump and talk nonsense: no force stays, all come back") {
+    Soak soak(1);
+    const Tally tally = soak.run(seconds());
+    MESSAGE(
+        fmt::format("{} ticks, {} with a force, {} with a torque at the wheel, {} engaged; {} glove frames",
+                    tally.ticks, tally.forces, tally.turned, tally.engaged, tally.glove_frames));
+    for (Watched* w : {&soak.arm(), &soak.wheel()})
+        MESSAGE(fmt::format(
+            "mishaps {} {} {} {} {} {}; a force stayed {:.0f} ms when lost, {:.0f} ms when let go, {:.0f} ms "
+            "when "
+            "the servo hung; usable again after {:.3f} s",
+            w->counts[0], w->counts[1], w->counts[2], w->counts[3], w->counts[4], w->counts[5],
+            1e3 * w->longest_lost, 1e3 * w->longest_let_go, 1e3 * w->longest_hung, w->longest_back));
+    MESSAGE(fmt::format("{} releases, {} hangs; glove back after {:.3f} s at most", tally.releases,
+                        tally.hangs, tally.longest_glove));
+    CHECK_MESSAGE(tally.failures == 0, tally.failures << " times, first " << tally.first);
+    CHECK(tally.allocations == 0);
+    CHECK(tally.longest_glove <= usable_again);
+    // It was worth watching.
+    CHECK(tally.forces > tally.ticks / 20);
+    CHECK(tally.turned > tally.ticks / 50);
+    CHECK(tally.engaged > tally.ticks / 20);
+    CHECK(tally.releases > 2);
+    CHECK(tally.hangs > 2);
+    for (Watched* w : {&soak.arm(), &soak.wheel()})
+        for (const std::uint64_t count : w->counts) CHECK(count > 2);
+    CHECK(tally.glove_frames > tally.ticks / 50);
+}
