@@ -32,6 +32,7 @@ struct Description {
     std::array<bool, 6> renders{};  // force along x, y, z, torque about them; `limits` says how much
     force::OutputLimits limits;     // force 0, torque 0: it renders nothing
     double rate = 1000.0;           // samples a second while the hand moves
+    bool rests = false;             // may say nothing while the hand is still, as every Sensing::rate may
     // m, either way from the middle; 0: it has no places, as a puck or a wheel
     Vec3 reach{0.0};
     Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::turn

@@ -34,8 +34,7 @@ Keeper::Keeper(Open open, Timer timer, const KeeperOptions& options)
 Keeper::~Keeper() { close(); }
 
 bool Keeper::must_speak() const {
-    const Description& d = *report_.description;
-    return d.sensing == Sensing::pose || renders(d);
+    return report_.description->sensing != Sensing::rate && !report_.description->rests;
 }
 
 bool Keeper::sound(const Sample& s) const {

@@ -225,17 +225,17 @@ TEST_CASE("what has fallen mute is opened anew; said within a second, usable wit
     CHECK(kept.time.now < 6.0);
 }
 
-TEST_CASE("a puck or a wheel without a motor may rest as long as it likes") {
+TEST_CASE("a puck, or a wheel that says so, may rest as long as it likes") {
     for (const Sensing sensing : {Sensing::rate, Sensing::turn}) {
         Description description = test::arm();
         description.sensing = sensing;
-        description.renders = {};
+        description.rests = sensing == Sensing::turn;
         Kept kept(description, {{Mishap::silent, 0.0, 100.0}});
         kept.until(10.0);
         CHECK(kept.keeper.report().state == State::usable);
         CHECK(kept.keeper.report().openings == 1);
         CHECK(kept.keeper.report().trouble.empty());
-        CHECK(kept.keeper.report().writes == 0);
+        CHECK(kept.keeper.report().samples == 0);
     }
 }
 
