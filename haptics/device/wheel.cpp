@@ -191,6 +191,7 @@ Result<std::unique_ptr<Device>> make_wheel(std::unique_ptr<HidLine> line, const 
     Result<Hub> hub =
         make_hub(std::move(line), descriptor, std::move(name), std::move(id), rig, std::move(clock));
     if (!hub) return fail(hub.error());
+    hub->description.rests = true;
     describe_torque(*hub);
     hub->description.remarks.push_back(
         fmt::format("taken to turn {:.0f} degrees from stop to stop", to_degrees(rig.range)));
