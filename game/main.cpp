@@ -15,5 +15,6 @@ int main(int argc, char** argv) {
     bolt::cli::add_render(app, exit_code);
     bolt::cli::add_doctor(app, exit_code);
     bolt::cli::add_glove(app, exit_code);
+    bolt::cli::add_devices(app, exit_code);
     return bolt::cli::run_program(app, argc, argv, exit_code);
 }

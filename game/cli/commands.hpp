@@ -15,5 +15,6 @@ void add_compare(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_glove(CLI::App& app, int& exit_code);
+void add_devices(CLI::App& app, int& exit_code);
 
 }  // namespace bolt::cli

@@ -11,6 +11,7 @@
 #include "engine/platform/pace.hpp"
 #include "engine/platform/window.hpp"
 #include "game/cli/commands.hpp"
+#include "game/cli/devices.hpp"
 #include "game/cli/servo_host.hpp"
 
 namespace bolt::cli {
@@ -61,6 +62,7 @@ Status examine() {
                     gpu::Instance::create(validated) ? "installed" : "not installed (only tests need them)");
     const Result<std::string> windows = examine_windows();
     text += "Windows:\n" + (windows ? *windows : fmt::format("  none: {}\n", windows.error().message()));
+    text += devices_line();
     if (Status said = say(text); !said) return said;
     if (found->choice.index < 0)
         return fail(ErrorCode::no_device, "no Vulkan device can be used",

@@ -150,6 +150,30 @@ expect 0 ': used' "${draw[@]}" doctor --seconds 0
 expect 0 'at 4000 ticks a second this machine is NOT good enough' bash -c "$(printf '%q ' "${draw[@]}") doctor --seconds 0.05 | tee host.txt"
 check "few ticks say nothing, and are said to" grep -qE 'only [0-9]+ ticks were timed' host.txt
 expect 2 '' "${draw[@]}" doctor --seconds -1
+expect 0 '^Devices: [0-9]+ by USB' "${draw[@]}" doctor --seconds 0
+
+# Devices: with nothing plugged in, with a glove that is emulated, without permission, with something that is no glove.
+expect 0 'CyberGlove may be on' "$bin/boltwright" devices
+expect 4 'there is no device 256f:0000; one that' "$bin/boltwright" devices --device 256f:0000
+expect 4 'is the glove.s adapter plugged in' "$bin/boltwright" devices --glove /dev/ttyNONE
+expect 4 'no serial port' "$bin/boltwright" devices --glove /dev/null
+expect 2 '' "$bin/boltwright" devices --seconds -1
+glove() {  # an emulated one with these options, on the port ./port
+    "$bin/bolt-emulate" glove "$@" --link "$work/port" > /dev/null &
+    emulated=$!
+    for _ in $(seq 600); do [[ -L port ]] && return; sleep 0.1; done
+}
+glove --sensors 22 --left
+expect 0 'left hand, 22 sensors' "$bin/boltwright" devices --glove port --seconds 0.2
+nobody=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+if [[ $(id -u) -eq 0 ]] && "${nobody[@]}" "$bin/boltwright" --version > /dev/null 2>&1; then
+    tty=$(readlink port)
+    chgrp dialout "$tty" && chmod 660 "$tty"
+    expect 4 'Permission denied; a user of the group dialout: sudo usermod' "${nobody[@]}" "$bin/boltwright" devices --glove "$tty"
+fi
+kill $emulated && wait $emulated
+expect 4 'plugged in' "$bin/boltwright" devices --glove port
+expect 2 '18' "$bin/bolt-emulate" glove --sensors 20
 expect 0 'seen/view-top.png' "${draw[@]}" train cover-m8 --no-obstacles --headless --quiet --out seen
 check "train draws every view" test -s seen/view-front.png
 expect 0 'score' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json \

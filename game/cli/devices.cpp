@@ -1,0 +1,193 @@
+// boltwright devices: what is plugged in that a hand can hold or wear, what it can, what is wrong with it and
+// how to mend that. What is not named is looked at and not opened: somebody may be at work with it, and what
+// hangs on a serial port may be no glove.
+#include "game/cli/devices.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "engine/base/console.hpp"
+#include "engine/base/nearest.hpp"
+#include "game/cli/commands.hpp"
+#include "haptics/device/line.hpp"
+#include "haptics/device/list.hpp"
+#include "haptics/device/words.hpp"
+#include "haptics/glove/adapter.hpp"
+#include "haptics/glove/driver.hpp"
+#include "haptics/glove/serial_line.hpp"
+
+namespace bolt::cli {
+
+namespace {
+
+constexpr double glove_patience = 6.0;  // s: a glove is asked each question three times before it is given up
+constexpr double device_patience = 3.0;  // s
+constexpr int quick = 2;                 // ms: what an adapter may gather
+
+struct Options {
+    std::string device, glove;
+    bool others = false;
+    double seconds = 1.0;
+};
+
+const char* name_of(device::HidKind kind) {
+    switch (kind) {
+        case device::HidKind::puck:
+            return "six axes that spring back; moves the tool, renders no force";
+        case device::HidKind::board:
+            return "OpenFFBoard: one axis with a torque; turns the wrench on its bolt";
+        case device::HidKind::wheel:
+            return "a wheel with force feedback: one axis with a torque; turns the wrench on its bolt";
+        case device::HidKind::other:
+            break;
+    }
+    return "nothing to train with";
+}
+
+std::string listed(const std::vector<device::Listed>& found) {
+    std::string text = "Devices to hold:\n";
+    for (const device::Listed& l : found) {
+        text += fmt::format("  {}  {}  {}\n    {}\n", l.id, l.name, l.path, name_of(l.kind));
+        if (l.trouble) text += fmt::format("    cannot be used: {}\n", l.trouble->message());
+    }
+    if (found.empty())
+        text +=
+            "  none by USB: a SpaceMouse, an OpenFFBoard or a wheel with force feedback would be listed "
+            "here\n";
+    else
+        text += "  boltwright devices --device ID opens one and says what it can\n";
+    return text;
+}
+
+std::string ports(const std::vector<std::filesystem::path>& found) {
+    std::string text = "Serial ports, which a CyberGlove may be on:\n";
+    for (const auto& port : found) {
+        const Status may = glove::may_use(port);
+        text += fmt::format("  {}{}\n", port.string(), may ? "" : "\n    " + may.error().message());
+    }
+    if (found.empty())
+        text +=
+            "  none: plug in the glove's adapter; a port of another name can be given with --glove PATH\n";
+    else
+        text += "  boltwright devices --glove PATH asks what is on one\n";
+    return text;
+}
+
+// Opens it and hears what it says for a while.
+Result<std::string> examine_device(const Options& options) {
+    std::vector<std::string> ids;
+    for (const device::Listed& l : device::list(true)) {
+        ids.push_back(l.id);
+        if (l.id != options.device || !l.trouble) continue;
+        return fail(*l.trouble);
+    }
+    if (std::find(ids.begin(), ids.end(), options.device) == ids.end()) {
+        const auto near = nearest(options.device, ids);
+        return fail(
+            ErrorCode::no_device, fmt::format("there is no device {}", options.device),
+            near.empty() ? "one that `boltwright devices` lists" : fmt::format("did you mean {}?", near));
+    }
+    Result<device::Line> line = device::Line::start(device::opener(options.device));
+    if (!line) return fail(line.error());
+    const auto description = line->await(device_patience);
+    if (!description) return fail(description.error());
+    const device::Timer timer = device::steady_timer();
+    const std::uint64_t before = line->told().number;
+    timer.wait(options.seconds);
+    const auto heard = static_cast<double>(line->told().number - before);
+    const device::Report& report = line->report();
+    if (report.state != device::State::usable)
+        return fail(ErrorCode::no_device,
+                    report.trouble.empty() ? (*description)->name + " says nothing" : report.trouble);
+    std::string text = fmt::format("{}  {}\n", options.device, (*description)->name);
+    for (const std::string& words : device::words(**description)) text += fmt::format("  {}\n", words);
+    if (options.seconds > 0.0)
+        text += fmt::format("  said where it is {:.0f} times a second just now{}\n", heard / options.seconds,
+                            heard < 1.0 ? ": it rests" : "");
+    if (report.malformed > 0) text += fmt::format("  {} of its reports make no sense\n", report.malformed);
+    return text;
+}
+
+Result<std::string> examine_glove(const std::string& port, double seconds) {
+    if (Status may = glove::may_use(port); !may) return fail(may.error());
+    glove::Driver driver = glove::Driver::start(port);
+    const device::Timer timer = device::steady_timer();
+    const double until = timer.now() + glove_patience;
+    while (driver.sample().number == 0) {
+        const glove::Report& report = driver.report();
+        const bool told = report.trouble[0] != '\0';
+        // A port that cannot be opened or a line that is no glove's is said at once; silence is waited for.
+        if ((told && report.state == glove::State::refused) ||
+            (told && !report.open && report.openings == 0) || timer.now() > until)
+            return fail(ErrorCode::no_device,
+                        fmt::format("{}: {}", port, told ? report.trouble.data() : "no answer"),
+                        told ? "" : "a CyberGlove that is switched on");
+        timer.wait(0.01);
+    }
+    const std::uint64_t before = driver.sample().number;
+    timer.wait(seconds);
+    const auto heard = static_cast<double>(driver.sample().number - before);
+    const glove::Report& report = driver.report();
+    const glove::Identity& glove = report.identity;
+    std::string text = fmt::format("{}\n  CyberGlove, {} hand, {} sensors{}\n", port,
+                                   glove.hand == glove::Hand::left ? "left" : "right", glove.sensors,
+                                   glove.version.empty() ? "" : ", version " + glove.version);
+    if (seconds > 0.0) text += fmt::format("  {:.0f} samples a second just now\n", heard / seconds);
+    if (report.lost_bytes > 0)
+        text += fmt::format("  {} bytes on the line made no sense\n", report.lost_bytes);
+    if (report.trouble[0] != '\0') text += fmt::format("  {}\n", report.trouble.data());
+    if (const auto ms = glove::gathers_ms(port); ms && *ms > quick)
+        text += fmt::format(
+            "  its adapter gathers bytes for {} ms: install the udev rule (60-boltwright.rules) and plug it "
+            "in "
+            "again\n",
+            *ms);
+    return text;
+}
+
+int run(const Options& options) {
+    std::string text;
+    if (!options.device.empty()) {
+        const Result<std::string> found = examine_device(options);
+        if (!found) return complain(found.error());
+        text += *found;
+    }
+    if (!options.glove.empty()) {
+        const Result<std::string> found = examine_glove(options.glove, options.seconds);
+        if (!found) return complain(found.error());
+        text += *found;
+    }
+    if (text.empty()) text = listed(device::list(options.others)) + ports(glove::serial_ports());
+    const Status said = say(text);
+    return said ? 0 : complain(said.error());
+}
+
+}  // namespace
+
+std::string devices_line() {
+    std::size_t usable = 0, troubled = 0;
+    for (const device::Listed& l : device::list()) ++(l.trouble ? troubled : usable);
+    const std::size_t found = glove::serial_ports().size();
+    std::string text = fmt::format("Devices: {} by USB to hold", usable + troubled);
+    if (troubled > 0) text += fmt::format(", {} of them cannot be used", troubled);
+    return text +
+           fmt::format(", {} serial port{}; boltwright devices says more\n", found, found == 1 ? "" : "s");
+}
+
+void add_devices(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<Options>();
+    CLI::App* devices = app.add_subcommand(
+        "devices", "Say which devices are there, what they can, what is wrong with them and how to mend it");
+    devices->add_option("--device", options->device, "Open this one, by its id, and say what it can");
+    devices->add_option("--glove", options->glove, "Ask the glove on this serial port what it is");
+    devices->add_flag("--all", options->others, "List keyboards and the like too");
+    devices->add_option("--seconds", options->seconds, "how long a named one is listened to")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+    devices->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace bolt::cli

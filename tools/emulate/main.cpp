@@ -1,0 +1,64 @@
+// bolt-emulate: devices that are not there, for those who have none at hand.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "engine/base/console.hpp"
+#include "game/cli/program.hpp"
+#include "tools/emulate/glove_line.hpp"
+
+using namespace bolt;
+
+namespace {
+
+volatile std::sig_atomic_t ended = 0;
+
+int play(const emulate::GloveDesign& design, double period, const std::string& link) {
+    Result<emulate::GloveLine> line = emulate::GloveLine::start(design, period);
+    if (!line) return complain(line.error());
+    std::error_code failed;
+    if (!link.empty()) {
+        std::filesystem::create_symlink(line->port(), link, failed);
+        if (failed) {
+            Error error;
+            error.what = fmt::format("no link {}: {}", link, failed.message());
+            return complain(error);
+        }
+    }
+    Status said = say(fmt::format("{}\n", link.empty() ? line->port().string() : link));
+    while (ended == 0 && said) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (!link.empty()) std::filesystem::remove(link, failed);
+    return said ? 0 : complain(said.error());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Plays devices that are not there, until it is ended.", "bolt-emulate");
+    app.require_subcommand(1);
+    emulate::GloveDesign design;
+    bool left = false;
+    double period = 4.0;
+    std::string link;
+    CLI::App* worn = app.add_subcommand("glove", "A CyberGlove on a serial port whose name it prints");
+    worn->add_option("--sensors", design.sensors, "18 or 22")
+        ->check(CLI::IsMember({18, 22}))
+        ->capture_default_str();
+    worn->add_flag("--left", left, "a left hand");
+    worn->add_option("--period", period, "s in which the hand opens and closes once; 0: it is still")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+    worn->add_option("--lost", design.faults.dropped, "share of the bytes that get lost")
+        ->check(CLI::Range(0.0, 1.0));
+    worn->add_option("--link", link, "a name for the port, as a link to it");
+    int exit_code = 0;
+    worn->callback([&] {
+        design.hand = left ? glove::Hand::left : glove::Hand::right;
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { ended = 1; });
+        exit_code = play(design, period, link);
+    });
+    return cli::run_program(app, argc, argv, exit_code);
+}
