@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Walks the recipes: every sh block of CONTRIBUTING.md, in order, in an empty folder. $1: programs, $2: sources.
 set -euo pipefail
-export PATH="$1:$PATH" SOURCES="$2" BOLTWRIGHT_CONTENT="$2/content"
+export PATH="$1:$PATH" BUILD="${1%/bin}" SOURCES="$2" BOLTWRIGHT_CONTENT="$2/content"
 export ASAN_OPTIONS=detect_leaks=0  # one recipe draws, and Vulkan drivers leak
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -4,6 +4,7 @@
 #include "haptics/device/puck.hpp"
 #include "haptics/device/recorded.hpp"
 #include "haptics/device/simulated.hpp"
+#include "tests/device/promises.hpp"
 #include "tests/device/support.hpp"
 
 using namespace bolt;
@@ -182,4 +183,20 @@ TEST_CASE("pushes become speeds, small ones finer; without anybody pushing it re
     CHECK(rest.back().velocity == Vec3(0.0));
     CHECK(rest.back().buttons == 0);
     CHECK(rest.size() == doctest::Approx(0.8 * feel.rate).epsilon(0.05));
+}
+
+TEST_CASE("all of them keep what every driver has to keep") {
+    VirtualTime time;
+    const auto by_itself = [] {};
+    Simulated thing(still(HoldingHand{}), timer_of(time));
+    test::keeps_promises(thing.open(), by_itself);
+    test::tells_that_it_is_gone(thing.open(), [&] { thing.happen({Mishap::unplugged, time.now, 1e9}); });
+    const auto forever = [](std::size_t i) {
+        std::optional<Sample> sample(std::in_place);
+        sample->time = 1e-3 * static_cast<double>(i);
+        return sample;
+    };
+    test::keeps_promises(recorded(test::arm(), forever, timer_of(time)), by_itself);
+    Puck puck({}, timer_of(time));
+    test::keeps_promises(puck.open(), [&] { puck.put({Vec3(1, 0, 0), Vec3(0, 1, 0), 1}); });
 }

@@ -1,0 +1,61 @@
+// A serial line with the test at its other end.
+#pragma once
+
+#include <fcntl.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace bolt::test {
+
+class PseudoTerminal {
+  public:
+    PseudoTerminal() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+        std::array<char, 128> name{};
+        if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 ||
+            ptsname_r(master_, name.data(), name.size()) != 0)
+            throw std::runtime_error("no pseudo-terminal");
+        port_ = name.data();
+        keep_ = open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        termios raw{};
+        tcgetattr(keep_, &raw);
+        cfmakeraw(&raw);
+        tcsetattr(keep_, TCSANOW, &raw);
+    }
+    PseudoTerminal(const PseudoTerminal&) = delete;
+    PseudoTerminal& operator=(const PseudoTerminal&) = delete;
+    ~PseudoTerminal() { pull(); }
+
+    [[nodiscard]] const std::filesystem::path& port() const { return port_; }
+
+    void say(std::string_view text) const {
+        [[maybe_unused]] const ssize_t n = write(master_, text.data(), text.size());
+    }
+    // What came since the last call; waits a moment for the first of it.
+    [[nodiscard]] std::string heard() const {
+        pollfd wait{master_, POLLIN, 0};
+        poll(&wait, 1, 100);
+        std::array<char, 4096> bytes{};
+        const ssize_t n = read(master_, bytes.data(), bytes.size());
+        return {bytes.data(), n > 0 ? static_cast<std::size_t>(n) : 0};
+    }
+    void pull() {
+        for (int* file : {&keep_, &master_}) {
+            if (*file >= 0) close(*file);
+            *file = -1;
+        }
+    }
+
+  private:
+    int master_ = -1, keep_ = -1;
+    std::filesystem::path port_;
+};
+
+}  // namespace bolt::test
