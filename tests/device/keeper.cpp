@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "engine/base/random.hpp"
@@ -46,7 +47,65 @@ struct Kept {
     std::uint64_t number_ = 0;
 };
 
+// Takes a sample a period by a clock of its own, and keeps the newest until it is read; a write takes 0.3 ms,
+// as hidraw's do.
+class Periodic final : public Device {
+  public:
+    Periodic(double period, Timer timer) : period_(period), timer_(std::move(timer)) {
+        description_ = test::arm();
+        description_.rate = 1.0 / period;
+    }
+    [[nodiscard]] const Description& describe() const override { return description_; }
+    Result<std::optional<Sample>> read(double patience) override {
+        const double until = timer_.now() + patience;
+        double taken = newest();
+        if (taken <= given_ && taken + period_ <= until) timer_.wait((taken += period_) - timer_.now());
+        if (taken <= given_) {
+            timer_.wait(until - timer_.now());
+            return std::nullopt;
+        }
+        given_ = taken;
+        Sample sample;
+        sample.time = taken;
+        return sample;
+    }
+    Status write(const force::OutputCommand& /*command*/) override {
+        timer_.wait(0.3e-3);
+        return {};
+    }
+
+  private:
+    [[nodiscard]] double newest() const { return std::floor(timer_.now() / period_ + 1e-9) * period_; }
+
+    double period_, given_ = -1.0;
+    Timer timer_;
+    Description description_;
+};
+
 }  // namespace
+
+TEST_CASE("a sample is passed on within a period of the device's, whatever is written meanwhile") {
+    for (const double period : {1e-3, 2e-3, 8e-3}) {
+        VirtualTime time;
+        Keeper keeper(
+            [&]() -> Result<std::unique_ptr<Device>> {
+                return std::make_unique<Periodic>(period, timer_of(time));
+            },
+            timer_of(time));
+        int samples = 0;
+        double oldest = 0.0;
+        while (time.now < 2.0) {
+            const auto sample = keeper.turn([&] {
+                return Order{{Vec3(1, 0, 0), Vec3(0.0)}, true, static_cast<std::uint64_t>(time.now * 1e3)};
+            });
+            if (!sample) continue;
+            ++samples;
+            oldest = std::max(oldest, time.now - sample->time);
+        }
+        CHECK(oldest <= period);
+        CHECK(samples >= static_cast<int>(1.9 / period));  // none is left out
+    }
+}
 
 TEST_CASE("what cannot be opened is tried ever less often, and why is said at once") {
     VirtualTime time;
