@@ -35,7 +35,7 @@ struct Crossings {
 // The edges of a solid that a piece can meet where it is, or near there. What is not listed is further than
 // the radius that was asked for, or leads past it until it has turned by `turn` (rad).
 struct FacingEdges {
-    std::array<std::uint32_t, 16> ridges{};
+    std::array<std::uint32_t, 40> ridges{};
     std::uint32_t count = 0;
     bool all = false;  // there was room
     double turn = 0.0;
