@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "engine/base/random.hpp"
@@ -71,6 +73,24 @@ TEST_CASE("grip: a hand that closes takes the tool, one that opens lets it go, e
     play.close_to(0.0, 0.5);
     CHECK(!play.grip.held);
     CHECK(play.told == std::vector<Told>{Told::taken, Told::let_go});
+}
+
+TEST_CASE("grip: the wrench of 24 mm that is shipped, by brute force") {
+    const char* content = std::getenv("BOLTWRIGHT_CONTENT");
+    const std::filesystem::path folder = content == nullptr ? "content" : content;
+    const Held wrench = of(contact_test::load_parts(folder / "tools/wrench-24.contact.glb"));
+    const hand::Hand hand = hand::make_hand(hand::Side::right);
+    // Its handle lies along x, the end of it 0.28 m from the jaw.
+    const Pose wrist = across_the_palm();
+    const Pose at{wrist.position + Vec3(0.2, 0.0, 0.0), wrist.orientation};
+    Grip grip;
+    for (int i = 0; i < 8; ++i) step(grip, {}, wrench.tool, hand, {true, closed(1.0), at}, dt);
+    CHECK(grip.held);
+    for (std::size_t d = 0; d < hand::digit_count; ++d) {
+        CHECK(grip.closing.digits[d].touches);
+        CHECK(deepest(wrench, hand, at, d, grip.closing.shown) < 0.65 * mm);
+        CHECK(deepest(wrench, hand, at, d, closed(1.0)) > 0.0);  // which the glove alone would show
+    }
 }
 
 TEST_CASE("grip: what is held goes with the hand, wherever that goes") {
