@@ -241,6 +241,21 @@ sed 's/"gain": /"gian": /' gloves/_41da_20_4c_2e.right.glove.json > misspelt.jso
 expect 3 'misspelt.json:13:7: .*did you mean "gain"' "$bin/boltwright" glove show misspelt.json --port /dev/null
 expect 4 'no serial port' "$bin/boltwright" glove calibrate --trainee Ada --port /dev/null --folder gloves
 expect 2 'trainee is required' "$bin/boltwright" glove calibrate --port /dev/null
+# Somebody in an emulated glove does what is asked, and is measured then.
+mkfifo asked
+"$bin/bolt-emulate" glove --asked --link "$work/worn" < asked > /dev/null &
+emulated=$!
+exec 4> asked
+for _ in $(seq 600); do [[ -L worn ]] && break; sleep 0.1; done
+"$bin/boltwright" glove calibrate --trainee Ada --port worn --folder gloves 2>&1 | tee calibrated | while read -r line; do
+    case $line in 1/4*) echo flat ;; 2/4*) echo fist ;; 3/4*) echo spread ;; 4/4*) echo across ;; esac >&4
+done
+check "the quality of the calibration is told" grep -qE '^Quality 0\.[5-9]' calibrated
+echo fist >&4
+expect 0 'middle  90 100  67' "$bin/boltwright" glove show gloves/_41da.right.glove.json --port worn --seconds 3
+expect 2 'of another glove' "$bin/boltwright" glove show gloves/_41da_20_4c_2e.right.glove.json --port worn
+kill $emulated && wait $emulated
+exec 4>&-
 expect 1 'cannot be' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee Ada --folder /dev/null/gloves
 
 # Killed in the middle: what was recorded opens, reports, and says that it was cut short.

@@ -1,6 +1,7 @@
 #include "tools/emulate/glove.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace bolt::emulate {
@@ -16,6 +17,15 @@ void add_value(std::vector<std::uint8_t>& out, char letter, std::size_t value) {
 }
 
 }  // namespace
+
+glove::BySensor<std::uint8_t> raw_in(glove::Posture posture) {
+    glove::BySensor<std::uint8_t> raw{};
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        const double angle = glove::angle_in(posture, static_cast<glove::Sensor>(i)).value_or(0.0);
+        raw[i] = static_cast<std::uint8_t>(std::lround(50.0 + angle / 0.013));
+    }
+    return raw;
+}
 
 Glove::Glove(const GloveDesign& design)
     : design_(design),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/random.hpp"
+#include "haptics/glove/calibration.hpp"
 #include "haptics/glove/greeting.hpp"
 
 namespace bolt::emulate {
@@ -25,6 +26,9 @@ struct GloveDesign {
     LineFaults faults{};
     std::uint64_t seed = 1;
 };
+
+// What its sensors give while the hand in it holds a posture: 50 counts flat, and 0.013 rad a count.
+glove::BySensor<std::uint8_t> raw_in(glove::Posture posture);
 
 class Glove {
   public:

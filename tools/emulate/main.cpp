@@ -1,7 +1,12 @@
 // bolt-emulate: devices that are not there, for those who have none at hand.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <thread>
@@ -16,7 +21,37 @@ namespace {
 
 volatile std::sig_atomic_t ended = 0;
 
-int play(const emulate::GloveDesign& design, double period, const std::string& link) {
+constexpr std::array<const char*, glove::poses> postures{"flat", "fist", "spread", "across"};
+
+// Takes the postures that are named on the standard input, a line each, until it ends.
+struct Asked {
+    std::string line;
+    bool over = false;
+
+    Status go_on(emulate::GloveLine& glove) {
+        pollfd wait{STDIN_FILENO, POLLIN, 0};
+        if (over || poll(&wait, 1, 50) <= 0) return {};
+        std::array<char, 256> heard{};
+        const ssize_t n = read(STDIN_FILENO, heard.data(), heard.size());
+        over = n <= 0;
+        for (ssize_t i = 0; i < n; ++i) {
+            const char c = heard[static_cast<std::size_t>(i)];
+            if (c != '\n') {
+                line += c;
+                continue;
+            }
+            const auto* name = std::find(postures.begin(), postures.end(), line);
+            if (name == postures.end())
+                return fail(ErrorCode::usage, fmt::format("no posture '{}'", line),
+                            fmt::format("one of {}", fmt::join(postures, ", ")));
+            glove.show(emulate::raw_in(static_cast<glove::Posture>(name - postures.begin())));
+            line.clear();
+        }
+        return {};
+    }
+};
+
+int play(const emulate::GloveDesign& design, double period, bool by_name, const std::string& link) {
     Result<emulate::GloveLine> line = emulate::GloveLine::start(design, period);
     if (!line) return complain(line.error());
     std::error_code failed;
@@ -29,7 +64,11 @@ int play(const emulate::GloveDesign& design, double period, const std::string& l
         }
     }
     Status said = say(fmt::format("{}\n", link.empty() ? line->port().string() : link));
-    while (ended == 0 && said) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    Asked asked{{}, !by_name};
+    while (ended == 0 && said) {
+        if (asked.over) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        said = asked.go_on(*line);
+    }
     if (!link.empty()) std::filesystem::remove(link, failed);
     return said ? 0 : complain(said.error());
 }
@@ -40,7 +79,7 @@ int main(int argc, char** argv) {
     CLI::App app("Plays devices that are not there, until it is ended.", "bolt-emulate");
     app.require_subcommand(1);
     emulate::GloveDesign design;
-    bool left = false;
+    bool left = false, by_name = false;
     double period = 4.0;
     std::string link;
     CLI::App* worn = app.add_subcommand("glove", "A CyberGlove on a serial port whose name it prints");
@@ -51,6 +90,10 @@ int main(int argc, char** argv) {
     worn->add_option("--period", period, "s in which the hand opens and closes once; 0: it is still")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
+    worn->add_flag(
+        "--asked", by_name,
+        "the hand takes the postures named on the standard input, a line each: flat, fist, spread, "
+        "across");
     worn->add_option("--lost", design.faults.dropped, "share of the bytes that get lost")
         ->check(CLI::Range(0.0, 1.0));
     worn->add_option("--link", link, "a name for the port, as a link to it");
@@ -58,7 +101,7 @@ int main(int argc, char** argv) {
     worn->callback([&] {
         design.hand = left ? glove::Hand::left : glove::Hand::right;
         for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { ended = 1; });
-        exit_code = play(design, period, link);
+        exit_code = play(design, by_name ? 0.0 : period, by_name, link);
     });
     return cli::run_program(app, argc, argv, exit_code);
 }
