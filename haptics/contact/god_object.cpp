@@ -11,8 +11,10 @@ namespace bolt::contact {
 
 namespace {
 
-constexpr double still = 1e-7;       // m: less motion than this is none
-constexpr double fine = 50e-6;       // m: what is left after so short a motion can wait for the next tick
+constexpr double still = 1e-7;  // m: less motion than this is none
+constexpr double fine = 50e-6;  // m: what is left after so short a motion can wait for the next tick
+// Of the energy of the coupling, which is twice the share of the force.
+constexpr double unfelt = 1e-3;
 constexpr double least_share = 0.2;  // of the skin: nearer than this is a penetration to be
 constexpr double unseen = 250e-6;    // m: a feature is found before it is deeper than this
 constexpr int attempts = 4;          // motions tried from a pose
@@ -249,7 +251,21 @@ class Stepper {
         return quiet_share(share, [&](double s) { return std::max(force(s), torque(s)); }) * motion;
     }
 
-    void arrive(const Pose& there) {
+    [[nodiscard]] double energy_at(const Pose& pose) const {
+        return force::stored_energy(p_.coupling, force::offset_between(device_, pose));
+    }
+    // Back whence it came, and nothing of it would be felt: of points beside each other the finder tells the
+    // nearer, and the tool would rock between them until the queries are spent.
+    [[nodiscard]] bool rocks(const Twist& motion) const {
+        const double back = p_.coupling.stiffness * glm::dot(motion.linear, came_by_.linear) +
+                            p_.coupling.torsion * glm::dot(motion.angular, came_by_.angular);
+        if (back >= 0.0 || recovering_) return false;
+        const double energy = energy_at(pose_);
+        return std::abs(energy_at(moved(pose_, motion)) - energy) < unfelt * energy;
+    }
+
+    void arrive(const Pose& there, const Twist& by) {
+        came_by_ = by;
         recovery_left_ -= std::clamp(p_.skin - here_.nearest, 0.0, recovery_left_);
         pose_ = there;
     }
@@ -263,7 +279,7 @@ class Stepper {
         for (int attempt = 0; attempt < attempts; ++attempt) {
             const Twist motion = solve(wanted, rows);
             const double length = travel(motion, p_.radius);
-            if (length < still) return Advance::nowhere;
+            if (length < still || (attempt == 0 && rocks(motion))) return Advance::nowhere;
             const double share = std::min(1.0, longest / length);
             const Twist part = quiet_part(motion, share, rows);
             const double way = travel(part, p_.radius);
@@ -271,7 +287,7 @@ class Stepper {
             const Pose there = moved(pose_, part);
             const bool with_device = travel(twist_between(there, device_), p_.radius) < still;
             if (way <= certified) {
-                arrive(there);
+                arrive(there, part);
                 here_.nearest -= way;
                 if (held) return Advance::held;
                 if (with_device) return Advance::nowhere;
@@ -282,7 +298,7 @@ class Stepper {
             if (!may_ask()) return Advance::spent;
             const Look seen = ask(there);
             if (!too_near(seen, there)) {
-                arrive(there);
+                arrive(there, part);
                 here_ = seen;
                 const bool close = !held && share == 1.0 && length < fine;
                 return held ? Advance::held : with_device || close ? Advance::nowhere : Advance::moved;
@@ -302,6 +318,7 @@ class Stepper {
     Pose pose_;
     Look here_;
     bool recovering_ = false;
+    Twist came_by_;  // the last motion of this tick
     double recovery_left_ = 0.0;  // m in this tick
     GodObjectStep step_;
 };
