@@ -318,7 +318,7 @@ class Stepper {
     Pose pose_;
     Look here_;
     bool recovering_ = false;
-    Twist came_by_;  // the last motion of this tick
+    Twist came_by_;               // the last motion of this tick
     double recovery_left_ = 0.0;  // m in this tick
     GodObjectStep step_;
 };
