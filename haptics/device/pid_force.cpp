@@ -34,8 +34,8 @@ Result<std::int64_t> load(HidLine& line, const PidLayout& layout) {
 }  // namespace
 
 Status PidForce::begin(HidLine& line, double now) {
-    PidMessage& fresh = layout_.reset.bytes.empty() ? layout_.stop_all : layout_.reset;
-    for (const PidMessage* m : {&fresh, &layout_.enable, &layout_.gain})
+    // A reset alone may leave a spring that pulls to the middle, of the device's own.
+    for (const PidMessage* m : {&layout_.reset, &layout_.stop_all, &layout_.enable, &layout_.gain})
         if (Status sent = send(line, *m); !sent) return sent;
     const Result<std::int64_t> block = load(line, layout_);
     if (!block) return fail(block.error());

@@ -199,6 +199,25 @@ TEST_CASE("a device that lets a force die is told again; closed it is left witho
     }
 }
 
+TEST_CASE("a spring of the wheel's own is stopped: in our hands it pulls nowhere") {
+    for (const bool board : {true, false}) {
+        CAPTURE(board);
+        emulate::WheelDesign design = design_of(board);
+        design.own_spring = 3.0;
+        emulate::Wheel alone(design);
+        alone.hand = 1.0;
+        alone.hand_stiffness = 10.0;
+        for (double t = 0.0; t < 3.0; t += 0.001) alone.go_on(t);
+        CHECK(alone.angle() < 0.8);
+        Bench b(design);
+        REQUIRE(b.opened);
+        b.wheel.hand = 1.0;
+        b.wheel.hand_stiffness = 10.0;
+        b.run(3.0, [] { return 0.0; });
+        CHECK(b.wheel.angle() == doctest::Approx(1.0).epsilon(0.01));
+    }
+}
+
 TEST_CASE(
     "a force outlives a program that was killed by a second at most, and comes back when the program does") {
     for (const bool board : {true, false}) {

@@ -29,6 +29,7 @@ Wheel::Wheel(const WheelDesign& design) : design_(design), random_(design.faults
 }
 
 double Wheel::torque() const {
+    if (springs_ && design_.own_spring > 0.0) return -design_.own_spring * angle_;
     if (!enabled_ || !loaded_ || !set_ || !playing_ ||
         time_ - started_ > std::min(design_.effect_life, duration_))
         return 0.0;
@@ -81,6 +82,7 @@ void Wheel::control(std::uint8_t what) {
     if ((what & 0x01U) != 0) enabled_ = true;
     if ((what & 0x02U) != 0) enabled_ = false;
     if ((what & 0x0cU) != 0) playing_ = false;
+    if ((what & 0x0cU) != 0) springs_ = (what & 0x08U) != 0;
     if ((what & 0x08U) != 0) {
         enabled_ = false;
         loaded_ = set_ = false;

@@ -19,6 +19,8 @@ struct WheelDesign {
     double inertia = 0.02;      // kg·m², hand included
     double damping = 0.5;       // N·m·s/rad
     double effect_life = 60.0;  // s after which a force dies that was not started again
+    // N·m/rad to the middle, until all effects are stopped; a reset brings it back.
+    double own_spring = 0.0;
     HidFaults faults{};
 };
 
@@ -51,7 +53,7 @@ class Wheel : public HidDevice {
     HidDesign shown_;
     Random random_;
     double angle_ = 0.0, speed_ = 0.0, time_ = 0.0, next_ = 0.0, told_at_ = -1.0, started_ = 0.0;
-    bool enabled_ = false, loaded_ = false, set_ = false, playing_ = false;
+    bool springs_ = true, enabled_ = false, loaded_ = false, set_ = false, playing_ = false;
     double gain_ = 1.0, effect_gain_ = 0.0, magnitude_ = 0.0;  // shares
     double duration_ = 0.0;                                    // s
     std::uint64_t heard_ = 0;
