@@ -1,5 +1,8 @@
 #include "tests/kernel/guest.hpp"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <thread>
 
@@ -31,6 +34,16 @@ device::Listed listed(const std::string& id) {
     };
     REQUIRE_MESSAGE(becomes(is_there), id << " does not appear");
     return found;
+}
+
+bool holds_for_nobody(const std::function<bool()>& check) {
+    const pid_t child = fork();
+    if (child == 0) {
+        if (setgid(65534) != 0 || setuid(65534) != 0) _exit(2);
+        _exit(check() ? 0 : 1);
+    }
+    int status = 0;
+    return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace bolt::test

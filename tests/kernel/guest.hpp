@@ -21,6 +21,9 @@ emulate::Uhid plugged(std::unique_ptr<emulate::HidDevice> device);
 // The device of that id, when the kernel has made its node.
 device::Listed listed(const std::string& id);
 
+// What a check finds when nobody in particular runs it.
+bool holds_for_nobody(const std::function<bool()>& check);
+
 // What an emulated device is or does.
 template <class Device, class Look>
 void with(const emulate::Uhid& plug, const Look& look) {

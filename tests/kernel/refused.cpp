@@ -1,7 +1,5 @@
 // Devices that cannot be used, and what is said about it.
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "tests/kernel/guest.hpp"
 #include "tools/emulate/hid_items.hpp"
@@ -28,17 +26,6 @@ class Plain : public emulate::HidDevice {
   private:
     emulate::HidDesign design_;
 };
-
-// What a check finds when nobody in particular runs it.
-bool holds_for_nobody(const std::function<bool()>& check) {
-    const pid_t child = fork();
-    if (child == 0) {
-        if (setgid(65534) != 0 || setuid(65534) != 0) _exit(2);
-        _exit(check() ? 0 : 1);
-    }
-    int status = 0;
-    return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
 
 }  // namespace
 

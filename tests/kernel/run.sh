@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Boots Debian's stock kernel in a software machine with nothing in it but a program of tests, which plugs emulated devices
-# into that kernel and drives them. $1: the program, $2: what tools/fetch-kernel.sh fetched, the rest goes to the program.
+# into that kernel and drives them. $1: the program, $2: what tools/fetch-kernel.sh fetched, the rest: programs that it runs.
 set -euo pipefail
 program=$1 kernel=$2
 shift 2
@@ -15,18 +15,20 @@ mkdir -p "$root"/{bin,proc,sys,dev,tmp,modules}
 cp "$(command -v busybox)" "$root/bin/busybox"
 cp "$kernel"/*.ko "$root/modules"
 cp "$program" "$root/bin/guest"
-# The program's libraries, each where it is looked for.
+[[ $# -eq 0 ]] || cp "$@" "$root/bin"
+# Their libraries, each where it is looked for.
 while read -r library; do
     mkdir -p "$root$(dirname "$library")"
     cp -L "$library" "$root$library"
-done < <(ldd "$program" | grep -o '/[^ ]*')
+done < <(for one in "$program" "$@"; do ldd "$one"; done | grep -o '/[^ :]*\.so[^ :]*' | sort -u)
 cat > "$root/init" <<END
 #!/bin/busybox sh
 /bin/busybox mount -t proc none /proc
 /bin/busybox mount -t sysfs none /sys
 /bin/busybox mount -t devtmpfs none /dev
 for module in hid hid-generic uhid; do /bin/busybox insmod /modules/\$module.ko; done
-/bin/guest $*
+export PATH=/bin
+/bin/guest
 echo "guest: exit \$?"
 /bin/busybox poweroff -f
 END
@@ -36,7 +38,7 @@ chmod +x "$root/init"
 # Its clock counts instructions and does not wait while nothing is done: what the guest measures is its own doing, however
 # busy this machine is. A guest that hangs is ended, and has failed.
 status=0
-timeout 110 qemu-system-x86_64 -M pc -m 192 -nographic -no-reboot -nic none -icount shift=1,sleep=off \
+timeout 110 qemu-system-x86_64 -M pc -m 384 -nographic -no-reboot -nic none -icount shift=1,sleep=off \
     -kernel "$kernel/vmlinuz" -initrd "$work/initrd.gz" -append "console=ttyS0 loglevel=1 panic=-1" \
     < /dev/null > "$work/log" 2>&1 || status=$?
 tr -d '\r' < "$work/log" | sed 's/\x1b\[[0-9;?]*[a-zA-Z]//g'

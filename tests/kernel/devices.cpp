@@ -1,0 +1,72 @@
+// `boltwright devices`, as a user calls it.
+#include <sys/stat.h>
+
+#include "engine/base/process.hpp"
+#include "tests/kernel/guest.hpp"
+#include "tools/emulate/puck.hpp"
+#include "tools/emulate/wheel.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+
+namespace {
+
+struct Said {
+    int exit_code = -1;
+    std::string text;
+    [[nodiscard]] bool has(const std::string& words) const { return text.find(words) != std::string::npos; }
+};
+
+Said devices(std::vector<std::string> options = {}) {
+    std::vector<std::string> command{"boltwright", "devices"};
+    command.insert(command.end(), options.begin(), options.end());
+    const Result<Finished> finished = run_program(command, Hear::output_and_errors);
+    return finished ? Said{finished->exit_code, finished->said} : Said{-1, finished.error().message()};
+}
+
+}  // namespace
+
+TEST_CASE("boltwright devices with nothing plugged in says so, and fails only where something was named") {
+    const Said all = devices();
+    CHECK_MESSAGE(all.exit_code == 0, all.text);
+    CHECK(all.has("none by USB"));
+    const Said one = devices({"--device", "256f:c62e"});
+    CHECK(one.exit_code == 4);
+    CHECK(one.has("no device 256f:c62e"));
+}
+
+TEST_CASE("boltwright devices says what is there and what it can") {
+    const auto puck = plugged(std::make_unique<emulate::Puck>());
+    const auto board = plugged(std::make_unique<emulate::Wheel>(emulate::WheelDesign{.serial = "AB12"}));
+    listed("256f:c62e");
+    listed("1209:ffb0:AB12");
+    const Said all = devices();
+    CHECK_MESSAGE(all.exit_code == 0, all.text);
+    CHECK(all.has("256f:c62e  Emulated SpaceMouse  /dev/hidraw"));
+    CHECK(all.has("1209:ffb0:AB12  Emulated OpenFFBoard  /dev/hidraw"));
+    CHECK(!all.has("cannot be used"));
+    const Said a_puck = devices({"--device", "256f:c62e", "--seconds", "0.2"});
+    CHECK_MESSAGE(a_puck.exit_code == 0, a_puck.text);
+    CHECK(a_puck.has("renders no force"));
+    const Said a_board = devices({"--device", "1209:ffb0:AB12", "--seconds", "0.2"});
+    CHECK_MESSAGE(a_board.exit_code == 0, a_board.text);
+    CHECK(a_board.has("2.0 N·m"));
+    CHECK(a_board.has("1080 degrees"));
+    const Said near = devices({"--device", "256f:c62d"});
+    CHECK(near.exit_code == 4);
+    CHECK(near.has("256f:c62e"));
+}
+
+TEST_CASE("boltwright devices tells who may not open a device what to do") {
+    const auto puck = plugged(std::make_unique<emulate::Puck>());
+    REQUIRE(chmod(listed("256f:c62e").path.c_str(), 0600) == 0);
+    CHECK(holds_for_nobody([] {
+        const Said all = devices();
+        return all.exit_code == 0 && all.has("cannot be used") && all.has("60-boltwright.rules");
+    }));
+    CHECK(holds_for_nobody([] {
+        const Said one = devices({"--device", "256f:c62e"});
+        return one.exit_code == 4 && one.has("Permission denied") && one.has("60-boltwright.rules");
+    }));
+}
