@@ -14,6 +14,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "haptics/device/hidapi_lock.hpp"
+
 namespace bolt::device {
 
 namespace {
@@ -83,6 +85,11 @@ class HidNode : public HidLine {
 
 }  // namespace
 
+std::mutex& hidapi_lock() {
+    static std::mutex lock;
+    return lock;
+}
+
 double steady_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -109,6 +116,7 @@ Status can_open_hid(const std::filesystem::path& node) {
 
 Result<std::unique_ptr<HidLine>> open_hid(const std::filesystem::path& node) {
     if (Status can = can_open_hid(node); !can) return fail(can.error());
+    const std::lock_guard lock(hidapi_lock());
     hid_device* device = hid_open_path(node.c_str());
     if (device == nullptr)
         return fail(ErrorCode::no_device, fmt::format("cannot open {}: {}", node.string(), words(nullptr)),

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "haptics/device/hid_node.hpp"
+#include "haptics/device/hidapi_lock.hpp"
 #include "haptics/device/pid.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/wheel.hpp"
@@ -46,6 +47,7 @@ struct Seen {
 // A node each; hidapi tells one for every collection of a device.
 std::vector<Seen> seen() {
     std::vector<Seen> out;
+    const std::lock_guard lock(hidapi_lock());
     hid_device_info* first = hid_enumerate(0, 0);
     for (const hid_device_info* d = first; d != nullptr; d = d->next) {
         if (d->path == nullptr) continue;
