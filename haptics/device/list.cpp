@@ -63,6 +63,14 @@ std::vector<Seen> seen() {
     return out;
 }
 
+// For those that cannot be asked what they are.
+HidKind kind_by_number(const HidIdentity& who) {
+    if (who.vendor == board_vendor && who.product == board_product) return HidKind::board;
+    const bool logitech = who.vendor == 0x046d && who.product >= 0xc603 && who.product <= 0xc62b;
+    return who.vendor == 0x256f || logitech ? HidKind::puck
+                                            : HidKind::other;  // 3Dconnexion, and as sold before
+}
+
 Status understood(HidKind kind, const ReportDescriptor& descriptor) {
     if (kind == HidKind::puck) {
         if (const auto layout = six_axis_layout(descriptor); !layout) return fail(layout.error());
@@ -85,6 +93,7 @@ Listed listed(const Seen& one) {
     }
     const auto descriptor = parse_report_descriptor(*bytes);
     if (!descriptor) {
+        l.kind = kind_by_number(one.who);
         l.trouble = descriptor.error();
         return l;
     }
@@ -125,9 +134,10 @@ std::string udev_line(const HidIdentity& who) {
 std::vector<Listed> list(bool others) {
     std::vector<Listed> out;
     for (const Seen& one : seen()) out.push_back(listed(one));
+    std::erase_if(out, [](const Listed& l) { return l.trouble && l.trouble->lost; });  // gone meanwhile
     // What is for hands comes first, and so has the same numbers whether or not others are asked for: a
     // puck's receiver is a keyboard too.
-    const auto is_other = [](const Listed& l) { return l.kind == HidKind::other && !l.trouble; };
+    const auto is_other = [](const Listed& l) { return l.kind == HidKind::other; };
     std::stable_partition(out.begin(), out.end(), [&](const Listed& l) { return !is_other(l); });
     if (!others) std::erase_if(out, is_other);
     std::map<std::string, int> met;

@@ -73,6 +73,24 @@ TEST_CASE("a keyboard that came with a puck does not change the puck's name") {
     CHECK(all[1].id == "256f:c62e#2");
 }
 
+TEST_CASE("what the kernel understands and we do not is told of devices that are known by their numbers") {
+    const auto wide = [] {  // more fields than we read
+        emulate::Items d;
+        d.page(0xff00).usage(1).begin(1).usage(1).range(0, 1).item(0x94, 4104, 2).item(0x74, 1, 1).input(2);
+        return d.end().out;
+    };
+    const auto unknown = plugged(std::make_unique<Plain>(wide()));
+    REQUIRE(becomes([] { return list(true).size() == 1; }));
+    CHECK(list(true).front().trouble);
+    CHECK(list().empty());
+    const auto known = plugged(std::make_unique<Plain>(wide(), 0x256f, 0xc699));
+    const Listed l = listed("256f:c699");
+    CHECK(l.kind == HidKind::puck);
+    REQUIRE(l.trouble);
+    CHECK(l.trouble->message().find("4104 fields") != std::string::npos);
+    CHECK(!opener(l.id)());
+}
+
 TEST_CASE("descriptors that make no sense get no further than the kernel, or are told") {
     Random random(3);
     for (int i = 0; i < 20; ++i) {
