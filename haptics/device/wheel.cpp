@@ -76,13 +76,15 @@ Result<Hub> make_hub(std::unique_ptr<HidLine> line, const ReportDescriptor& desc
     d.limits.torsion = 20.0;
     d.rate = usual_rate;
     d.buttons = static_cast<int>(hub.axis.buttons.size());
-    for (int i = 0; i < 3; ++i) d.renders[static_cast<std::size_t>(3 + i)] = std::abs(rig.axis[i]) > 0.01;
     return hub;
 }
 
 void describe_torque(Hub& hub) {
     Description& d = hub.description;
     d.limits.torque = std::min(hub.rig.most_torque, hub.available);
+    for (int i = 0; i < 3; ++i)
+        d.renders[static_cast<std::size_t>(3 + i)] =
+            d.limits.torque > 0.0 && std::abs(hub.rig.axis[i]) > 0.01;
     d.remarks.push_back(fmt::format(
         "renders at most {:.1f} N·m, taking it that the motor gives {:.1f} N·m when all is asked of it",
         d.limits.torque, hub.available));

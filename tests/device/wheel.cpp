@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "haptics/device/wheel.hpp"
+#include "tests/device/promises.hpp"
 #include "tools/emulate/hid_line.hpp"
 
 using namespace bolt;
 using namespace bolt::device;
+using namespace bolt::test;
 
 namespace {
 
@@ -270,6 +272,24 @@ TEST_CASE("spoiled reports never make a wheel jump further than its stops, and i
     REQUIRE(counts.opened);
     counts.run(8.0, [] { return 0.0; });
     CHECK(counts.samples > 1000);
+}
+
+TEST_CASE("wheels keep what every driver has to keep, one without power too") {
+    for (const bool board : {true, false})
+        for (const double power : {0.5, 0.0}) {
+            if (!board && power == 0.0) continue;
+            Bench b({.board = board, .power = power});
+            REQUIRE(b.opened);
+            b.device.reset();
+            CHECK(b.plug.time < 1.0);
+            const Open open = [&]() -> Result<std::unique_ptr<Device>> {
+                if (b.plug.pulled) return fail(ErrorCode::no_device, "gone", "a wheel that is plugged in");
+                return b.open();
+            };
+            b.wheel.hand_stiffness = 10.0;
+            keeps_promises(open, [&] { b.wheel.hand += 0.01; });
+            tells_that_it_is_gone(open, [&] { b.plug.pulled = true; });
+        }
 }
 
 TEST_CASE("turned round in the rig it pulls the other way and is told the same angle") {
