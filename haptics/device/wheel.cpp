@@ -17,7 +17,8 @@ namespace {
 constexpr double usual_rate = 1000.0;    // 1/s
 constexpr double believed_rest = 0.25;   // s
 constexpr double answer_patience = 0.1;  // s for an answer of a board while it is opened
-constexpr double ask_again = 0.02;       // s, for the encoder
+constexpr double ask_again = 0.005;      // s, for the encoder, if no answer came
+constexpr double live_every = 0.004;     // s, for the encoder, where only the board's life is of interest
 constexpr int most_tries = 3;
 constexpr std::int64_t most_degrees = 65535;  // what a board has room for
 constexpr int most_at_once = 256;             // reports in one read
@@ -126,12 +127,16 @@ class OpenFfboard : public Device {
     [[nodiscard]] const Description& describe() const override { return hub_.description; }
 
     Result<std::optional<Sample>> read(double patience) override {
+        patience = std::min(patience, live_every);  // it may have to be asked again
         const double begun = hub_.clock();
-        if (!asked_at_ || begun - *asked_at_ > ask_again) {
+        const double since = begun - asked_at_;
+        // Answers take the place of reports about the axis: no more of them than are wanted.
+        if (since >= (waits_ ? ask_again : has_counts() ? 0.0 : live_every)) {
             const auto question =
                 board::bytes_of({.command = static_cast<std::uint32_t>(board::Command::position)});
             if (Status asked = hub_.line->write(question); !asked) return fail(asked.error());
             asked_at_ = begun;
+            waits_ = true;
         }
         bool news = false;
         for (int i = 0; i < most_at_once; ++i) {
@@ -142,7 +147,7 @@ class OpenFfboard : public Device {
             if (const auto message = board::message_in(*report)) {
                 const auto counts = answer_to(board::Command::position, *message);
                 if (!counts) continue;
-                asked_at_.reset();
+                waits_ = false;
                 counts_ = static_cast<double>(*counts);
                 news = news || told_ || has_counts();
             } else if (take_report(hub_.axis, *report, hub_.state)) {
@@ -162,8 +167,9 @@ class OpenFfboard : public Device {
 
     Hub hub_;
     double range_, counts_ = 0.0;
-    std::optional<double> asked_at_;
-    bool told_ = false;  // its axis, at least once
+    double asked_at_ = -1.0;
+    bool waits_ = false;  // for an answer
+    bool told_ = false;   // its axis, at least once
 };
 
 // None: it does not answer.
