@@ -63,12 +63,11 @@ std::vector<Seen> seen() {
     return out;
 }
 
-// For those that cannot be asked what they are.
+// For those that cannot be asked what they are: 3Dconnexion's numbers, and those under Logitech's name.
 HidKind kind_by_number(const HidIdentity& who) {
     if (who.vendor == board_vendor && who.product == board_product) return HidKind::board;
     const bool logitech = who.vendor == 0x046d && who.product >= 0xc603 && who.product <= 0xc62b;
-    return who.vendor == 0x256f || logitech ? HidKind::puck
-                                            : HidKind::other;  // 3Dconnexion, and as sold before
+    return who.vendor == 0x256f || logitech ? HidKind::puck : HidKind::other;
 }
 
 Status understood(HidKind kind, const ReportDescriptor& descriptor) {
