@@ -1,5 +1,9 @@
 // `boltwright devices`, as a user calls it.
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
 
 #include "engine/base/process.hpp"
 #include "tests/kernel/guest.hpp"
@@ -56,6 +60,31 @@ TEST_CASE("boltwright devices says what is there and what it can") {
     const Said near = devices({"--device", "256f:c62d"});
     CHECK(near.exit_code == 4);
     CHECK(near.has("256f:c62e"));
+}
+
+TEST_CASE("who has no device plugs in an emulated one by bolt-emulate") {
+    for (const auto& [kind, id] :
+         {std::pair{"puck", "256f:c62e"}, {"board", "1209:ffb0"}, {"wheel", "1234:5678"}}) {
+        CAPTURE(kind);
+        const pid_t child = fork();
+        if (child == 0) {
+            execl("/bin/bolt-emulate", "bolt-emulate", kind, nullptr);
+            _exit(127);
+        }
+        listed(id);
+        const Said one = devices({"--device", id, "--seconds", "0.5"});
+        CHECK_MESSAGE(one.exit_code == 0, one.text);
+        CHECK(!one.has("it rests"));  // a hand is at it
+        kill(child, SIGTERM);
+        int status = -1;
+        waitpid(child, &status, 0);
+        CHECK(status == 0);
+        CHECK(becomes([] { return list().empty(); }));
+    }
+    CHECK(holds_for_nobody([] {
+        const auto refused = run_program({"bolt-emulate", "puck"}, Hear::output_and_errors);
+        return refused && refused->exit_code == 4 && refused->said.find("root") != std::string::npos;
+    }));
 }
 
 TEST_CASE("boltwright devices tells who may not open a device what to do") {

@@ -14,6 +14,7 @@
 #include "engine/base/console.hpp"
 #include "game/cli/program.hpp"
 #include "tools/emulate/glove_line.hpp"
+#include "tools/emulate/plugged.hpp"
 
 using namespace bolt;
 
@@ -98,9 +99,20 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1.0));
     worn->add_option("--link", link, "a name for the port, as a link to it");
     int exit_code = 0;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { ended = 1; });
+    const auto plugged = [&](const char* name, const char* help, const auto& play_it) {
+        app.add_subcommand(name, help)->callback([&exit_code, play_it] {
+            const Status played = play_it([] { return ended != 0; });
+            if (!played) exit_code = complain(played.error());
+        });
+    };
+    plugged("puck", "A SpaceMouse, plugged into the kernel (root, module uhid)", emulate::play_puck);
+    plugged("board", "An OpenFFBoard with a motor, plugged into the kernel",
+            [](const auto& over) { return emulate::play_wheel(true, over); });
+    plugged("wheel", "Another wheel with force feedback, plugged into the kernel",
+            [](const auto& over) { return emulate::play_wheel(false, over); });
     worn->callback([&] {
         design.hand = left ? glove::Hand::left : glove::Hand::right;
-        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { ended = 1; });
         exit_code = play(design, by_name ? 0.0 : period, by_name, link);
     });
     return cli::run_program(app, argc, argv, exit_code);
