@@ -45,7 +45,8 @@ struct Line::Shared {
     Timer timer = steady_timer();
     Keeper keeper;
     Mailboxes boxes;
-    std::uint64_t number = 0;  // of orders; the servo's
+    std::uint64_t number = 0;               // of orders; the servo's
+    std::atomic<double> back{timer.now()};  // s, from the device
     std::jthread thread;
 
     void run(const std::stop_token& stop) {
@@ -60,6 +61,7 @@ struct Line::Shared {
         double told_at = 0.0;
         while (!stop.stop_requested()) {
             serve(keeper, boxes, told);
+            back.store(timer.now(), std::memory_order_relaxed);
             const Report& now = keeper.report();
             if (!changed(now, before) && timer.now() - told_at < tell_every) continue;
             before = now;
@@ -99,6 +101,8 @@ const Report& Line::report() {
     shared_->boxes.reports.update();
     return shared_->boxes.reports.latest();
 }
+
+double Line::away() const { return shared_->timer.now() - shared_->back.load(std::memory_order_relaxed); }
 
 Result<std::shared_ptr<const Description>> Line::await(double patience) {
     const double until = shared_->timer.now() + patience;

@@ -48,6 +48,9 @@ class Line {
     // For one caller, another one if need be. As it was at most a tenth of a second ago.
     const Report& report();
 
+    // s since its thread came back from the device last: a driver may hang, and its report with it.
+    [[nodiscard]] double away() const;
+
     // What the device is, once it is open; after `patience` s the reason why it is not. May wait; takes from
     // report().
     Result<std::shared_ptr<const Description>> await(double patience);

@@ -8,6 +8,7 @@ namespace bolt::station {
 
 namespace {
 
+constexpr double hangs = 0.5;             // s that no read and no write of a driver takes
 constexpr std::size_t kept_ticks = 8192;  // s for a recorder to come by: eight at 1 kHz
 
 }  // namespace
@@ -103,9 +104,13 @@ std::uint64_t Station::lost() const { return shared_->lost.load(std::memory_orde
 
 std::vector<std::string> Station::troubles() {
     std::vector<std::string> words;
-    for (auto* line : {&shared_->mover, &shared_->wheel})
-        if (line->has_value() && !(*line)->report().trouble.empty())
-            words.push_back((*line)->report().trouble);
+    for (auto* line : {&shared_->mover, &shared_->wheel}) {
+        if (!line->has_value()) continue;
+        const device::Report& report = (*line)->report();
+        if (!report.trouble.empty()) words.push_back(report.trouble);
+        if (report.state == device::State::usable && (*line)->away() > hangs)
+            words.push_back(report.description->name + " hangs: unplug it and plug it in again");
+    }
     const Ticked& tick = newest();
     // That a device is silent its line has said better.
     const force::Fault fault = tick.output.fault;

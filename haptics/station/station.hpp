@@ -15,9 +15,9 @@ struct Plan {
     Buttons mover_buttons, wheel_buttons;
     force::Workspace workspace;
     Pose home;
-    std::filesystem::path glove;  // its port; empty: none
-    double patience = 3.0;        // s for the devices to open
-    device::LineOptions line;
+    std::filesystem::path glove;       // its port; empty: none
+    double patience = 3.0;             // s for the devices to open
+    device::LineOptions line{{}, 70};  // below the servo's priority
     servo::ThreadOptions servo;
     // What is worked on, for what the devices render and the servo's dt; and how it stands at the beginning.
     std::function<servo::Setup(const force::OutputLimits& limits, double dt)> setup;

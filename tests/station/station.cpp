@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <thread>
+
 #include "haptics/device/puck.hpp"
 #include "tests/station/support.hpp"
 #include "tests/support/eventually.hpp"
@@ -17,7 +19,7 @@ namespace {
 
 // A cable to a device that a test pulls and puts back.
 struct Cable {
-    std::atomic<bool> plugged{true};
+    std::atomic<bool> plugged{true}, hangs{false};
 };
 
 class OnCable final : public device::Device {
@@ -26,6 +28,7 @@ class OnCable final : public device::Device {
         : cable_(std::move(cable)), device_(std::move(device)) {}
     [[nodiscard]] const device::Description& describe() const override { return device_->describe(); }
     Result<std::optional<device::Sample>> read(double patience) override {
+        while (cable_->hangs) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         if (!cable_->plugged) return pulled();
         return device_->read(patience);
     }
@@ -56,7 +59,7 @@ Plan plan_of(device::Open mover) {
     plan.mover = std::move(mover);
     plan.home.position = Vec3(0.0, 0.3, 0.0);
     plan.patience = 60.0;
-    plan.servo.priority = 0;
+    plan.line.priority = plan.servo.priority = 0;
     plan.servo.lock_memory = false;
     plan.setup = [](const force::OutputLimits& limits, double) { return test::two_joints(limits); };
     return plan;
@@ -122,6 +125,19 @@ TEST_CASE("a cable pulled at work is said, lets the tool stand, and all goes on 
     REQUIRE(eventually([&] { return height() > stands + 0.02F; }));
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
     CHECK(station->newest().output.fault == force::Fault::none);
+}
+
+TEST_CASE("a device whose driver does not come back is said, though its line cannot") {
+    device::Puck puck({}, device::steady_timer());
+    const auto cable = std::make_shared<Cable>();
+    Result<Station> station = Station::start(plan_of(on_cable(cable, puck.open())));
+    REQUIRE(station);
+    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    cable->hangs = true;
+    REQUIRE(
+        eventually([&] { return words(station->troubles()).find("hangs: unplug it") != std::string::npos; }));
+    cable->hangs = false;
+    REQUIRE(eventually([&] { return station->troubles().empty(); }));
 }
 
 TEST_CASE("a station has a glove on a line of its own, and says what is wrong with it") {
