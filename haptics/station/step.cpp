@@ -11,6 +11,7 @@ using device::Description;
 using device::Sensing;
 using device::Told;
 
+constexpr double hung = 0.010;       // s without a tick, less than device::KeeperOptions::stale
 constexpr double wheel_fade = 0.05;  // s in which a wheel comes onto a bolt and off it
 
 bool renders(const Description& d) { return renders_force(d) || renders_torque(d); }
@@ -19,6 +20,10 @@ bool renders(const Description& d) { return renders_force(d) || renders_torque(d
 void note(const Description& d, Port& port, const Told& told, double elapsed) {
     port.usable = told.usable;
     port.fresh = told.usable && told.number != port.number;
+    if (elapsed > hung) {
+        port.fresh = false;  // how old what it told last is nobody knows
+        port.number = told.number;
+    }
     port.quiet = port.fresh ? 0.0 : port.quiet + elapsed;
     if (port.fresh) port.number = told.number;
     const force::OutputLimits& limits = d.limits;
@@ -152,6 +157,10 @@ servo::Input hear(const Layout& layout, const servo::Setup& setup, State& s, con
     // Whichever is felt now.
     const bool by_wheel = layout.wheel && (on_bolt(s) || !layout.mover);
     input.fresh = by_wheel ? speaks(*layout.wheel, s.wheel) : speaks(*layout.mover, s.mover);
+    // The devices have let go by themselves. What the output stage still holds must not come back: it is let
+    // go of as well, and begins anew.
+    s.anew = s.anew || elapsed > hung;
+    if (s.anew) input.fresh = false;
     s.input = input;
     return input;
 }
@@ -159,6 +168,10 @@ servo::Input hear(const Layout& layout, const servo::Setup& setup, State& s, con
 Answer answer(const Layout& layout, const servo::Setup& setup, State& s, const servo::Output& output) {
     s.output = output;
     Answer answer;
+    if (s.anew) {
+        s.anew = output.force != Vec3(0.0) || output.torque != Vec3(0.0);
+        s.mover.share = s.wheel.share = 0.0;
+    }
     force::OutputCommand felt{output.force, output.torque};
     if (layout.wheel) {
         const bool engaged = on_bolt(s);

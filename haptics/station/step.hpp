@@ -42,6 +42,7 @@ struct State {
     double turn = 0.0;                // rad, of the wheel
     Vec3 axis{0.0, 1.0, 0.0};         // of the bolt that the wheel turns, or turned last
     double on_bolt = 0.0;             // 0 … 1: the wheel feels that bolt
+    bool anew = false;                // the servo hung: no force until the output stage has let go too
     servo::Input input;               // of the last tick
     servo::Output output;
 };

@@ -170,6 +170,33 @@ TEST_CASE("a silent device has no force 18 ms after its last sample, and gets it
     }
 }
 
+TEST_CASE("after a servo that hung forces begin anew, and only with a sample that is surely new") {
+    Rig rig = on_nut(with_arm());
+    rig.hand().position.z += 2e-3;
+    REQUIRE(glm::length(rig.ticks(50).mover.force) > 1.0);
+    rig.heard.missed = 300;
+    CHECK(nothing(rig.tick().mover));
+    rig.heard.missed = 0;
+    SUBCASE("the device goes on") {
+        double before = 0.0;
+        for (int i = 0; i < 1500; ++i) {
+            const double now = glm::length(rig.tick().mover.force);
+            CHECK(now - before < 0.1);
+            before = now;
+        }
+        CHECK(before > 1.0);
+    }
+    SUBCASE("the dead-man was let go meanwhile") {
+        rig.heard.wishes.held = false;
+        for (int i = 0; i < 1000; ++i) CHECK(nothing(rig.tick().mover));
+    }
+    SUBCASE("the device was lost meanwhile") {
+        rig.mover_speaks = false;
+        for (int i = 0; i < 1000; ++i) CHECK(nothing(rig.tick().mover));
+        CHECK(rig.state.output.fault == force::Fault::silent);
+    }
+}
+
 TEST_CASE("a puck pushes the tool, at its speed, for as long as it says so, and no further than obstacles") {
     Layout layout;
     layout.mover = test::puck();
