@@ -20,10 +20,6 @@ bool renders(const Description& d) { return renders_force(d) || renders_torque(d
 void note(const Description& d, Port& port, const Told& told, double elapsed) {
     port.usable = told.usable;
     port.fresh = told.usable && told.number != port.number;
-    if (elapsed > hung) {
-        port.fresh = false;  // how old what it told last is nobody knows
-        port.number = told.number;
-    }
     port.quiet = port.fresh ? 0.0 : port.quiet + elapsed;
     if (port.fresh) port.number = told.number;
     const force::OutputLimits& limits = d.limits;
