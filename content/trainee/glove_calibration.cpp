@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "content/format/json_document.hpp"
-#include "content/format/json_pointer.hpp"
+#include "content/format/members.hpp"
 #include "content/format/wording.hpp"
 #include "engine/base/file.hpp"
 
@@ -19,8 +18,8 @@ using nlohmann::json;
 
 constexpr const char* format_name = "boltwright glove calibration 1";
 constexpr std::size_t longest_file = 1U << 16U;
-constexpr std::size_t longest_name = 64, longest_text = 200;  // bytes; a trainee's name becomes a file's
-constexpr double steepest = 0.2;                              // rad a count: 255 of them are eight turns
+constexpr std::size_t longest_name = 64;  // bytes; a trainee's name becomes a file's
+constexpr double steepest = 0.2;          // rad a count: 255 of them are eight turns
 
 // Sensors as the file calls them: "thumb_roll".
 std::string key_of(glove::Sensor sensor) {
@@ -34,46 +33,6 @@ std::vector<std::string> sensor_keys(std::size_t sensors) {
     for (const glove::Sensor sensor : glove::sensors_of(sensors)) keys.push_back(key_of(sensor));
     return keys;
 }
-
-// Reads members of objects; the first mistake is kept and all that follows is of no account.
-struct Members {
-    const JsonDocument& document;
-    std::optional<Error> wrong;
-
-    void report(const std::string& pointer, Part part, std::string what, std::string expected) {
-        if (!wrong) wrong = document.error(pointer, part, std::move(what), std::move(expected));
-    }
-    const json* find(const json& object, const std::string& at, const char* key) {
-        const auto it = object.find(key);
-        if (it != object.end()) return &*it;
-        report(at, Part::value, fmt::format("\"{}\" is missing", key), {});
-        return nullptr;
-    }
-    std::string text(const json& object, const char* key, std::size_t longest = longest_text) {
-        const json* value = find(object, "", key);
-        if (value == nullptr) return {};
-        if (value->is_string() && value->get_ref<const std::string&>().size() <= longest)
-            return value->get<std::string>();
-        report(std::string("/") + key, Part::value, fmt::format("\"{}\" is no short text", key),
-               fmt::format("expected a text of at most {} bytes", longest));
-        return {};
-    }
-    double number(const json& object, const std::string& at, const char* key, double low, double high) {
-        const json* value = find(object, at, key);
-        if (value == nullptr) return low;
-        const double x = value->is_number() ? value->get<double>() : std::nan("");
-        if (x >= low && x <= high) return x;
-        report(at + "/" + key, Part::value, fmt::format("\"{}\" cannot be {}", key, in_quotes(value->dump())),
-               fmt::format("expected a number from {} to {}", low, high));
-        return low;
-    }
-    void only(const json& object, const std::string& at, const std::vector<std::string>& known) {
-        for (const auto& [key, value] : object.items())
-            if (std::find(known.begin(), known.end(), key) == known.end())
-                report(at + "/" + pointer_token(key), Part::key,
-                       fmt::format("{} is not known here", in_quotes(key)), suggest(key, known));
-    }
-};
 
 bool is_date(const std::string& text) {
     if (text.size() != 10) return false;

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "content/station/rig_file.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/nearest.hpp"
 #include "game/cli/commands.hpp"
@@ -28,7 +29,7 @@ constexpr double device_patience = 3.0;  // s
 constexpr int quick = 2;                 // ms: what an adapter may gather
 
 struct Options {
-    std::string device, glove;
+    std::string device, glove, rig;
     bool others = false;
     double seconds = 1.0;
 };
@@ -90,7 +91,13 @@ Result<std::string> examine_device(const Options& options) {
             ErrorCode::no_device, fmt::format("there is no device {}", options.device),
             near.empty() ? "one that `boltwright devices` lists" : fmt::format("did you mean {}?", near));
     }
-    Result<device::Line> line = device::Line::start(device::opener(options.device));
+    device::Rig rig;
+    if (!options.rig.empty()) {
+        const Result<device::Rig> read = content::load_rig(options.rig);
+        if (!read) return fail(read.error());
+        rig = *read;
+    }
+    Result<device::Line> line = device::Line::start(device::opener(options.device, rig));
     if (!line) return fail(line.error());
     const auto description = line->await(device_patience);
     if (!description) return fail(description.error());
@@ -182,6 +189,9 @@ void add_devices(CLI::App& app, int& exit_code) {
     CLI::App* devices = app.add_subcommand(
         "devices", "Say which devices are there, what they can, what is wrong with them and how to mend it");
     devices->add_option("--device", options->device, "Open this one, by its id, and say what it can");
+    devices
+        ->add_option("--rig", options->rig, "What this rig file says of that device: its motor, its encoder")
+        ->needs("--device");
     devices->add_option("--glove", options->glove, "Ask the glove on this serial port what it is");
     devices->add_flag("--all", options->others, "List keyboards and the like too");
     devices->add_option("--seconds", options->seconds, "how long a named one is listened to")

@@ -62,7 +62,6 @@ Status examine() {
                     gpu::Instance::create(validated) ? "installed" : "not installed (only tests need them)");
     const Result<std::string> windows = examine_windows();
     text += "Windows:\n" + (windows ? *windows : fmt::format("  none: {}\n", windows.error().message()));
-    text += devices_line();
     if (Status said = say(text); !said) return said;
     if (found->choice.index < 0)
         return fail(ErrorCode::no_device, "no Vulkan device can be used",
@@ -82,8 +81,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     doctor->callback([&exit_code, seconds] {
         const Status drawing = examine();
-        Status servo;
-        if (*seconds > 0.0) {
+        Status servo = say(devices_line());
+        if (servo && *seconds > 0.0) {
             const Result<std::string> text = examine_servo(*seconds);
             servo =
                 say("Servo:\n" + (text ? *text : fmt::format("  not timed: {}\n", text.error().message())));

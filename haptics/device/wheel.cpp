@@ -86,9 +86,11 @@ void describe_torque(Hub& hub) {
     for (int i = 0; i < 3; ++i)
         d.renders[static_cast<std::size_t>(3 + i)] =
             d.limits.torque > 0.0 && std::abs(hub.rig.axis[i]) > 0.01;
-    d.remarks.push_back(fmt::format(
-        "renders at most {:.1f} N·m, taking it that the motor gives {:.1f} N·m when all is asked of it",
-        d.limits.torque, hub.available));
+    d.remarks.push_back(
+        fmt::format("renders at most {:.1f} N·m, taking it that the motor gives {:.1f} N·m when all is asked "
+                    "of it; a rig "
+                    "file says otherwise",
+                    d.limits.torque, hub.available));
 }
 
 class Wheel : public Device {
