@@ -81,17 +81,17 @@ class ProgressLine {
     std::string pass_, doing_;
 };
 
-// What this build has no driver or window for, asked for by name, is an error and not a silent fallback.
+// What a lesson cannot take yet, asked for by name, is an error and not a silent fallback.
 Status check_hardware(const Options& options) {
     if (options.hmd) return fail(ErrorCode::no_device, "this build has no headset output", "leave out --hmd");
     if (options.device != "auto" && options.device != "simulated")
         return fail(ErrorCode::no_device,
-                    fmt::format("there is no driver for a device \"{}\"", options.device),
-                    "--device auto or --device simulated");
+                    fmt::format("a lesson takes no device such as \"{}\" yet", options.device),
+                    "--device auto or --device simulated; boltwright devices tries devices");
     if (options.glove != "auto" && options.glove != "none")
         return fail(ErrorCode::no_device,
-                    fmt::format("there is no driver for a glove at \"{}\"", options.glove),
-                    "--glove auto or --glove none");
+                    fmt::format("a lesson takes no glove such as the one at \"{}\" yet", options.glove),
+                    "--glove auto or --glove none; boltwright devices and boltwright glove try gloves");
     return {};
 }
 
