@@ -5,6 +5,7 @@
 
 #include <csignal>
 
+#include "engine/base/file.hpp"
 #include "engine/base/process.hpp"
 #include "tests/kernel/guest.hpp"
 #include "tools/emulate/puck.hpp"
@@ -57,6 +58,16 @@ TEST_CASE("boltwright devices says what is there and what it can") {
     CHECK_MESSAGE(a_board.exit_code == 0, a_board.text);
     CHECK(a_board.has("2.0 N·m"));
     CHECK(a_board.has("1080 degrees"));
+    const auto rigged = [](const std::string& members) {
+        REQUIRE(write_file("/tmp/rig.json", "{\"format\": \"boltwright rig 1\", " + members + "}"));
+        return devices({"--device", "1209:ffb0:AB12", "--seconds", "0.2", "--rig", "/tmp/rig.json"});
+    };
+    const Said a_rig = rigged(R"("full_torque_Nm": 8, "most_torque_Nm": 1.5)");
+    CHECK_MESSAGE(a_rig.exit_code == 0, a_rig.text);
+    CHECK(a_rig.has("1.5 N·m"));
+    const Said no_rig = rigged(R"("most_torque_Nm": 400)");
+    CHECK(no_rig.exit_code == 3);
+    CHECK(no_rig.has("/tmp/rig.json:1:"));
     const Said near = devices({"--device", "256f:c62d"});
     CHECK(near.exit_code == 4);
     CHECK(near.has("256f:c62e"));
