@@ -33,6 +33,7 @@ struct Found {
         0.0;  // m: beyond the contacts written nothing is nearer than this; a lower bound that holds
     bool crowded = false;  // there were more contacts than room; the nearest were kept, and `clearance` says
                            // what holds for the rest
+    std::uint32_t work = 0;  // about as many samples had to be compared with a surface for it
 };
 
 }  // namespace bolt::contact

@@ -25,6 +25,7 @@ struct Look {
     std::size_t count = 0;
     double nearest = 0.0;
     double limit = 0.0;  // nothing but the contacts is nearer
+    std::uint32_t work = 0;
 };
 
 struct Rows {
@@ -47,6 +48,7 @@ Look look(Finder finder, const Pose& pose, double band) {
     const Found found = finder(pose, band, l.contacts);
     l.count = std::min(found.count, l.contacts.size());
     l.limit = l.nearest = found.clearance;
+    l.work = found.work;
     for (std::size_t i = 0; i < l.count; ++i) l.nearest = std::min(l.nearest, l.contacts[i].distance);
     return l;
 }
@@ -95,11 +97,17 @@ class Stepper {
     // Wide bands are dear: one wider than a stride is asked only where it may be free, as far as the device
     // came in this tick. Then one query does.
     Look ask(const Pose& pose, double free = 0.0) {
+        const Look found = look(finder_, pose, std::clamp(free, p_.stride, p_.reach) + 2.0 * p_.skin);
         ++step_.queries;
-        return look(finder_, pose, std::clamp(free, p_.stride, p_.reach) + 2.0 * p_.skin);
+        step_.work += found.work;
+        return found;
     }
 
-    [[nodiscard]] bool may_ask() const { return step_.queries < p_.queries; }
+    // Before it has moved in this tick it may cost what it may: what is in the way is learnt by trying, and
+    // forgotten by the next tick.
+    [[nodiscard]] bool may_ask() const {
+        return step_.queries < p_.queries && (step_.work < p_.work || !has_moved_);
+    }
 
     Twist solve(const Twist& wanted, const Rows& rows) {
         if (rows.count == 0) return wanted;
@@ -266,6 +274,7 @@ class Stepper {
 
     void arrive(const Pose& there, const Twist& by) {
         came_by_ = by;
+        has_moved_ = true;
         recovery_left_ -= std::clamp(p_.skin - here_.nearest, 0.0, recovery_left_);
         pose_ = there;
     }
@@ -318,7 +327,8 @@ class Stepper {
     Pose pose_;
     Look here_;
     bool recovering_ = false;
-    Twist came_by_;               // the last motion of this tick
+    Twist came_by_;  // the last motion of this tick
+    bool has_moved_ = false;
     double recovery_left_ = 0.0;  // m in this tick
     GodObjectStep step_;
 };

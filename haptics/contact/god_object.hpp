@@ -42,7 +42,10 @@ struct GodObjectParameters {
     double stride = 0.5e-3;  // m that a point may move between two queries where nothing certifies more
     double reach = 5e-3;     // m, the widest band asked for
     double recovery = 0.25;  // m/s, at which it is pushed out when an obstacle moves into it
-    int queries = 5;         // of the finder, a tick; when they are spent the god-object stays behind
+    // Of the finder, a tick, and what they may have cost (Found::work) for there to be another one once the
+    // god-object has moved. When they are spent it stays behind, and goes on in the next tick.
+    int queries = 5;
+    std::uint32_t work = 1500;
 };
 
 struct GodObjectState {
@@ -61,6 +64,7 @@ struct GodObjectStep {
     double nearest = 0.0;      // m, least distance found at the pose that was last looked at; a lower bound
     std::size_t contacts = 0;  // within the band, there
     int queries = 0;
+    std::uint32_t work = 0;  // of the finder
     int solves = 0;
     bool spent = false;    // the queries were not enough to get where the contacts allow
     bool settled = false;  // held back so that the force does not leap

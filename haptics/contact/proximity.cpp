@@ -18,6 +18,8 @@ constexpr double short_lookahead = 2e-3;
 constexpr double worth_asking = 0.1e-3, worth_asking_turn = 2e-3;
 // So many spent samples of a cluster are asked one by one, more only if the cluster as a whole is near.
 constexpr std::size_t few = 4;
+// Takes as long as so many samples.
+constexpr std::uint32_t looking_for_edges = 10;
 // More than the rounding of poses and distances.
 constexpr double rounding = 1e-9;
 constexpr double nothing_proven = -1e9;
@@ -74,6 +76,7 @@ struct Collected {
     double complete;  // up to where they are all there are
     std::span<Waiting> waiting;
     std::size_t waiters = 0;
+    std::uint32_t work = 0;
 
     bool wait(const Waiting& one) {
         if (waiters == waiting.size()) return false;
@@ -232,6 +235,7 @@ class Sweep {
 
     // A sample whose bound is spent.
     void ask(Bounds& bounds, std::uint32_t index, const Proven& spent) const {
+        ++collected_.work;
         const Sample& sample = samples_.samples[index];
         const Vec3 at = to_surface_ * sample.at;
         if (sample.piece == Sample::no_piece)
@@ -344,6 +348,7 @@ class Sweep {
                                      crossings, facing);
         }
         const double radius = deepest + (near_before ? short_lookahead : edge_lookahead);
+        collected_.work += looking_for_edges;
         edges.at = glm::vec3(piece.middle);
         edges.turned = spent.turn;
         edges.radius = radius;
@@ -453,10 +458,12 @@ Found find_contacts(const World& world, const ToolShape& tool, const Pose& pose,
         return sweep(one.pair, one.of_tool, known.last, to_tool)
             .find(one, one.of_tool ? known.of_tool : known.of_body, contact);
     };
-    return reduce(
-        {state.near, collected.count, state.order, state.kept, state.kept_in,
-         std::span(state.waiting).first(collected.waiters), state.waiting_order, collected.complete},
-        find, out);
+    Found found =
+        reduce({state.near, collected.count, state.order, state.kept, state.kept_in,
+                std::span(state.waiting).first(collected.waiters), state.waiting_order, collected.complete},
+               find, out);
+    found.work = collected.work;
+    return found;
 }
 
 }  // namespace bolt::contact

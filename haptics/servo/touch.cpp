@@ -104,6 +104,7 @@ contact::Found find(const Setup& setup, Touch& touch, const Pose& pose, double b
     }
     found.clearance = std::min(found.clearance, meshes.clearance);
     found.crowded = found.crowded || meshes.crowded;
+    found.work = meshes.work;
     return found;
 }
 
@@ -113,7 +114,9 @@ contact::Found find_once(const Setup& setup, Touch& touch, const Pose& pose, dou
     LastFound& last = touch.found;
     if (last.holds && last.band == band && same(last.pose, pose)) {
         std::copy_n(last.contacts.begin(), last.found.count, out.begin());
-        return last.found;
+        contact::Found again = last.found;
+        again.work = 0;
+        return again;
     }
     last.found = find(setup, touch, pose, band, out);
     std::copy_n(out.begin(), last.found.count, last.contacts.begin());

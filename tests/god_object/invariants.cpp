@@ -119,6 +119,44 @@ TEST_CASE("random scenes: never inside, never a leap, within the budget of queri
     CHECK(sum.in_contact > 5000);
 }
 
+TEST_CASE("where looking is dear a tick looks less often; the tool is late then, and nothing else") {
+    GodObjectParameters p = for_wrench();
+    p.work = 1000;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        CAPTURE(seed);
+        const Scene scene = random_scene(seed, Pose{});
+        const auto dear = [&](const Pose& pose, double band, std::span<Contact> out) {
+            Found found = scene(pose, band, out);
+            found.work = 400;
+            return found;
+        };
+        Random random(seed, 7);
+        const Wandering hand(random, Vec3(0.0), 0.08, 1.2, 0.5);
+        GodObjectState state = start_god_object(Pose{});
+        int most = 0;
+        Pose device;
+        for (int i = 0; i < 1000; ++i) {
+            const double ease = std::min(1.0, i / 300.0);
+            device = hand(i * dt);
+            device.position *= ease;
+            device.orientation = rotation(ease * rotation_vector(device.orientation));
+            const GodObjectStep step = step_god_object(p, state, device, dear, dt);
+            most = std::max(most, step.queries);
+            REQUIRE(step.work == 400U * static_cast<std::uint32_t>(step.queries));
+            REQUIRE(clearance(scene, state.tool) >= 0.0);
+        }
+        CHECK(most >= 3);
+        CHECK(most < p.queries);
+        // The hand rests: in the end there is nothing more to do.
+        bool arrived = false;
+        for (int i = 0; i < 1000 && !arrived; ++i) {
+            const GodObjectStep step = step_god_object(p, state, device, dear, dt);
+            arrived = !step.spent && !step.settled;
+        }
+        CHECK(arrived);
+    }
+}
+
 TEST_CASE("the same scene twice: the same bits") {
     const Tally a = wander(random_scene(4, Pose{}), for_wrench(), 4, 0.5, 1000);
     const Tally b = wander(random_scene(4, Pose{}), for_wrench(), 4, 0.5, 1000);
