@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "engine/base/spsc_ring.hpp"
+#include "haptics/station/hand_line.hpp"
 
 namespace bolt::station {
 
@@ -20,6 +21,7 @@ struct Station::Shared {
     State mapped;
     std::optional<device::Line> mover, wheel;
     std::optional<glove::Driver> glove;
+    std::optional<HandLine> hand;
     TripleBuffer<Wishes> wishes;
     TripleBuffer<Ticked> ticked;
     SpscRing<Ticked> ticks{kept_ticks};
@@ -32,10 +34,12 @@ struct Station::Shared {
         if (wheel) heard.wheel = wheel->told();
         wishes.update();
         heard.wishes = wishes.latest();
+        if (hand) heard.hand = hand->grip();
         heard.missed = beat.missed;
         const Answer answer = station::tick(layout, setup, mapped, state, heard);
         if (mover) mover->order(answer.mover, true);
         if (wheel) wheel->order(answer.wheel, true);
+        if (hand) hand->place({mapped.workspace.tool, mapped.output.tool});
         const Ticked now{beat.number, mapped.input, mapped.output};
         ticked.write(now);
         if (!ticks.push(now)) lost.fetch_add(1, std::memory_order_relaxed);
@@ -74,7 +78,12 @@ Result<Station> Station::start(Plan plan) {
     if (Status ok = open(plan.mover, plan, s.mover, s.layout.mover); !ok) return fail(ok.error());
     if (Status ok = open(plan.wheel, plan, s.wheel, s.layout.wheel); !ok) return fail(ok.error());
     if (Status ok = check(s.layout); !ok) return fail(ok.error());
-    if (!plan.glove.empty()) s.glove = glove::Driver::start(plan.glove);
+    if (plan.hand && plan.glove.empty())
+        return fail(ErrorCode::no_device, "a hand without a glove", "the port that its glove is on");
+    if (plan.hand)
+        s.hand = HandLine::start(glove::Driver::start(plan.glove), std::move(*plan.hand));
+    else if (!plan.glove.empty())
+        s.glove = glove::Driver::start(plan.glove);
 
     s.setup = plan.setup(limits_of(s.layout), 1.0 / plan.servo.rate);
     if (plan.state) {
@@ -118,9 +127,12 @@ std::vector<std::string> Station::troubles() {
         words.emplace_back(force::name(fault));
     if (shared_->glove && shared_->glove->report().trouble[0] != '\0')
         words.emplace_back(shared_->glove->report().trouble.data());
+    if (shared_->hand)
+        for (std::string& trouble : shared_->hand->troubles()) words.push_back(std::move(trouble));
     return words;
 }
 
+const ShownHand* Station::hand() { return shared_->hand ? &shared_->hand->shown() : nullptr; }
 const Layout& Station::layout() const { return shared_->layout; }
 const servo::Setup& Station::setup() const { return shared_->setup; }
 glove::Driver* Station::glove() { return shared_->glove ? &*shared_->glove : nullptr; }

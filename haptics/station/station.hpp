@@ -6,6 +6,7 @@
 
 #include "haptics/glove/driver.hpp"
 #include "haptics/servo/thread.hpp"
+#include "haptics/station/hand.hpp"
 #include "haptics/station/step.hpp"
 
 namespace bolt::station {
@@ -16,6 +17,7 @@ struct Plan {
     force::Workspace workspace;
     Pose home;
     std::filesystem::path glove;       // its port; empty: none
+    std::optional<HandPlan> hand;      // that wears it; none: nobody does, and what is gripped is wished
     double patience = 3.0;             // s for the devices to open
     device::LineOptions line{{}, 70};  // below the servo's priority
     servo::ThreadOptions servo;
@@ -47,12 +49,15 @@ class Station {
     bool next(Ticked& tick);                   // every one in turn; false: no more for now
     [[nodiscard]] std::uint64_t lost() const;  // ticks that nobody took in time
 
+    // The gloved hand as it is now; null: none. For one caller.
+    const ShownHand* hand();
+
     // What is wrong, in words, worst first; empty: nothing. As it was at most a tenth of a second ago.
     std::vector<std::string> troubles();
 
     [[nodiscard]] const Layout& layout() const;
     [[nodiscard]] const servo::Setup& setup() const;
-    [[nodiscard]] glove::Driver* glove();  // null: none
+    [[nodiscard]] glove::Driver* glove();  // null: none, or a hand is in it
     [[nodiscard]] servo::Thread& servo();
     void stop();
 

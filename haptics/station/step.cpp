@@ -144,7 +144,7 @@ servo::Input hear(const Layout& layout, const servo::Setup& setup, State& s, con
 
     servo::Input input;
     input.device = sample_of(s.workspace.tool);
-    input.grip = wishes.grip;
+    input.grip = heard.hand.value_or(wishes.grip);
     input.enabled = wishes.held;
     input.guide = wishes.guide;
     input.stop = wishes.stop;

@@ -14,8 +14,8 @@ namespace bolt::station {
 
 // What devices do not tell: a lesson's, a glove's, a keyboard's.
 struct Wishes {
-    servo::Grip grip = servo::Grip::none;
-    bool held = false;  // the dead-man, besides the devices' buttons
+    servo::Grip grip = servo::Grip::none;  // counts where there is no gloved hand
+    bool held = false;                     // the dead-man, besides the devices' buttons
     bool clutch = false, stop = false, reset = false;
     std::int16_t guide = -1;
 };
@@ -23,7 +23,8 @@ struct Wishes {
 struct Heard {
     device::Told mover, wheel;
     Wishes wishes;
-    std::uint64_t missed = 0;  // deadlines of the servo without a tick since the one before
+    std::optional<servo::Grip> hand;  // of the gloved hand, if there is one
+    std::uint64_t missed = 0;         // deadlines of the servo without a tick since the one before
 };
 
 // What is known of one device.

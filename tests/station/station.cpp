@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "haptics/device/puck.hpp"
+#include "tests/station/gloved.hpp"
 #include "tests/station/support.hpp"
 #include "tests/support/eventually.hpp"
 #include "tools/emulate/glove_line.hpp"
@@ -149,11 +150,76 @@ TEST_CASE("a station has a glove on a line of its own, and says what is wrong wi
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
     REQUIRE(station->glove() != nullptr);
+    CHECK(station->hand() == nullptr);
     REQUIRE(eventually([&] { return station->glove()->sample().number > 5; }));
     line->stall(true);
     REQUIRE(eventually([&] { return words(station->troubles()).find("glove") != std::string::npos; }));
     line->stall(false);
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
+}
+
+TEST_CASE(
+    "a gloved hand at a station takes the wrench, keeps it while the glove is gone, lets it go by opening") {
+    auto line = emulate::GloveLine::start({.sensors = 22});
+    REQUIRE(line);
+    line->show(test::raw_open());
+    device::Puck puck({}, device::steady_timer());
+    Plan plan = plan_of(puck.open());
+    plan.glove = line->port();
+    plan.hand = test::hand_at_bar();
+    Result<Station> station = Station::start(std::move(plan));
+    REQUIRE(station);
+    CHECK(station->glove() == nullptr);
+    Wishes wishes;
+    wishes.grip = servo::Grip::wrench;  // does not count: the hand is open
+    station->wish(wishes);
+    const auto grip = [&] { return station->newest().input.grip; };
+    REQUIRE(eventually([&] { return station->hand()->any && grip() == servo::Grip::none; }));
+    const hand::Skeleton open = station->hand()->joints;
+    station->wish({});
+    line->show(test::raw_closed());
+    REQUIRE(eventually([&] { return grip() == servo::Grip::wrench; }));
+    REQUIRE(eventually([&] {
+        const ShownHand& hand = *station->hand();
+        return hand.held &&
+               glm::length(hand.joints.position[hand::index_tip] - open.position[hand::index_tip]) > 0.03;
+    }));
+
+    line->stall(true);
+    REQUIRE(eventually(
+        [&] { return words(station->troubles()).find("stays in your hand") != std::string::npos; }));
+    line->show(test::raw_open());  // nobody sees that
+    const std::uint64_t then = station->newest().number;
+    bool kept = true;
+    REQUIRE(eventually([&] {
+        for (Ticked tick; station->next(tick);)
+            kept = kept && (tick.number < then || tick.input.grip == servo::Grip::wrench);
+        return station->newest().number > then + 300;
+    }));
+    CHECK(kept);
+    line->show(test::raw_closed());
+    line->stall(false);
+    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    CHECK(grip() == servo::Grip::wrench);
+    line->show(test::raw_open());
+    REQUIRE(eventually([&] { return grip() == servo::Grip::none; }));
+    CHECK(!station->hand()->held);
+}
+
+TEST_CASE("a glove of the other hand than the one that wears it is said; a hand without a glove is none") {
+    auto line = emulate::GloveLine::start({.hand = glove::Hand::left});
+    REQUIRE(line);
+    device::Puck puck({}, device::steady_timer());
+    Plan plan = plan_of(puck.open());
+    plan.hand = test::hand_at_bar();
+    plan.glove = line->port();
+    Result<Station> station = Station::start(std::move(plan));
+    REQUIRE(station);
+    REQUIRE(
+        eventually([&] { return words(station->troubles()).find("is a left one") != std::string::npos; }));
+    Plan bare = plan_of(puck.open());
+    bare.hand = test::hand_at_bar();
+    CHECK_FALSE(Station::start(std::move(bare)));
 }
 
 TEST_CASE("a station whose device is not there, or is none that moves a tool, does not begin, and says why") {

@@ -146,6 +146,20 @@ TEST_CASE("buttons do what they are set to, of what is plugged in only") {
     CHECK(rig.state.input.missed == 15);
 }
 
+TEST_CASE("what a gloved hand grips is gripped, whatever is wished") {
+    Rig rig = on_nut(with_arm());
+    rig.heard.hand = servo::Grip::none;
+    rig.tick();
+    CHECK(rig.state.output.joint < 0);
+    rig.heard.wishes.grip = servo::Grip::none;
+    rig.heard.hand = servo::Grip::wrench;
+    rig.ticks(5);
+    CHECK(rig.state.output.joint == 0);
+    rig.heard.hand.reset();
+    rig.tick();
+    CHECK(rig.state.output.joint < 0);
+}
+
 TEST_CASE("a silent device has no force 18 ms after its last sample, and gets it back over the ramp") {
     for (const bool lost : {false, true}) {
         Rig rig = on_nut(with_arm());
