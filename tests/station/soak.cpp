@@ -1,5 +1,6 @@
-// Two hours at a station whose devices fail in every way that we know, at random, in virtual time. Two hours
-// by default; BOLTWRIGHT_SOAK_SECONDS and BOLTWRIGHT_SOAK_SEED say otherwise. Under a sanitizer ten minutes.
+// Two hours at a station whose devices and glove fail in every way that we know, at random, in virtual time.
+// Two hours by default; BOLTWRIGHT_SOAK_SECONDS and BOLTWRIGHT_SOAK_SEED say otherwise. Under a sanitizer ten
+// minutes.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <malloc.h>
@@ -9,6 +10,7 @@
 
 #include "engine/base/random.hpp"
 #include "haptics/glove/conversation.hpp"
+#include "tests/station/gloved.hpp"
 #include "tests/station/support.hpp"
 #include "tests/support/forbidden.hpp"
 #include "tests/support/sanitized.hpp"
@@ -24,6 +26,8 @@ constexpr double dt = 1e-3;
 constexpr double gone = 0.020;        // s until no force is left
 constexpr double said = 1.0;          // s until it is said
 constexpr double usable_again = 2.0;  // s from plugging in
+constexpr int looks = 50;             // ticks between two of the hand at its glove: its closing costs most
+constexpr double done = 1.5;          // s after which a hand that closed or opened has taken or let go
 
 bool nothing(const force::OutputCommand& c) { return c.force == Vec3(0.0) && c.torque == Vec3(0.0); }
 
@@ -71,6 +75,8 @@ struct Tally {
     std::string first;
     std::uint64_t turned = 0;  // ticks in which the wheel felt the bolt
     double longest_glove = 0.0;
+    std::uint64_t taken = 0, let_go = 0, lost_in_grasp = 0, opened_meanwhile = 0;
+    double longest_untold = 0.0;  // s of a lost glove with the wrench in the hand
 
     void must(bool so, const std::string& what, double now) {
         if (so) return;
@@ -100,9 +106,8 @@ class Soak {
                   {}},
                  4 * seed + 1),
           random_(4 * seed + 2),
-          glove_({.sensors = 22, .faults = {1e-4, 1e-4, 1e-4}, .seed = 4 * seed + 3}) {
-        glove_.raw.fill(100);
-    }
+          glove_({.sensors = 22, .faults = {1e-4, 1e-4, 1e-4}, .seed = 4 * seed + 3}),
+          plan_(test::hand_at_bar()) {}
 
     Tally run(double seconds) {
         const auto ticks = static_cast<std::uint64_t>(seconds / dt);
@@ -113,6 +118,7 @@ class Soak {
             arm_.live(now_);
             wheel_.live(now_);
             if (i % 5 == 0) talk();
+            if (i % looks == 0) grip();
             if (now_ >= hangs_until_) serve();
             watch();
             all_is_well_again();
@@ -179,6 +185,7 @@ class Soak {
         heard.mover = arm_.line.told();
         heard.wheel = wheel_.line.told();
         heard.wishes = wishes_;
+        heard.hand = grip_of(hand_);
         heard.missed = static_cast<std::uint64_t>((now_ - ticked_) / dt + 0.5) - (tally_.ticks > 0 ? 1 : 0);
         ticked_ = now_;
         const test::Forbidden forbidden =
@@ -202,10 +209,60 @@ class Soak {
         std::vector<std::uint8_t> heard = glove_.go_on(said_, now_);
         if (troubled && glove_cut_) heard.clear();
         const std::uint64_t before = tally_.glove_frames;
-        said_ = conversation_.go_on(heard, now_, [&](const glove::Frame&) { ++tally_.glove_frames; });
+        said_ = conversation_.go_on(heard, now_, [&](const glove::Frame& frame) {
+            sample_ = {frame, ++tally_.glove_frames, now_};
+        });
         if (troubled && glove_cut_) said_.clear();
         if (troubled || before != tally_.glove_frames) glove_heard_ = now_;
         tally_.longest_glove = std::max(tally_.longest_glove, now_ - glove_heard_);
+    }
+
+    // The hand opens now and then, for as long as it takes to be seen; it does not know how the glove is.
+    void live_in_glove() {
+        if (now_ > hand_until_) {
+            open_ = !open_;
+            hand_until_ = now_ + (open_ ? random_.uniform(0.5, 4.0) : random_.uniform(1.0, 20.0));
+            moved_at_ = now_;
+            if (open_ && hand_.grip.held && hand_.grip.lost) ++tally_.opened_meanwhile;
+        }
+        glove_.raw = open_ ? raw_open_ : raw_closed_;
+    }
+
+    void grip() {
+        live_in_glove();
+        const bool held = hand_.grip.held, lost = hand_.grip.lost, fresh = sample_.number != hand_.number;
+        const ToolPlace place{state_.workspace.tool, state_.output.tool};
+        grip::Told told{};
+        const test::Forbidden forbidden =
+            test::forbidden_in([&] { told = hand_step(plan_, hand_, sample_, place, looks * dt); });
+        tally_.allocations += static_cast<std::uint64_t>(forbidden.all());
+        tally_.taken += told == grip::Told::taken ? 1 : 0;
+        tally_.let_go += told == grip::Told::let_go ? 1 : 0;
+        tally_.lost_in_grasp += told == grip::Told::glove_lost && held ? 1 : 0;
+
+        const grip::Grip& now = hand_.grip;
+        if (fresh) frame_at_ = now_;
+        if (fresh && lost) back_at_ = now_;
+        const bool dropped = held && !now.held;
+        tally_.must(!dropped || (fresh && !lost), "the wrench falls and the glove is lost", now_);
+        tally_.must(!dropped || now_ - back_at_ >= plan_.grip.think - 1e-9,
+                    "the wrench falls as the glove is back", now_);
+        // The newest frame may be of before it closed.
+        tally_.must(!dropped || open_ || now_ - moved_at_ < 0.1, "the wrench falls out of a closed hand",
+                    now_);
+        // A frame may come out of a line that is already lost.
+        const double quiet = now_ - frame_at_;
+        if (now.held) {
+            const auto told_now = words({now.held, now.lost}, plan_.wearer.hand.side, {});
+            const bool so = !told_now.empty() && told_now[0].find("stays in your hand") != std::string::npos;
+            if (!so) tally_.longest_untold = std::max(tally_.longest_untold, quiet);
+        }
+        tally_.must(!now.any || quiet <= said || now.lost, "the glove is lost and nobody says so", now_);
+        const double sound = now_ - std::max({moved_at_, back_at_, glove_until_ + usable_again});
+        tally_.must(sound <= 0.0 || !now.lost, "the glove is back and is said to be lost", now_);
+        if (sound > done)
+            tally_.must(now.held != open_, open_ ? "an open hand holds" : "a closed hand holds nothing",
+                        now_);
     }
 
     void watch() {
@@ -279,6 +336,13 @@ class Soak {
     Random random_;
     emulate::Glove glove_;
     glove::Conversation conversation_;
+    HandPlan plan_;
+    HandState hand_;
+    glove::Sample sample_;
+    const glove::BySensor<std::uint8_t> raw_open_ = test::raw_open(), raw_closed_ = test::raw_closed();
+    bool open_ = true;  // the hand in the glove
+    double moved_at_ = 0.0, hand_until_ = 3.0;
+    double frame_at_ = 0.0, back_at_ = -1.0;  // of the glove, after it was lost
     std::vector<std::uint8_t> said_;
     double glove_until_ = -1.0, glove_heard_ = 0.0;
     bool glove_cut_ = false;
@@ -315,6 +379,10 @@ TEST_CASE(
             1e3 * w->longest_lost, 1e3 * w->longest_let_go, 1e3 * w->longest_hung, w->longest_back));
     MESSAGE(fmt::format("{} releases, {} hangs; glove back after {:.3f} s at most", tally.releases,
                         tally.hangs, tally.longest_glove));
+    MESSAGE(fmt::format(
+        "the hand took {} times, let go {} times; glove lost in mid-grasp {} times ({} times it opened "
+        "meanwhile), told after {:.2f} s at most",
+        tally.taken, tally.let_go, tally.lost_in_grasp, tally.opened_meanwhile, tally.longest_untold));
     CHECK_MESSAGE(tally.failures == 0, tally.failures << " times, first " << tally.first);
     CHECK(tally.allocations == 0);
     CHECK(tally.longest_glove <= usable_again);
@@ -328,4 +396,9 @@ TEST_CASE(
     for (Watched* w : {&soak.arm(), &soak.wheel()})
         for (const std::uint64_t count : w->counts) CHECK(count > 2);
     CHECK(tally.glove_frames > tally.ticks / 50);
+    CHECK(tally.longest_untold <= said);
+    CHECK(tally.taken > 5);
+    CHECK(tally.let_go > 5);
+    CHECK(tally.lost_in_grasp > 5);
+    CHECK(tally.opened_meanwhile > 0);
 }
