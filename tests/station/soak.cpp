@@ -26,6 +26,7 @@ constexpr double dt = 1e-3;
 constexpr double gone = 0.020;        // s until no force is left
 constexpr double said = 1.0;          // s until it is said
 constexpr double usable_again = 2.0;  // s from plugging in
+constexpr double thinks = 0.5;        // s after the glove is back in which nothing falls
 constexpr int looks = 50;             // ticks between two of the hand at its glove: its closing costs most
 constexpr double done = 1.5;          // s after which a hand that closed or opened has taken or let go
 
@@ -245,8 +246,7 @@ class Soak {
         if (fresh && lost) back_at_ = now_;
         const bool dropped = held && !now.held;
         tally_.must(!dropped || (fresh && !lost), "the wrench falls and the glove is lost", now_);
-        tally_.must(!dropped || now_ - back_at_ >= plan_.grip.think - 1e-9,
-                    "the wrench falls as the glove is back", now_);
+        tally_.must(!dropped || now_ - back_at_ > thinks, "the wrench falls as the glove is back", now_);
         // The newest frame may be of before it closed.
         tally_.must(!dropped || open_ || now_ - moved_at_ < 0.1, "the wrench falls out of a closed hand",
                     now_);
