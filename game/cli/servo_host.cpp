@@ -28,11 +28,7 @@ servo::Input working(const servo::Setup& setup, const servo::State& state) {
     const Vec3 x = std::cos(-nearest) * nut.e1 + std::sin(-nearest) * nut.e2;
     const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(nut.axis, x), nut.axis)));
     servo::Input input;
-    for (int i = 0; i < 3; ++i) input.device.position[i] = static_cast<float>(at[i]);
-    input.device.orientation[0] = static_cast<float>(q.w);
-    input.device.orientation[1] = static_cast<float>(q.x);
-    input.device.orientation[2] = static_cast<float>(q.y);
-    input.device.orientation[3] = static_cast<float>(q.z);
+    input.device = servo::sample_of({at, q});
     input.grip = servo::Grip::wrench;
     input.enabled = true;
     input.guide = 0;

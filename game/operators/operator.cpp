@@ -25,16 +25,6 @@ constexpr double frame_time = 1.0 / 60.0;  // s
 constexpr double looks_within = 0.06;      // m from the nut, from where on it is being aligned
 constexpr double worth_telling = 0.02;
 
-servo::DeviceSample sample_of(const Pose& pose) {
-    servo::DeviceSample sample;
-    for (int i = 0; i < 3; ++i) sample.position[i] = static_cast<float>(pose.position[i]);
-    sample.orientation[0] = static_cast<float>(pose.orientation.w);
-    sample.orientation[1] = static_cast<float>(pose.orientation.x);
-    sample.orientation[2] = static_cast<float>(pose.orientation.y);
-    sample.orientation[3] = static_cast<float>(pose.orientation.z);
-    return sample;
-}
-
 // It takes hold, or did not get on: then it places the tool again and turns it a little, as anybody would.
 void settle(Mind& m, const Pose& pose) {
     if (m.on_its_nut()) {
@@ -200,7 +190,7 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
             if (grips) m.hand = give_way(m.hand, wrench);
         }
     }
-    input.device = sample_of(m.hand);
+    input.device = servo::sample_of(m.hand);
     look(m, due);
     return input;
 }

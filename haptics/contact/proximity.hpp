@@ -78,7 +78,7 @@ void forget(ProximityState& state, const World& world, const ToolShape& tool);
 // Contacts up to `band` (m) between the tool at `pose` and what is on in the world; deeper than the surface
 // there is no limit, but for edges against edges (edges.hpp). Their distances are those of the meshes, in
 // double (`Contact` holds to 1e-9 m). `Found::clearance` is the band if all were written or merged
-// (reduce.hpp), else how far the written ones are all.
+// (reduce.hpp), else how far the written ones are all. `Found::work` is less the more was proven before.
 Found find_contacts(const World& world, const ToolShape& tool, const Pose& pose, double band,
                     ProximityState& state, std::span<Contact> out);
 

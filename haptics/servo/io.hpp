@@ -19,6 +19,16 @@ struct DeviceSample {
     float orientation[4] = {1.0F, 0.0F, 0.0F, 0.0F};  // unit quaternion w, x, y, z: tool to assembly
 };
 
+inline DeviceSample sample_of(const Pose& tool) {
+    DeviceSample sample;
+    for (int i = 0; i < 3; ++i) sample.position[i] = static_cast<float>(tool.position[i]);
+    sample.orientation[0] = static_cast<float>(tool.orientation.w);
+    sample.orientation[1] = static_cast<float>(tool.orientation.x);
+    sample.orientation[2] = static_cast<float>(tool.orientation.y);
+    sample.orientation[3] = static_cast<float>(tool.orientation.z);
+    return sample;
+}
+
 struct Input {
     DeviceSample device;
     Grip grip = Grip::none;

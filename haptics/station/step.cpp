@@ -98,16 +98,6 @@ void turn(const Layout& layout, const servo::Setup& setup, State& s, const Told&
     s.workspace.share = share;
 }
 
-servo::DeviceSample sample_of(const Pose& tool) {
-    servo::DeviceSample sample;
-    for (int i = 0; i < 3; ++i) sample.position[i] = static_cast<float>(tool.position[i]);
-    sample.orientation[0] = static_cast<float>(tool.orientation.w);
-    sample.orientation[1] = static_cast<float>(tool.orientation.x);
-    sample.orientation[2] = static_cast<float>(tool.orientation.y);
-    sample.orientation[3] = static_cast<float>(tool.orientation.z);
-    return sample;
-}
-
 force::OutputCommand part(const force::OutputCommand& whole, double share) {
     return {share * whole.force, share * whole.torque};
 }
@@ -143,7 +133,7 @@ servo::Input hear(const Layout& layout, const servo::Setup& setup, State& s, con
     if (layout.wheel) turn(layout, setup, s, heard.wheel, wishes.clutch);
 
     servo::Input input;
-    input.device = sample_of(s.workspace.tool);
+    input.device = servo::sample_of(s.workspace.tool);
     input.grip = heard.hand.value_or(wishes.grip);
     input.enabled = wishes.held;
     input.guide = wishes.guide;

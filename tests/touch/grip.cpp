@@ -287,7 +287,7 @@ Pose anywhere(const test::Workbench& bench, Random& random) {
                   tilt * random.normal());
 }
 
-Watch wander(std::uint64_t seed, int legs, std::vector<double>* trace = nullptr) {
+Watch wander(std::uint64_t seed, int legs, std::vector<double>* trace = nullptr, bool forgets = false) {
     test::Workbench bench("cover-m8");
     Random random(seed);
     Pose at = bench.wrench(0, 0.03);
@@ -303,6 +303,7 @@ Watch wander(std::uint64_t seed, int legs, std::vector<double>* trace = nullptr)
         const double speed = random.uniform(0.05, 0.5), seconds = 1.875 * way / speed + 0.02;
         test::sweep(bench, at, to, seconds, [&](const Output& o) {
             watch(bench, o);
+            if (forgets) bench.state.touch->found.holds = false;
             if (trace != nullptr) trace->insert(trace->end(), {o.force.x, o.torque.y, o.nut_angle});
         });
         at = to;
@@ -336,5 +337,14 @@ TEST_CASE("the same wandering, the same bits") {
     wander(3, 30, &first);
     wander(3, 30, &second);
     CHECK(first.size() > 1000);
+    CHECK(first == second);
+}
+
+TEST_CASE("what was found last is used again, and only where it still is so") {
+    std::vector<double> first, second;
+    const Watch usual = wander(5, 40, &first);
+    const Watch forgetful = wander(5, 40, &second, true);
+    CHECK(usual.was_on);
+    CHECK(forgetful.was_on);
     CHECK(first == second);
 }

@@ -36,11 +36,7 @@ servo::Output Workbench::step(const Pose& hand, servo::Grip grip) {
     servo::Input input;
     input.enabled = true;
     input.grip = grip;
-    for (int i = 0; i < 3; ++i) input.device.position[i] = static_cast<float>(hand.position[i]);
-    input.device.orientation[0] = static_cast<float>(hand.orientation.w);
-    input.device.orientation[1] = static_cast<float>(hand.orientation.x);
-    input.device.orientation[2] = static_cast<float>(hand.orientation.y);
-    input.device.orientation[3] = static_cast<float>(hand.orientation.z);
+    input.device = servo::sample_of(hand);
     return servo::tick(setup, state, input);
 }
 

@@ -47,10 +47,7 @@ class Hand {
         servo::Input input;
         input.enabled = true;
         input.grip = grip;
-        for (int i = 0; i < 3; ++i) input.device.position[i] = static_cast<float>(hand.position[i]);
-        const Quat& q = hand.orientation;
-        const std::array<double, 4> wxyz{q.w, q.x, q.y, q.z};
-        for (std::size_t i = 0; i < 4; ++i) input.device.orientation[i] = static_cast<float>(wxyz[i]);
+        input.device = servo::sample_of(hand);
         const servo::Output output = servo::tick(setup_, state_, input);
         if (grip == servo::Grip::wrench) look(output.tool);
         return output;
