@@ -11,11 +11,6 @@ namespace {
 // ask.
 constexpr double cluster_lookahead = 6e-3;
 constexpr double sample_lookahead = 2.5e-3;
-constexpr double edge_lookahead = 5e-3;
-// Of an edge piece that had an edge near when it was asked last.
-constexpr double short_lookahead = 2e-3;
-// What has to be left (m, rad) of what is known of edges for it to be used again.
-constexpr double worth_asking = 0.1e-3, worth_asking_turn = 2e-3;
 // So many spent samples of a cluster are asked one by one, more only if the cluster as a whole is near.
 constexpr std::size_t few = 4;
 // Takes as long as so many samples.
@@ -332,36 +327,16 @@ class Sweep {
                                 .of_tool = of_tool_});
     }
 
-    // The edges near it are looked for seldom, and compared with as often as it is asked.
-    [[nodiscard]] Crossings meet_edges(const EdgePiece& piece, double half_length, bool near_before,
-                                       const Proven& spent, EdgeSighting& edges,
-                                       std::span<Crossing> crossings) const {
-        const double turned = spent.turn - edges.turned;
-        const double way =
-            glm::length(piece.middle - Vec3(edges.at)) + half_length * turned + rounding_in_float;
-        const double deepest = std::max(band_, deepest_crossing);
-        if (edges.facing.all && edges.radius - way > deepest + band_ + worth_asking &&
-            edges.facing.turn - turned > worth_asking_turn) {
-            FacingEdges facing = edges.facing;
-            facing.turn -= turned;
-            return near_facing_edges(surface_, piece, tool_, from_surface_, edges.radius - way, band_,
-                                     crossings, facing);
-        }
-        const double radius = deepest + (near_before ? short_lookahead : edge_lookahead);
-        collected_.work += looking_for_edges;
-        edges.at = glm::vec3(piece.middle);
-        edges.turned = spent.turn;
-        edges.radius = radius;
-        return near_edges(surface_, piece, tool_, from_surface_, radius, band_, crossings, edges.facing);
-    }
-
     void ask_edge(std::uint32_t index, const Piece& edge, const Vec3& at, Proven& proven, Sighting& seen,
                   EdgeSighting& edges, const Proven& spent) const {
         const EdgePiece piece{at,
                               to_surface_.turned(edge.half),
                               {to_surface_.turned(edge.inward[0]), to_surface_.turned(edge.inward[1])}};
         std::array<Crossing, most_sides> crossings;
-        const Crossings found = meet_edges(piece, edge.half_length, seen.met, spent, edges, crossings);
+        bool looked = false;
+        const Crossings found = meet_edges(surface_, piece, tool_, from_surface_, spent.turn, band_, seen.met,
+                                           edges, looked, crossings);
+        if (looked) collected_.work += looking_for_edges;
         collected_.complete = std::min(collected_.complete, found.complete);
         proven = {found.clear - rounding + spent.lower, found.turn + spent.turn};
         seen = {glm::vec3(at), static_cast<float>(found.clear), spent.turn, found.clear < short_lookahead};

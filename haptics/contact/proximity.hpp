@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "haptics/contact/edges.hpp"
+#include "haptics/contact/edge_sighting.hpp"
 #include "haptics/contact/reduce.hpp"
 #include "haptics/contact/tool.hpp"
 #include "haptics/contact/world.hpp"
@@ -31,14 +31,6 @@ struct Sighting {
     float lower;
     double turned;
     bool met;  // of an edge piece: something of the other's was near
-};
-
-// Of an edge piece: the edges that it can meet, as found when its middle was there and that turn was made.
-struct EdgeSighting {
-    glm::vec3 at{0.0F};
-    double turned = 0.0;
-    double radius = 0.0;  // m, within which they are; 0: nothing is known
-    FacingEdges facing;
 };
 
 struct Bounds {
