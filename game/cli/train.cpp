@@ -97,21 +97,22 @@ Status check_hardware(const Options& options) {
 
 Result<play::TrainOptions> play_options(const Options& options, const content::Assembly& assembly) {
     play::TrainOptions play;
-    play.mode = options.mode == "guided"     ? lesson::Mode::guided
-                : options.mode == "practice" ? lesson::Mode::practice
-                                             : lesson::Mode::assessment;
-    play.task = options.task == "loosen" ? lesson::Task::loosen : lesson::Task::tighten;
-    play.law = options.law.empty()          ? assembly.law
-               : options.law == "published" ? joint::Law::published
-                                            : joint::Law::mechanistic;
-    play.seed = options.seed;
-    play.obstacles = options.no_obstacles ? play::Obstacles::none
-                     : options.obstacles  ? play::Obstacles::required
-                                          : play::Obstacles::if_any;
-    play.guide = !options.no_guide;
+    play.course.mode = options.mode == "guided"     ? lesson::Mode::guided
+                       : options.mode == "practice" ? lesson::Mode::practice
+                                                    : lesson::Mode::assessment;
+    play.course.task = options.task == "loosen" ? lesson::Task::loosen : lesson::Task::tighten;
+    play.course.law = options.law.empty()          ? assembly.law
+                      : options.law == "published" ? joint::Law::published
+                                                   : joint::Law::mechanistic;
+    play.course.seed = options.seed;
+    play.course.obstacles = options.no_obstacles ? play::Obstacles::none
+                            : options.obstacles  ? play::Obstacles::required
+                                                 : play::Obstacles::if_any;
+    play.course.guide = !options.no_guide;
     Result<operators::Profile> trainee = operators::find_profile(options.trainee);
     if (!trainee) return fail(trainee.error());
     play.trainee = *trainee;
+    play.course.operator_name = play.trainee.name;
     return play;
 }
 
@@ -147,7 +148,7 @@ int run(const Options& options) {
                              stderr);
         (void)std::fputs(
             fmt::format("{} ({}), law {}, {}, trainee {}, seed {}\n", assembly.name, assembly.variant,
-                        joint::name(play->law), options.mode, options.trainee, options.seed)
+                        joint::name(play->course.law), options.mode, options.trainee, options.seed)
                 .c_str(),
             stderr);
     }
@@ -165,7 +166,8 @@ int run(const Options& options) {
     if (!options.quiet && !played->obstacles && !options.no_obstacles)
         (void)std::fputs("Nothing could be bumped into: the assembly names no contact model.\n", stderr);
 
-    if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, *play, *played)); !kept)
+    if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, play->course, *played));
+        !kept)
         return complain(kept.error());
     if (Status kept = write_report(session, out / "report.html"); !kept) return complain(kept.error());
     std::string closing = play::summary_table(assembly, result);

@@ -15,7 +15,7 @@ double rounded(double value, double digits) { return std::round(value * digits) 
 
 }  // namespace
 
-std::string summary_json(const content::Assembly& assembly, const TrainOptions& options,
+std::string summary_json(const content::Assembly& assembly, const CourseOptions& options,
                          const Played& played) {
     const lesson::LessonResult& result = played.result;
     nlohmann::ordered_json json;
@@ -26,7 +26,7 @@ std::string summary_json(const content::Assembly& assembly, const TrainOptions& 
     json["task"] = lesson::name(options.task);
     json["guide"] = options.guide && options.mode == lesson::Mode::guided;
     json["obstacles"] = played.obstacles;
-    json["operator"] = options.trainee.name;
+    json["operator"] = options.operator_name;
     json["seed"] = options.seed;
     json["duration_s"] = rounded(result.duration, 1e3);
     json["score"] = rounded(result.score, 1e2);

@@ -97,8 +97,8 @@ TEST_CASE("a lesson among obstacles replays from its session and the models that
     REQUIRE(loaded.ok());
     play::TrainOptions options;
     options.trainee = operators::find_profile("novice").value();
-    options.seed = 3;
-    options.obstacles = play::Obstacles::required;
+    options.course.seed = 3;
+    options.course.obstacles = play::Obstacles::required;
     options.longest = 60.0;
     REQUIRE(play::train(loaded.assembly, options, file, [](const play::Progress&) { return true; }));
     const auto reader = record::Reader::open(file);

@@ -1,0 +1,106 @@
+#include "game/play/course.hpp"
+
+#include "game/play/servo_setup.hpp"
+#include "game/record/device_text.hpp"
+
+namespace bolt::play {
+
+namespace {
+
+record::Header header_of(const content::Assembly& assembly, const CourseOptions& options,
+                         const std::optional<TouchModels>& models) {
+    record::Header header;
+    header.guide = options.guide && options.mode == lesson::Mode::guided ? "on" : "off";
+    header.obstacles = models ? models->files : "none";
+    if (models) header.obstacle_names = models->names;
+    header.device = record::text_of(options.device);
+    header.servo = "virtual time";
+    header.assembly = assembly.name;
+    header.assembly_file = assembly.file;
+    header.assembly_text = assembly.text;
+    header.variant = assembly.variant;
+    header.law = joint::name(options.law);
+    header.mode = lesson::name(options.mode);
+    header.task = lesson::name(options.task);
+    header.operator_name = options.operator_name;
+    header.seed = options.seed;
+    header.dt = options.dt;
+    header.program = "boltwright " BOLTWRIGHT_VERSION;
+    return header;
+}
+
+Result<std::optional<TouchModels>> obstacles_of(const content::Assembly& assembly, const servo::Setup& setup,
+                                                Obstacles wanted) {
+    if (wanted == Obstacles::none) return std::nullopt;
+    Result<std::optional<TouchModels>> models = load_touch_models(assembly, setup);
+    if (models && !models->has_value() && wanted == Obstacles::required) {
+        Error none;
+        none.code = ErrorCode::bad_content;
+        none.what = "the assembly names no contact model, or its tool no model";
+        none.expected = "expected both: they are the obstacles and what meets them";
+        none.file = assembly.file;
+        return fail(none);
+    }
+    return models;
+}
+
+}  // namespace
+
+Course::~Course() = default;
+
+Result<std::unique_ptr<Course>> Course::begin(const content::Assembly& given, const CourseOptions& options,
+                                              const std::filesystem::path& file) {
+    std::unique_ptr<Course> course(new Course);
+    Course& c = *course;
+    c.assembly_ = lesson::under_law(given, options.law);
+    c.setup_ = make_setup(c.assembly_, options.law, options.device, options.seed, options.dt);
+    c.state_ = servo::initial_state(c.setup_);
+    if (options.task == lesson::Task::loosen)
+        if (Status tight = pretighten(c.assembly_, c.setup_, c.state_); !tight) return fail(tight.error());
+    Result<std::optional<TouchModels>> models = obstacles_of(c.assembly_, c.setup_, options.obstacles);
+    if (!models) return fail(models.error());
+    Result<record::Writer> created = record::Writer::create(file, header_of(c.assembly_, options, *models));
+    if (!created) return fail(created.error());
+    c.writer_.emplace(std::move(*created));
+    if (models->has_value()) c.state_.touch = std::move((*models)->touch);
+
+    c.lesson_ = lesson::begin(c.assembly_, options.mode, options.task);
+    c.lesson_.guides = c.lesson_.guides && options.guide;
+    for (std::size_t i = 0; i < c.lesson_.joints.size(); ++i)
+        if (Status kept = c.writer_->update(lesson::judge_joint(c.lesson_, i, c.state_)); !kept)
+            return fail(kept.error());
+    return course;
+}
+
+Status Course::keep_events() {
+    for (const lesson::Event& event : events_) {
+        if (Status added = writer_->add(event); !added) return added;
+        if (event.kind != "step_end" && event.kind != "release") continue;
+        const auto joint = static_cast<std::size_t>(event.joint);
+        if (Status kept = writer_->update(lesson::judge_joint(lesson_, joint, state_)); !kept) return kept;
+    }
+    return {};
+}
+
+Result<servo::Output> Course::step(const servo::Input& input, std::vector<lesson::Event> noticed) {
+    const servo::Output output = servo::tick(setup_, state_, input);
+    lesson::observe(lesson_, state_, output);
+    events_.clear();
+    std::swap(events_, lesson_.events);
+    for (lesson::Event& seen : noticed) events_.push_back(std::move(seen));
+    if (Status kept = writer_->append(record::make_record(input, output)); !kept) return fail(kept.error());
+    if (Status kept = keep_events(); !kept) return fail(kept.error());
+    return output;
+}
+
+Played Course::judged() const {
+    return {lesson::judge(lesson_, state_, setup_.dt), state_.touch.has_value()};
+}
+
+Result<Played> Course::finish() {
+    Played played = judged();
+    if (Status finished = writer_->finish(played.result); !finished) return fail(finished.error());
+    return played;
+}
+
+}  // namespace bolt::play

@@ -1,0 +1,81 @@
+// A lesson under way, whoever plays it: a person at a window or a simulated trainee, both through the inputs
+// of the servo. Every tick is stepped, watched by the lesson and recorded.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.hpp"
+#include "game/lesson/lesson.hpp"
+#include "game/play/touch_models.hpp"
+#include "game/record/session.hpp"
+
+namespace bolt::play {
+
+enum class Obstacles : std::uint8_t { none, if_any, required };
+
+struct CourseOptions {
+    lesson::Mode mode = lesson::Mode::guided;
+    lesson::Task task = lesson::Task::tighten;
+    joint::Law law = joint::Law::mechanistic;
+    std::uint64_t seed = 1;
+    double dt = 0.001;
+    // Whether the wrench meets casing, bolts and nuts (touch_models.hpp); `if_any`: where they are modelled.
+    Obstacles obstacles = Obstacles::none;
+    bool guide = true;           // a guided lesson leads the hand to the nut
+    std::string operator_name;   // "expert", …, or "person"
+    force::OutputLimits device;  // what a 6-DoF arm of the Virtuose class renders, unless said otherwise
+};
+
+// How a lesson came out, and what it was played among.
+struct Played {
+    lesson::LessonResult result;
+    bool obstacles = false;
+};
+
+// Stays where it is made: the lesson looks at its assembly.
+class Course {
+  public:
+    // Writes the session to `file` as it goes (record::Writer says what becomes of a file that is there).
+    static Result<std::unique_ptr<Course>> begin(const content::Assembly& given, const CourseOptions& options,
+                                                 const std::filesystem::path& file);
+    Course(const Course&) = delete;
+    Course& operator=(const Course&) = delete;
+    ~Course();  // without finish() the session is kept as one that was cut short
+
+    // One tick. `noticed`: what whoever plays wants to be kept with it. An error is the session file's; what
+    // was written before stays readable.
+    Result<servo::Output> step(const servo::Input& input, std::vector<lesson::Event> noticed = {});
+
+    // What happened in the last tick.
+    [[nodiscard]] std::span<const lesson::Event> events() const { return events_; }
+
+    [[nodiscard]] const content::Assembly& assembly() const { return assembly_; }
+    [[nodiscard]] const servo::Setup& setup() const { return setup_; }
+    [[nodiscard]] const servo::State& state() const { return state_; }
+    [[nodiscard]] const lesson::Lesson& lesson() const { return lesson_; }
+    [[nodiscard]] double time() const { return static_cast<double>(state_.tick) * setup_.dt; }  // s
+    [[nodiscard]] bool over() const { return lesson_.due() == nullptr; }
+    [[nodiscard]] bool obstacles() const { return state_.touch.has_value(); }
+
+    // As it stands; and the same written, after which there are no more ticks.
+    [[nodiscard]] Played judged() const;
+    Result<Played> finish();
+
+  private:
+    Course() = default;
+    Status keep_events();
+
+    content::Assembly assembly_;
+    servo::Setup setup_;
+    servo::State state_;
+    lesson::Lesson lesson_;
+    std::vector<lesson::Event> events_;
+    std::optional<record::Writer> writer_;
+};
+
+}  // namespace bolt::play

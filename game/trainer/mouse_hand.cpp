@@ -1,0 +1,282 @@
+#include "game/trainer/mouse_hand.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "game/operators/around.hpp"
+#include "game/operators/mind.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+using operators::along;
+using operators::minimum_jerk;
+
+constexpr double hover = 0.045;                     // m above a nut, where a bolt's end is below the wrench
+constexpr double hand_speed = 0.45;                 // m/s, of a reach, at most somewhat more than twice that
+constexpr double shortest = 0.25;                   // s
+constexpr double lowering = 0.35, lifting = 0.25;   // s
+constexpr double patience = 0.6;                    // s on the nut without getting hold of it
+constexpr double unwinding = 0.15;                  // s
+constexpr double twist = to_radians(200.0);         // of fingers, before they have to go back
+constexpr double twist_speed = to_radians(540.0);   // rad/s, the fastest
+constexpr double back_time = 0.15;                  // s
+constexpr double stroke = to_radians(60.0);         // that a pull would like to have room for
+constexpr double fastest_pull = to_radians(150.0);  // rad/s
+constexpr double stronger = 2.0;  // a drag turns the handle by a third at the greatest torque: a hand strains
+
+const servo::NutPlace& nut_of(const MouseHand& hand, const servo::Setup& setup) {
+    return setup.nuts[hand.nut.value()];
+}
+
+Pose at_nut(const MouseHand& hand, const servo::Setup& setup, const servo::State& state, double above) {
+    const servo::NutPlace& nut = nut_of(hand, setup);
+    const double angle = state.joints[hand.nut.value()].nut.angle;
+    return {servo::nut_centre(nut, angle) + above * nut.axis,
+            operators::orientation_of(nut, hand.handle, hand.flipped)};
+}
+
+bool has_hold(const MouseHand& hand, const servo::State& state) {
+    return hand.nut && state.engagement.joint == static_cast<int>(*hand.nut);
+}
+
+void go(MouseHand& hand, const Pose& to, double seconds, Doing doing) {
+    hand.from = hand.pose;
+    hand.to = to;
+    hand.bulge = Vec3(0.0);
+    hand.time = 0.0;
+    hand.length = seconds;
+    hand.doing = doing;
+}
+
+double reach_time(const Pose& from, const Pose& to, const Vec3& bulge) {
+    const double way = glm::distance(from.position, to.position) + 2.0 * glm::length(bulge);
+    const double round =
+        glm::length(rotation_vector(glm::normalize(to.orientation * glm::conjugate(from.orientation))));
+    return std::max({shortest, way / hand_speed, round / 4.0});
+}
+
+// A way that meets nothing that can be seen; a bare hand meets nothing.
+void reach(MouseHand& hand, const Pose& to, MouseHand::Then then, const servo::Setup& setup,
+           const servo::State& state, const Vec3& up) {
+    const double far = glm::distance(hand.pose.position, to.position);
+    operators::Way way{std::min(0.05, 0.3 * far) * up, {}};
+    if (hand.wrench && state.touch)
+        way = operators::way_round(setup, *state.touch, hand.pose, to, up, glm::length(way.bulge));
+    hand.stations.assign(1, to);
+    hand.stations.insert(hand.stations.end(), way.stations.rbegin(), way.stations.rend());
+    const Pose first = hand.stations.back();
+    hand.stations.pop_back();
+    go(hand, first, reach_time(hand.pose, first, way.bulge), Doing::reaching);
+    hand.bulge = way.bulge;
+    hand.then = then;
+}
+
+// From which side the handle goes on the nut.
+void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    const double sign = hand.loosens ? -1.0 : 1.0;
+    const auto grip =
+        operators::choose_grip(setup, state.touch ? &*state.touch : nullptr, *hand.nut,
+                               state.joints[*hand.nut].nut.angle, 0.5 * pi - 0.5 * sign, sign, stroke);
+    hand.handle = grip.handle;
+    hand.flipped = grip.flipped;
+    hand.room = grip.room;
+}
+
+void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    hand.turn = 0.0;
+    hand.missed = false;
+    if (hand.wrench) {
+        choose_side(hand, setup, state);
+    } else {
+        hand.flipped = false;
+        hand.handle = 0.0;
+    }
+    reach(hand, at_nut(hand, setup, state, hover), MouseHand::Then::lower, setup, state,
+          nut_of(hand, setup).axis);
+}
+
+void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    hand.pose = hand.wrench && state.touch && state.touch->in_hand ? state.touch->god_object.tool : hand.pose;
+    Pose up = at_nut(hand, setup, state, hover);
+    up.orientation = hand.pose.orientation;
+    go(hand, up, lifting, Doing::lifting);
+}
+
+void arrive(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    if (!hand.stations.empty()) {
+        const Pose next = hand.stations.back();
+        hand.stations.pop_back();
+        go(hand, next, reach_time(hand.pose, next, Vec3(0.0)), Doing::reaching);
+        return;
+    }
+    hand.doing = Doing::resting;
+    switch (hand.then) {
+        case MouseHand::Then::rest:
+            break;
+        case MouseHand::Then::take:
+            hand.wrench = true;
+            break;
+        case MouseHand::Then::lay_down:
+            hand.wrench = false;
+            break;
+        case MouseHand::Then::lower:
+            if (hand.held) go(hand, at_nut(hand, setup, state, 0.0), lowering, Doing::lowering);
+            break;
+    }
+}
+
+// The handle goes as far as it was dragged, not faster than an arm, and not further than it has room.
+void pull(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    const double torque = std::abs(state.joints[*hand.nut].torque), dt = setup.dt;
+    const double greatest = setup.wrench.stiffness * to_radians(2.5);
+    const double gain = 1.0 / (1.0 + stronger * torque / greatest);
+    const double step = std::clamp(gain * hand.turn, -fastest_pull * dt, fastest_pull * dt);
+    hand.turn -= step / gain;
+    const double least = hand.begun_at - (hand.loosens ? hand.room : stroke);
+    const double most = hand.begun_at + (hand.loosens ? stroke : hand.room);
+    const double to = std::clamp(hand.handle + step, least, most);
+    if (to != hand.handle + step) hand.turn = 0.0;  // at the end of its room: what is dragged on is lost
+    hand.handle = to;
+}
+
+void spin(MouseHand& hand, const servo::Setup& setup) {
+    hand.handle += twist_speed * hand.spin * setup.dt;
+    if (std::abs(hand.handle - hand.begun_at) < twist) return;
+    hand.doing = Doing::returning;
+    hand.time = 0.0;
+    hand.length = back_time;
+    hand.twisted_to = hand.handle;
+}
+
+void hold(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    const bool on = has_hold(hand, state);
+    if (!on) hand.begun_at = hand.handle;
+    hand.time = on ? 0.0 : hand.time + setup.dt;
+    if (!hand.held) {
+        if (hand.wrench && on) {
+            hand.doing = Doing::easing;
+            hand.time = 0.0;
+        } else {
+            lift(hand, setup, state);
+        }
+        return;
+    }
+    if (hand.time > patience) {  // it slipped off, or did not get on
+        hand.missed = true;
+        hand.held = false;
+        lift(hand, setup, state);
+        return;
+    }
+    if (!on) return;
+    hand.missed = false;
+    if (hand.wrench)
+        pull(hand, setup, state);
+    else
+        spin(hand, setup);
+}
+
+// The hand gives way until the wrench bears nothing.
+void ease(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    hand.time += setup.dt;
+    hand.handle -= state.joints[*hand.nut].torque / setup.wrench.stiffness * std::min(1.0, setup.dt / 0.03) *
+                   std::min(1.0, hand.time / 0.03);
+    if (hand.time > unwinding) lift(hand, setup, state);
+}
+
+void travel(MouseHand& hand, double dt) {
+    hand.time += dt;
+    const double done = hand.length > 0.0 ? hand.time / hand.length : 1.0;
+    hand.pose = along(hand.from, hand.to, minimum_jerk(done), hand.bulge);
+}
+
+}  // namespace
+
+MouseHand make_hand(const Pose& rest) {
+    MouseHand hand;
+    hand.rest = hand.pose = rest;
+    return hand;
+}
+
+Pose resting_place(const Vec3& low, const Vec3& high, double head_thickness) {
+    // The handle to the right, the jaw's normal up.
+    const Quat flat = glm::angleAxis(-0.5 * pi, Vec3(1, 0, 0));
+    return {{0.5 * (low.x + high.x), low.y + 0.5 * head_thickness + 0.002, high.z + 0.06}, flat};
+}
+
+void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo::State& state) {
+    hand.held = w.held;
+    hand.spin = std::clamp(w.spin, -1.0, 1.0);
+    if (hand.doing == Doing::holding) hand.turn += w.turn;
+    const bool free = hand.doing == Doing::resting || hand.doing == Doing::reaching;
+    hand.next = free || !w.held ? std::nullopt : w.nut ? w.nut : hand.next;
+    if (!free) return;
+    const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
+    if (w.wrench && !hand.wrench) {
+        hand.nut.reset();
+        reach(hand, hand.rest, MouseHand::Then::take, setup, state, up);
+    } else if (w.lay_down && hand.wrench) {
+        hand.nut.reset();
+        reach(hand, hand.rest, MouseHand::Then::lay_down, setup, state, up);
+    } else if (w.nut && *w.nut < setup.nuts.size()) {
+        hand.nut = w.nut;
+        hand.loosens = w.loosens;
+        go_to_nut(hand, setup, state);
+    }
+}
+
+servo::Input move(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    servo::Grip grip = hand.wrench ? servo::Grip::wrench : servo::Grip::none;
+    switch (hand.doing) {
+        case Doing::resting:
+            break;
+        case Doing::reaching:
+            travel(hand, setup.dt);
+            if (hand.time >= hand.length) arrive(hand, setup, state);
+            break;
+        case Doing::lowering:
+            travel(hand, setup.dt);
+            if (hand.time < hand.length) break;
+            hand.doing = Doing::holding;
+            hand.time = hand.turn = 0.0;
+            hand.begun_at = hand.handle;
+            break;
+        case Doing::holding:
+            hold(hand, setup, state);
+            if (hand.doing == Doing::holding) hand.pose = at_nut(hand, setup, state, 0.0);
+            if (!hand.wrench && hand.doing == Doing::holding) grip = servo::Grip::fingers;
+            break;
+        case Doing::returning:
+            hand.time += setup.dt;
+            hand.handle =
+                hand.twisted_to + (hand.begun_at - hand.twisted_to) * minimum_jerk(hand.time / hand.length);
+            hand.pose = at_nut(hand, setup, state, 0.0);
+            if (hand.time < hand.length) break;
+            hand.doing = Doing::holding;
+            hand.time = 0.0;
+            hand.begun_at = hand.handle;
+            break;
+        case Doing::easing:
+            ease(hand, setup, state);
+            if (hand.doing == Doing::easing) hand.pose = at_nut(hand, setup, state, 0.0);
+            break;
+        case Doing::lifting:
+            travel(hand, setup.dt);
+            if (hand.time < hand.length) break;
+            hand.doing = Doing::resting;
+            if (hand.next && hand.held) {
+                hand.nut = std::exchange(hand.next, std::nullopt);
+                go_to_nut(hand, setup, state);
+            }
+            break;
+    }
+    servo::Input input;
+    input.enabled = true;
+    input.grip = grip;
+    input.device = servo::sample_of(hand.pose);
+    return input;
+}
+
+}  // namespace bolt::trainer
