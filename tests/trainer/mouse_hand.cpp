@@ -36,8 +36,6 @@ Outcome play_through(const char* name, play::CourseOptions options, double longe
         REQUIRE(course.step(input));
         out.longest_jump = std::max(out.longest_jump, glm::distance(before, player.hand.pose.position));
         before = player.hand.pose.position;
-        MESSAGE(course.time() << " " << event.kind << " " << event.joint << " " << event.value << " "
-                              << event.text);
     }
     const auto played = course.finish();
     REQUIRE(played);
