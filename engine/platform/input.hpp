@@ -36,6 +36,9 @@ struct KeyEvent {
     bool down = false, repeated = false;
     Modifiers modifiers;
 };
+struct TextEvent {
+    char32_t letter = 0;  // as typed, with whatever keys and input methods that took
+};
 struct ButtonEvent {
     Button button = Button::other;
     bool down = false;
@@ -57,7 +60,7 @@ struct FocusEvent {
 struct RefreshEvent {};  // the system has lost what was shown
 struct CloseEvent {};    // somebody wants the window closed
 
-using Event = std::variant<KeyEvent, ButtonEvent, CursorEvent, WheelEvent, ResizeEvent, FocusEvent,
+using Event = std::variant<KeyEvent, TextEvent, ButtonEvent, CursorEvent, WheelEvent, ResizeEvent, FocusEvent,
                            RefreshEvent, CloseEvent>;
 
 }  // namespace bolt::platform

@@ -116,6 +116,9 @@ void Window::State::listen() {
         of(w).events.emplace_back(KeyEvent{key_of(key, glfwGetKeyName(key, scancode)), action != GLFW_RELEASE,
                                            action == GLFW_REPEAT, modifiers_of(mods)});
     });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int letter) {
+        of(w).events.emplace_back(TextEvent{static_cast<char32_t>(letter)});
+    });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
         of(w).events.emplace_back(ButtonEvent{button_of(button), action == GLFW_PRESS, of(w).cursor});
     });

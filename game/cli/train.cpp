@@ -14,7 +14,9 @@
 #include "game/play/summary.hpp"
 #include "game/play/train.hpp"
 #include "game/report/report.hpp"
+#include "game/trainer/window.hpp"
 #include "game/view/result_pictures.hpp"
+#include "game/view/size.hpp"
 
 namespace bolt::cli {
 
@@ -30,6 +32,8 @@ struct Options {
     std::string glove = "auto";
     bool hmd = false;
     bool headless = false;
+    bool start = false, full_screen = false, validate = false;
+    std::string size = "1280x720", gpu;
     bool quiet = false, no_pictures = false, no_guide = false;
     bool obstacles = false, no_obstacles = false;
     std::string trainee = "expert";
@@ -125,61 +129,111 @@ Status write_report(const std::filesystem::path& session, const std::filesystem:
     return write_file(page, *html);
 }
 
-int run(const Options& options) {
-    if (Status hardware = check_hardware(options); !hardware) return complain(hardware.error());
-    const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
-    if (!loaded.ok()) return complain(loaded.errors);
-    const content::Assembly& assembly = loaded.assembly;
-    Result<play::TrainOptions> play = play_options(options, assembly);
-    if (!play) return complain(play.error());
+// Everything that a lesson leaves beside its session.
+Status leave(const content::Assembly& assembly, const play::CourseOptions& course, const play::Played& played,
+             const std::filesystem::path& out, bool pictures) {
+    if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, course, played)); !kept)
+        return kept;
+    const std::filesystem::path session = out / "session.boltwright";
+    if (Status kept = write_report(session, out / "report.html"); !kept) return kept;
+    std::string closing = play::summary_table(assembly, played.result);
+    closing += fmt::format("{}, {}, {}\n", session.string(), (out / "summary.json").string(),
+                           (out / "report.html").string());
+    if (Status said = say(closing); !said) return said;
+    // What cannot be drawn takes nothing from what was recorded.
+    if (pictures && interrupted == 0)
+        if (Status drawn = view::draw_result(assembly, played.result, out, {1280, 720}); !drawn)
+            (void)complain(drawn.error());
+    return {};
+}
 
-    const std::filesystem::path out(options.out);
+// The page and the summary of an earlier lesson would speak of another session.
+Status make_room(const std::filesystem::path& out) {
     std::error_code made;
     std::filesystem::create_directories(out, made);
     if (made) {
         Error error;
         error.file = out.string();
         error.what = "this folder cannot be made: " + made.message();
-        return complain(error);
+        return fail(error);
     }
-    if (!options.quiet) {
-        if (!options.headless)
-            (void)std::fputs("This build has no window yet and found no device: a simulated trainee plays.\n",
-                             stderr);
+    for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(out / stale, made);
+    return {};
+}
+
+int run_headless(const Options& options, const content::Assembly& assembly, const play::TrainOptions& play) {
+    const std::filesystem::path out(options.out);
+    if (Status room = make_room(out); !room) return complain(room.error());
+    if (!options.quiet)
         (void)std::fputs(
             fmt::format("{} ({}), law {}, {}, trainee {}, seed {}\n", assembly.name, assembly.variant,
-                        joint::name(play->course.law), options.mode, options.trainee, options.seed)
+                        joint::name(play.course.law), options.mode, options.trainee, options.seed)
                 .c_str(),
             stderr);
-    }
     for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, [](int) { interrupted = 1; });
-    // The page and the summary of an earlier lesson would speak of another session.
-    for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(out / stale, made);
     ProgressLine line(options.quiet);
-    const std::filesystem::path session = out / "session.boltwright";
     const Result<play::Played> played =
-        play::train(assembly, *play, session,
+        play::train(assembly, play, out / "session.boltwright",
                     [&](const play::Progress& progress) { return line.show(assembly, progress); });
     line.end();
     if (!played) return complain(played.error());
-    const lesson::LessonResult& result = played->result;
     if (!options.quiet && !played->obstacles && !options.no_obstacles)
         (void)std::fputs("Nothing could be bumped into: the assembly names no contact model.\n", stderr);
+    if (Status left = leave(assembly, play.course, *played, out, !options.no_pictures); !left)
+        return complain(left.error());
+    return interrupted != 0 || !played->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
+}
 
-    if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, play->course, *played));
-        !kept)
-        return complain(kept.error());
-    if (Status kept = write_report(session, out / "report.html"); !kept) return complain(kept.error());
-    std::string closing = play::summary_table(assembly, result);
-    closing += fmt::format("{}, {}, {}", session.string(), (out / "summary.json").string(),
-                           (out / "report.html").string());
-    closing += "\n";
-    if (Status said = say(closing); !said) return complain(said.error());
-    // What cannot be drawn takes nothing from what was recorded.
-    if (!options.no_pictures && interrupted == 0)
-        if (Status drawn = view::draw_result(assembly, result, out, {1280, 720}); !drawn)
-            (void)complain(drawn.error());
-    return interrupted != 0 || !result.finished ? static_cast<int>(ErrorCode::failed) : 0;
+// With mouse and keyboard, in a window.
+Status run_window(const Options& options, const play::TrainOptions& play, platform::Desktop& desktop) {
+    const std::filesystem::path out(options.out);
+    if (Status room = make_room(out); !room) return room;
+    trainer::AppOptions app_options;
+    app_options.choice = {options.assembly, options.variant, play.course.mode, play.course.task, "", "en"};
+    app_options.menu = !options.start;
+    app_options.course = play.course;
+    app_options.course.operator_name = "person";
+    if (!options.law.empty()) app_options.law = play.course.law;
+    app_options.out = out;
+    app_options.ended = [&](const content::Assembly& assembly, const play::CourseOptions& course,
+                            const play::Played& played) {
+        return leave(assembly, course, played, out, false);
+    };
+    if (!options.quiet)
+        app_options.tell = [](const std::string& line) { (void)std::fprintf(stderr, "%s\n", line.c_str()); };
+    const auto extensions = desktop.vulkan_extensions();
+    if (!extensions) return fail(extensions.error());
+    const Result<VkExtent2D> size = view::parse_size(options.size);
+    if (!size) return fail(size.error());
+    Result<platform::Window> window =
+        platform::Window::open(desktop, {"Boltwright", size->width, size->height, options.full_screen});
+    if (!window) return fail(window.error());
+    gpu::InstanceOptions instance_options;
+    instance_options.validation = options.validate;
+    instance_options.extensions = *extensions;
+    const Result<gpu::Instance> instance = gpu::Instance::create(instance_options);
+    if (!instance) return fail(instance.error());
+    trainer::App app(std::move(app_options));
+    if (Status run = trainer::run_in_window(app, *window, *instance, {options.gpu}); !run) return run;
+    if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
+    return {};
+}
+
+int run(Options options) {
+    if (Status hardware = check_hardware(options); !hardware) return complain(hardware.error());
+    const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
+    if (!loaded.ok()) return complain(loaded.errors);
+    Result<play::TrainOptions> play = play_options(options, loaded.assembly);
+    if (!play) return complain(play.error());
+    if (options.headless) return run_headless(options, loaded.assembly, *play);
+    Result<platform::Desktop> desktop = platform::Desktop::open();
+    if (!desktop) {
+        if (!options.quiet)
+            (void)std::fputs((desktop.error().what + ": a simulated trainee plays.\n").c_str(), stderr);
+        return run_headless(options, loaded.assembly, *play);
+    }
+    const Status done = run_window(options, *play, *desktop);
+    return done ? 0 : complain(done.error());
 }
 
 }  // namespace
@@ -202,7 +256,7 @@ const CLI::Validator whole_number(
 void add_train(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<Options>();
     CLI::App* train =
-        app.add_subcommand("train", "Play a lesson; without a window or device a simulated trainee does");
+        app.add_subcommand("train", "Play a lesson in a window; without a display a simulated trainee does");
     train->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
         ->capture_default_str();
     train->add_option("--variant", options->variant,
@@ -222,6 +276,12 @@ void add_train(CLI::App& app, int& exit_code) {
     train->add_option("--glove", options->glove, "Data glove")->capture_default_str();
     train->add_flag("--hmd", options->hmd, "Show in a headset");
     train->add_flag("--headless", options->headless, "No window: a simulated trainee in virtual time");
+    train->add_flag("--start", options->start, "Begin the lesson at once, without the menu");
+    train->add_option("--size", options->size, "WIDTHxHEIGHT of the window")->capture_default_str();
+    train->add_flag("--full-screen", options->full_screen, "All of the display");
+    train->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
+    train->add_flag("--validate", options->validate,
+                    "Run under the Vulkan validation layers; any message is an error");
     train->add_option("--operator", options->trainee, "Simulated trainee: expert, novice or clumsy")
         ->capture_default_str();
     train->add_option("--seed", options->seed, "Seed of the trainee and of the joints' scatter")

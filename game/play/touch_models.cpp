@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <complex>
 #include <filesystem>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
+#include "game/play/hexagon_lie.hpp"
 
 namespace bolt::play {
 
@@ -71,23 +71,8 @@ Result<contact::ContactMesh> mesh_of(const Piece& piece, const std::filesystem::
     return mesh;
 }
 
-// From the assembly to a nut's own frame (servo::TouchDescription). Which way the hexagon lies is read off
-// the mesh: its corners are what is furthest out, six times around.
 std::function<Vec3(const Vec3&)> to_nut(const servo::NutPlace& nut, const Piece& piece) {
-    const auto local = [nut](const Vec3& p) {
-        const Vec3 d = p - nut.seat;
-        return Vec3(glm::dot(d, nut.e1), glm::dot(d, nut.e2), glm::dot(d, nut.axis));
-    };
-    std::complex<double> sixfold = 0.0;
-    double low = 1e9;
-    for (const Vec3& p : piece.points) {
-        const Vec3 q = local(p);
-        low = std::min(low, q.z);
-        const double out = std::hypot(q.x, q.y) / nut.across_flats;
-        sixfold += std::pow(out, 24.0) * std::polar(1.0, 6.0 * std::atan2(q.y, q.x));
-    }
-    const Quat straighten = glm::angleAxis(-std::arg(sixfold) / 6.0, Vec3(0, 0, 1));
-    return [=](const Vec3& p) { return straighten * (local(p) - Vec3(0, 0, low)); };
+    return [nut, lies = lie_of(nut, piece.points)](const Vec3& p) { return to_own_frame(nut, lies, p); };
 }
 
 // How far into the jaw's mouth one can look, to that side: the least distance to the wrench on the way out.
@@ -108,6 +93,19 @@ std::filesystem::path wrench_file(const content::WrenchDesign& design) {
     return std::filesystem::exists(own) ? own : std::filesystem::path(design.model);
 }
 
+// What turns a wrench's model into the tool's frame, if its head points to the one side; to the other, it is
+// also turned over.
+Vec3 turned(const glm::dvec3& low, const glm::dvec3& high, double side, const Vec3& p) {
+    const bool lies = high.y - low.y < high.z - low.z;
+    const Vec3 q = lies ? Vec3(p.x, -p.z, p.y) : p;
+    return {q.x, side * q.y, side * q.z};
+}
+
+struct WrenchModel {
+    std::vector<contact::ContactMesh> meshes;
+    Quat turn;  // from the model's frame to the tool's
+};
+
 // "NAME SIZE bytes, fnv1a SUM": the same model again or another one. (FNV-1a, 64 bits: Fowler, Noll, Vo.)
 Result<std::string> identity_of(const std::filesystem::path& file) {
     const Result<std::string> bytes = read_file(file, std::size_t{1} << 30U, ErrorCode::bad_content);
@@ -117,7 +115,7 @@ Result<std::string> identity_of(const std::filesystem::path& file) {
     return fmt::format("{} {} bytes, fnv1a {:016x}", file.filename().string(), bytes->size(), sum);
 }
 
-Result<std::vector<contact::ContactMesh>> read_wrench(const content::WrenchDesign& design) {
+Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
     const std::filesystem::path file = wrench_file(design);
     const Result<std::vector<Piece>> pieces = read_pieces(file);
     if (!pieces) return fail(pieces.error());
@@ -126,14 +124,11 @@ Result<std::vector<contact::ContactMesh>> read_wrench(const content::WrenchDesig
         for (const glm::dvec3& p : piece.points) low = glm::min(low, p), high = glm::max(high, p);
     // A model may lie flat, as import-step turns it, or stand; and its head may point to either side of the
     // handle.
-    const bool lies = high.y - low.y < high.z - low.z;
     for (const double side : {1.0, -1.0}) {
         std::vector<contact::ContactMesh> meshes;
         for (const Piece& piece : *pieces) {
-            Result<contact::ContactMesh> mesh = mesh_of(piece, file, [&](const Vec3& p) {
-                const Vec3 q = lies ? Vec3(p.x, -p.z, p.y) : p;
-                return Vec3(q.x, side * q.y, side * q.z);
-            });
+            Result<contact::ContactMesh> mesh =
+                mesh_of(piece, file, [&](const Vec3& p) { return turned(low, high, side, p); });
             if (!mesh) return fail(mesh.error());
             meshes.push_back(std::move(*mesh));
         }
@@ -141,12 +136,21 @@ Result<std::vector<contact::ContactMesh>> read_wrench(const content::WrenchDesig
         if (!solid) return fail(bad(file, solid.error().what));
         if (side < 0.0 ||
             mouth(*solid, design.head_angle, design.jaw) >= mouth(*solid, -design.head_angle, design.jaw))
-            return meshes;
+            return WrenchModel{std::move(meshes),
+                               glm::quat_cast(glm::dmat3(turned(low, high, side, Vec3(1, 0, 0)),
+                                                         turned(low, high, side, Vec3(0, 1, 0)),
+                                                         turned(low, high, side, Vec3(0, 0, 1))))};
     }
     return fail(bad(file, "the wrench has no triangles"));
 }
 
 }  // namespace
+
+Result<Quat> wrench_turn(const content::WrenchDesign& design) {
+    const Result<WrenchModel> wrench = read_wrench(design);
+    if (!wrench) return fail(wrench.error());
+    return wrench->turn;
+}
 
 Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& assembly,
                                                      const servo::Setup& setup) {
@@ -154,7 +158,7 @@ Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& as
     const std::filesystem::path file = assembly.models.contact;
     const Result<std::vector<Piece>> pieces = read_pieces(file);
     if (!pieces) return fail(pieces.error());
-    const Result<std::vector<contact::ContactMesh>> wrench = read_wrench(assembly.wrench);
+    const Result<WrenchModel> wrench = read_wrench(assembly.wrench);
     if (!wrench) return fail(wrench.error());
     const Result<std::string> about_file = identity_of(file);
     if (!about_file) return fail(about_file.error());
@@ -181,7 +185,7 @@ Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& as
         else
             still.push_back(std::move(*mesh));
     }
-    Result<servo::Touch> touch = servo::make_touch(setup, {still, nuts, *wrench});
+    Result<servo::Touch> touch = servo::make_touch(setup, {still, nuts, wrench->meshes});
     if (!touch) return fail(bad(file, touch.error().what));
     models.touch = std::move(*touch);
     return std::optional<TouchModels>(std::move(models));

@@ -21,6 +21,10 @@ struct TouchModels {
 // closed where it must be.
 Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& assembly,
                                                      const servo::Setup& setup);
+
+// From the frame of a wrench's model to the tool's. Errors as above.
+Result<Quat> wrench_turn(const content::WrenchDesign& design);
+
 Result<std::optional<servo::Touch>> load_touch(const content::Assembly& assembly, const servo::Setup& setup);
 
 }  // namespace bolt::play

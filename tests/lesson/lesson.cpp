@@ -177,7 +177,7 @@ TEST_CASE("a recorded lesson replays from its inputs to the same bits") {
     const auto file = std::filesystem::temp_directory_path() / "boltwright-test-replay.boltwright";
     play::TrainOptions options;
     options.trainee = operators::find_profile("expert").value();
-    options.seed = 9;
+    options.course.seed = 9;
     const auto result = play::train(zq350(), options, file, [](const play::Progress&) { return true; });
     REQUIRE(result.has_value());
     const auto reader = record::Reader::open(file);
@@ -220,8 +220,8 @@ TEST_CASE("summary: the fields that were promised, and the table names every joi
         r.overall = Verdict::ok;
         result.joints.push_back(r);
     }
-    play::TrainOptions options;
-    options.trainee = operators::find_profile("expert").value();
+    play::CourseOptions options;
+    options.operator_name = "expert";
     const std::string json = play::summary_json(zq350(), options, played);
     for (const char* field :
          {"\"assembly\": \"zq350\"", "\"law\": \"mechanistic\"", "\"operator\": \"expert\"", "\"seed\": 1",

@@ -66,7 +66,7 @@ Wishes Hands::apply(std::span<const Event> events, double height, double aspect,
             if (!focus->here) drag_ = Drag::none;  // the button may be let go elsewhere
         } else if (std::holds_alternative<CloseEvent>(event)) {
             wishes.close = true;
-        } else {
+        } else if (!std::holds_alternative<TextEvent>(event)) {
             wishes.redraw = true;  // another size, or the picture was lost
         }
     }

@@ -1,0 +1,68 @@
+#include "game/scene/postures.hpp"
+
+namespace bolt::scene {
+
+namespace {
+
+constexpr double deg = pi / 180.0;
+
+// Fingers bent by a share of a fist's, the thumb opposed. Chosen by eye.
+hand::Angles closed(double share) {
+    hand::Angles a;
+    for (hand::FingerAngles& f : a.fingers)
+        f = {share * 70.0 * deg, share * 95.0 * deg, share * 60.0 * deg, 0.0};
+    a.thumb = {70.0 * deg, (60.0 - 48.0 * share) * deg, share * 50.0 * deg, share * 65.0 * deg};
+    a.arch = 8.0 * deg;
+    return a;
+}
+
+hand::Angles pinched() {
+    hand::Angles a = closed(0.45);
+    a.fingers[0] = {48.0 * deg, 42.0 * deg, 18.0 * deg, 0.0};
+    a.fingers[1] = {52.0 * deg, 48.0 * deg, 22.0 * deg, 0.0};
+    a.thumb = {58.0 * deg, 32.0 * deg, 22.0 * deg, 20.0 * deg};
+    return a;
+}
+
+// Across a handle that lies along the tool's x and is broad in y: the palm from above, the thumb's side
+// towards the jaw.
+Pose wrist_on_handle(double grip_at) {
+    const Pose across = inverse({Vec3(0.0, -28e-3, -98e-3), rotation({0.0, -17.5 * deg, 0.0})});
+    const Pose stands{Vec3(0.0), glm::angleAxis(0.5 * pi, Vec3(1, 0, 0))};
+    Pose wrist = stands * across;
+    wrist.position.x += grip_at;
+    return wrist;
+}
+
+}  // namespace
+
+Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::Side side) {
+    const hand::Hand hand = hand::make_hand(side);
+    Postures postures;
+    const Pose on_handle = wrist_on_handle(grip_at);
+    hand::Angles angles = closed(0.75);
+    if (wrench != nullptr) angles = grip::close_on(*wrench, hand, closed(1.0), on_handle).shown;
+    postures.on_handle = hand::joints(hand, angles, on_handle);
+
+    // The pads meet at the tool's origin, the fingers come from above and lean to the handle's side.
+    const auto meeting = [&](const hand::Angles& bent, double lift) {
+        const hand::Skeleton flat = hand::joints(hand, bent, Pose{});
+        const Vec3 middle = 0.5 * (hand::pad(hand, flat, 0) + hand::pad(hand, flat, 1));
+        const Quat lean = glm::angleAxis(35.0 * deg, Vec3(0, 1, 0));
+        return hand::joints(hand, bent, Pose{Vec3(0.0, 0.0, lift) - lean * middle, lean});
+    };
+    postures.on_nut = meeting(pinched(), 0.0);
+    postures.open = meeting(closed(0.25), 0.02);
+    return postures;
+}
+
+hand::Skeleton between(const hand::Skeleton& a, const hand::Skeleton& b, double share) {
+    hand::Skeleton s;
+    for (std::size_t i = 0; i < hand::joint_count; ++i) {
+        s.position[i] = glm::mix(a.position[i], b.position[i], share);
+        s.rotation[i] = glm::slerp(a.rotation[i], b.rotation[i], share);
+    }
+    return s;
+}
+
+}  // namespace bolt::scene

@@ -1,0 +1,65 @@
+#include "game/scene/shelf.hpp"
+
+#include "content/format/load.hpp"
+#include "engine/assets/gltf.hpp"
+#include "engine/assets/radiance_file.hpp"
+#include "game/play/touch_models.hpp"
+
+namespace bolt::scene {
+
+namespace {
+
+// What is on the shelf, or its name under what is missing.
+assets::Model read_or_miss(const std::filesystem::path& file, std::vector<std::string>& missing) {
+    Result<assets::Model> model = assets::read_gltf(file);
+    if (model) return std::move(*model);
+    missing.push_back(model.error().message());
+    return {};
+}
+
+}  // namespace
+
+Result<Shelf> load_shelf(const content::Assembly& assembly) {
+    Shelf shelf;
+    view::LoadedSubject machine = view::load_subject(assembly.file);
+    if (!machine.ok()) return fail(machine.errors.front());
+    shelf.machine = std::move(machine.subject);
+    const std::filesystem::path content = content::content_folder();
+    shelf.workshop = read_or_miss(content / "environments/workshop.glb", shelf.missing);
+    shelf.hand = read_or_miss(content / "hands/hand_right.glb", shelf.missing);
+    if (!assembly.wrench.model.empty()) {
+        shelf.wrench = read_or_miss(assembly.wrench.model, shelf.missing);
+        const Result<Quat> turn = play::wrench_turn(assembly.wrench);
+        if (!turn) return fail(turn.error());
+        shelf.wrench_turn = *turn;
+    }
+    Result<shading::RadianceImage> light = assets::read_hdr(content / "environments/workshop.hdr");
+    if (light)
+        shelf.light = std::move(*light);
+    else
+        shelf.missing.push_back(light.error().message());
+    return shelf;
+}
+
+Result<std::unique_ptr<GpuShelf>> upload(gpu::Device& device, const Shelf& shelf) {
+    auto on = std::make_unique<GpuShelf>();
+    const auto put = [&](const assets::Model& model, render::GpuModel& to) -> Status {
+        if (model.meshes.empty()) return {};
+        Result<render::GpuModel> up = render::upload_model(device, model, {true});
+        if (!up) return fail(up.error());
+        to = std::move(*up);
+        return {};
+    };
+    for (const auto& [model, to] : {std::pair{&shelf.machine.model, &on->machine},
+                                    {&shelf.workshop, &on->workshop},
+                                    {&shelf.wrench, &on->wrench},
+                                    {&shelf.hand, &on->hand}})
+        if (Status s = put(*model, *to); !s) return fail(s.error());
+    Result<render::EnvironmentLight> light =
+        render::upload_environment(device, shelf.light ? *shelf.light : shading::studio());
+    if (!light) return fail(light.error());
+    on->light = std::move(*light);
+    return on;
+}
+
+}  // namespace bolt::scene

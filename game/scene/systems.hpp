@@ -1,0 +1,28 @@
+// What moves and draws a workplace, a frame at a time: free functions over its entities.
+#pragma once
+
+#include "game/scene/postures.hpp"
+#include "game/scene/workplace.hpp"
+
+namespace bolt::scene {
+
+// Nuts, wrench and hand to where the servo has them. `tool`: where obstacles let it be; `rest`: where the
+// wrench lies while it is not in the hand.
+struct Held {
+    Pose tool;
+    bool wrench = false;  // in the hand
+    Pose rest;
+    double pinch = 0.0;  // 0 … 1 of fingers closed on a nut, without a wrench
+};
+void place_nuts(World& world, const servo::Setup& setup, std::span<const joint::JointState> joints);
+void place_tool(World& world, const Held& held);
+void place_hand(World& world, const Postures& postures, const Held& held);
+
+// Lines around what belongs to a joint; none for a colour without alpha.
+void outline_joint(World& world, std::size_t joint, const glm::vec4& color);
+void outline_tool(World& world, const glm::vec4& color);
+
+// Everything there is, as the renderer takes it; lights, labels and background are left as they are.
+void present(World& world, render::Scene& scene);
+
+}  // namespace bolt::scene

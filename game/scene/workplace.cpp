@@ -1,0 +1,134 @@
+#include "game/scene/workplace.hpp"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "game/play/hexagon_lie.hpp"
+
+namespace bolt::scene {
+
+namespace {
+
+glm::dmat4 matrix(const Quat& turn) { return glm::mat4_cast(turn); }
+
+// Joint of each node, −1: of none.
+std::vector<int> joints_of(const assets::Model& model, const content::Assembly& assembly) {
+    std::vector<int> joints(model.nodes.size(), -1);
+    for (std::size_t j = 0; j < assembly.joints.size(); ++j)
+        for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+            if (assembly.joints[j].node.empty() || model.nodes[n].name != assembly.joints[j].node) continue;
+            std::vector<int> waiting{static_cast<int>(n)};
+            while (!waiting.empty()) {
+                const auto node = static_cast<std::size_t>(waiting.back());
+                waiting.pop_back();
+                joints[node] = static_cast<int>(j);
+                waiting.insert(waiting.end(), model.nodes[node].children.begin(),
+                               model.nodes[node].children.end());
+            }
+        }
+    return joints;
+}
+
+// From a nut's mesh to its own frame, read off its corners (play/hexagon_lie.hpp).
+glm::dmat4 own_from_mesh(const assets::Mesh& mesh, const glm::mat4& world, const servo::NutPlace& nut) {
+    std::vector<glm::dvec3> points;
+    for (const assets::Primitive& p : mesh.primitives)
+        for (const glm::vec3& at : p.positions) points.emplace_back(glm::dmat4(world) * glm::dvec4(at, 1.0));
+    const play::HexagonLie lie = play::lie_of(nut, points);
+    const auto own = [&](const Vec3& p) { return play::to_own_frame(nut, lie, p); };
+    const Vec3 origin = own(Vec3(0.0));
+    glm::dmat4 from_assembly(1.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 unit(0.0);
+        unit[axis] = 1.0;
+        from_assembly[axis] = glm::dvec4(own(unit) - origin, 0.0);
+    }
+    from_assembly[3] = glm::dvec4(origin, 1.0);
+    return from_assembly * glm::dmat4(world);
+}
+
+ecs::Entity add(World& world, const render::Object& object) {
+    const ecs::Entity entity = world.create();
+    world.add<Placement>(entity, object.world);
+    world.add<Drawn>(entity, object.model, object.mesh, object.node, false);
+    return entity;
+}
+
+Status add_machine(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu,
+                   const content::Assembly& assembly, const servo::Setup& setup) {
+    const assets::Model& model = shelf.machine.model;
+    render::Scene rest;
+    render::place(rest, model, on_gpu.machine);
+    place.machine = render::bounds(rest);
+    const std::vector<int> joints = joints_of(model, assembly);
+    std::vector<bool> has_nut(setup.nuts.size(), false);
+    for (const render::Object& object : rest.objects) {
+        const ecs::Entity entity = add(place.world, object);
+        place.world.add<CanFade>(entity, true);
+        const auto node = static_cast<std::size_t>(object.node);
+        if (joints[node] < 0) continue;
+        const auto joint = static_cast<std::size_t>(joints[node]);
+        place.world.add<OfJoint>(entity, joint);
+        if (model.nodes[node].name != assembly.joints[joint].design.id + "_nut") continue;
+        place.world.add<Nut>(entity, joint,
+                             own_from_mesh(model.meshes[object.mesh], object.world, setup.nuts[joint]));
+        place.world.get<Drawn>(entity).moves = true;
+        has_nut[joint] = true;
+    }
+    for (std::size_t i = 0; i < has_nut.size(); ++i)
+        if (!has_nut[i])
+            return fail(
+                ErrorCode::bad_content,
+                fmt::format("{}: joint {} has no nut to turn in the model", assembly.file,
+                            assembly.joints[i].design.id),
+                fmt::format("a node \"{}_nut\" below the joint's node", assembly.joints[i].design.id));
+    return {};
+}
+
+void add_workshop(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
+    const glm::vec3 foot(0.5F * (place.machine.low.x + place.machine.high.x), place.machine.low.y,
+                         0.5F * (place.machine.low.z + place.machine.high.z));
+    place.workshop = glm::translate(glm::dmat4(1.0), Vec3(foot));
+    if (shelf.workshop.meshes.empty()) return;
+    render::Scene rest;
+    render::place(rest, shelf.workshop, on_gpu.workshop, glm::mat4(place.workshop));
+    for (const render::Object& object : rest.objects) add(place.world, object);
+}
+
+void add_wrench(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
+    if (shelf.wrench.meshes.empty()) return;
+    render::Scene rest;
+    render::place(rest, shelf.wrench, on_gpu.wrench);
+    for (const render::Object& object : rest.objects) {
+        const ecs::Entity entity = add(place.world, object);
+        place.world.get<Drawn>(entity).moves = true;
+        place.world.add<OnTool>(entity, matrix(shelf.wrench_turn) * glm::dmat4(object.world));
+    }
+}
+
+void add_hand(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
+    if (shelf.hand.skins.empty()) return;
+    render::Scene rest;
+    render::place(rest, shelf.hand, on_gpu.hand);
+    for (const render::Object& object : rest.objects) {
+        const ecs::Entity entity = add(place.world, object);
+        place.world.get<Drawn>(entity).moves = true;
+        place.world.add<Fingers>(entity, hand::Skeleton{}, shelf.hand.skins.front().inverse_bind, nullptr);
+        place.hand = entity;
+    }
+}
+
+}  // namespace
+
+Result<Workplace> make_workplace(const Shelf& shelf, const GpuShelf& on_gpu,
+                                 const content::Assembly& assembly, const servo::Setup& setup) {
+    Workplace place;
+    if (Status s = add_machine(place, shelf, on_gpu, assembly, setup); !s) return fail(s.error());
+    add_workshop(place, shelf, on_gpu);
+    add_wrench(place, shelf, on_gpu);
+    add_hand(place, shelf, on_gpu);
+    return place;
+}
+
+}  // namespace bolt::scene

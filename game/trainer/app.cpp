@@ -1,0 +1,211 @@
+#include "game/trainer/app.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "content/format/load.hpp"
+#include "game/play/course.hpp"
+#include "game/trainer/hud.hpp"
+#include "game/trainer/ui_input.hpp"
+
+namespace bolt::trainer {
+
+struct App::OnGpu {
+    view::Painter* painter = nullptr;
+    std::unique_ptr<ui::Ui> ui;
+    std::unique_ptr<scene::GpuShelf> shelf;
+    std::optional<text::Fonts> fonts;
+};
+
+std::vector<Listed> list_assemblies() {
+    std::vector<std::string> names;
+    std::error_code problem;
+    const auto folder = content::content_folder() / "assemblies";
+    for (auto entry = std::filesystem::directory_iterator(folder, problem);
+         !problem && entry != std::filesystem::directory_iterator(); entry.increment(problem))
+        if (std::filesystem::exists(entry->path() / "assembly.json"))
+            names.push_back(entry->path().filename().string());
+    std::sort(names.begin(), names.end());
+    std::vector<Listed> listed;
+    for (const std::string& name : names) {
+        const content::Loaded loaded = content::load_assembly(name);
+        if (!loaded.ok() || loaded.assembly.models.model.empty()) continue;
+        const auto title = loaded.assembly.title.find("en");
+        listed.push_back(
+            {name, title == loaded.assembly.title.end() ? name : title->second, loaded.assembly.variants});
+    }
+    return listed;
+}
+
+App::App(AppOptions options) : options_(std::move(options)) {
+    if (options_.menu) listed_ = list_assemblies();
+    start_wished_ = !options_.menu;
+}
+
+App::~App() = default;
+
+void App::tell(const std::string& line) const {
+    if (options_.tell) options_.tell(line);
+}
+
+Status App::start(view::Painter& painter) {
+    on_ = std::make_unique<OnGpu>();
+    on_->painter = &painter;
+    Result<std::unique_ptr<ui::Ui>> made = ui::Ui::create(*painter.device, {15.0F});
+    if (!made) return fail(made.error());
+    on_->ui = std::move(*made);
+    Result<text::Fonts> fonts = text::load_fonts();
+    if (!fonts) return fail(fonts.error());
+    on_->fonts.emplace(std::move(*fonts));
+    return shelf_ ? place_on_gpu() : Status{};
+}
+
+void App::drop() {
+    if (on_ && on_->painter->device) (void)on_->painter->device->idle();
+    if (playing_) {
+        playing_->scene = {};
+        playing_->place = {};
+    }
+    on_.reset();
+}
+
+// Models, and the entities that point to them.
+Status App::place_on_gpu() {
+    if (Status idle = on_->painter->device->idle(); !idle) return idle;
+    Result<std::unique_ptr<scene::GpuShelf>> up = scene::upload(*on_->painter->device, *shelf_);
+    if (!up) return fail(up.error());
+    on_->shelf = std::move(*up);
+    Playing& p = *playing_;
+    Result<scene::Workplace> place =
+        scene::make_workplace(*shelf_, *on_->shelf, p.course->assembly(), p.course->setup());
+    if (!place) return fail(place.error());
+    p.place = std::move(*place);
+    render::Scene& scene = p.scene;
+    scene = {};
+    scene.environment = &on_->shelf->light;
+    render::SceneLight key;
+    key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
+    key.light.color = glm::vec4(1.6F, 1.55F, 1.5F, 0.0F);
+    key.casts_shadow = true;
+    scene.lights.push_back(key);
+    scene.background = {0.10F, 0.11F, 0.12F, 1.0F};
+    scene.occlusion_radius = 0.04F * glm::distance(p.place.machine.low, p.place.machine.high);
+    return {};
+}
+
+Status App::begin_lesson() {
+    const Choice& choice = options_.choice;
+    content::Loaded loaded = content::load_assembly(choice.assembly, choice.variant);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    assembly_ = std::move(loaded.assembly);
+    course_ = options_.course;
+    course_.mode = choice.mode;
+    course_.task = choice.task;
+    course_.law = options_.law.value_or(assembly_.law);
+    course_.operator_name = choice.trainee.empty() ? "person" : choice.trainee;
+    Result<scene::Shelf> shelf = scene::load_shelf(assembly_);
+    if (!shelf) return fail(shelf.error());
+    for (const std::string& missing : shelf->missing) tell("left out: " + missing);
+    Result<std::unique_ptr<play::Course>> course =
+        play::Course::begin(assembly_, course_, options_.out / "session.boltwright");
+    if (!course) return fail(course.error());
+    if (playing_) {
+        if (Status idle = on_->painter->device->idle(); !idle) return idle;
+        playing_.reset();
+    }
+    shelf_ = std::move(*shelf);
+    playing_.emplace();
+    Playing& p = *playing_;
+    p.course = std::move(*course);
+    if (Status placed = place_on_gpu(); !placed) return placed;
+    const servo::Setup& setup = p.course->setup();
+    const servo::State& state = p.course->state();
+    p.hand = make_hand(resting_place(Vec3(p.place.machine.low), Vec3(p.place.machine.high),
+                                     assembly_.wrench.head_thickness));
+    p.postures =
+        scene::make_postures(state.touch ? &state.touch->wrench : nullptr, setup.wrench.handle_length);
+    const std::vector<view::Viewpoint>& views = shelf_->machine.views;
+    const view::Viewpoint first =
+        views.empty() ? view::framed(p.place.machine, view::usual_fov, 16.0F / 9.0F) : views.front();
+    p.camera.jump(view::orbit_of(first));
+    played_.reset();
+    shows_ = Shows::lesson;
+    tell(fmt::format("lesson begun: {} {}, {}", assembly_.name, assembly_.variant,
+                     lesson::name(course_.mode)));
+    return {};
+}
+
+Status App::end_lesson() {
+    if (!playing_ || shows_ != Shows::lesson) return {};
+    Result<play::Played> played = playing_->course->finish();
+    if (!played) return fail(played.error());
+    played_ = std::move(*played);
+    playing_->finished = true;
+    any_finished_ = any_finished_ || played_->result.finished;
+    shows_ = Shows::result;
+    tell(fmt::format("lesson ended: {}, score {:.0f}", played_->result.finished ? "finished" : "broken off",
+                     played_->result.score));
+    if (options_.ended) return options_.ended(playing_->course->assembly(), course_, *played_);
+    return {};
+}
+
+void App::tell_events() {
+    const double dt = playing_->course->setup().dt;
+    for (const lesson::Event& event : playing_->said) {
+        const std::string joint =
+            event.joint >= 0 ? assembly_.joints[static_cast<std::size_t>(event.joint)].design.id + " "
+                             : std::string();
+        tell(fmt::format("{:7.2f} s  {}{} {}", static_cast<double>(event.tick) * dt, joint, event.kind,
+                         event.text));
+    }
+    playing_->said.clear();
+}
+
+Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, VkExtent2D size, float scale,
+                  double seconds) {
+    if (std::exchange(start_wished_, false)) {
+        if (Status begun = begin_lesson(); !begun) {
+            if (begun.error().lost || !options_.menu) return begun;
+            trouble_ = begun.error();
+            tell(begun.error().message());
+        } else {
+            trouble_.reset();
+        }
+    }
+    const glm::dvec2 extent(size.width, size.height);
+    feed(input_, events);
+    input_.size = glm::vec2(extent);
+    input_.scale = scale;
+    input_.seconds = seconds;
+    ui::Ui& ui = *on_->ui;
+    const Mine mine{shows_ != Shows::menu && !ui.wants_pointer(), shows_ != Shows::menu && !ui.wants_keys()};
+    static const render::Scene no_scene;
+    render::Eye eye;
+    const render::Scene* scene = &no_scene;
+    if (playing_) {
+        Playing& p = *playing_;
+        Frame now{p, seconds, extent, apply(p.controls, events, mine), &*on_->fonts, {}};
+        if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.paused = !p.paused;
+        full_screen_ = full_screen_ || now.wanted.wants(Action::full_screen);
+        ecs::run(frame_systems, p.place.world, now);
+        tell_events();
+        if (!now.status) return now.status;
+        if (p.course->over() && shows_ == Shows::lesson)
+            if (Status ended = end_lesson(); !ended) return ended;
+        eye = screen_of(p, extent).eye;
+        scene = &p.scene;
+    }
+    for (const platform::Event& event : events)
+        closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
+    render::Renderer& renderer = *on_->painter->renderer;
+    if (Status drawn = renderer.render(frame, *scene, std::span(&eye, 1), size); !drawn) return drawn;
+    if (Status begun = ui.begin(frame, input_); !begun) return begun;
+    draw_interface(extent);
+    const render::Overlay overlay = ui.end();
+    if (Status drawn = renderer.draw_over(frame, overlay, renderer.picture(0)); !drawn) return drawn;
+    if (std::exchange(end_wished_, false)) return end_lesson();
+    return {};
+}
+
+}  // namespace bolt::trainer

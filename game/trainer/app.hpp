@@ -1,0 +1,97 @@
+// The trainer but for its window: a menu, a lesson, how it came out; each a screen. People's doings come in
+// as events, a picture goes out; what is on the GPU can be lost and made again without losing the lesson.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "engine/ui/ui.hpp"
+#include "game/trainer/systems.hpp"
+#include "game/view/painter.hpp"
+
+namespace bolt::trainer {
+
+struct Choice {
+    std::string assembly = "zq350";
+    std::string variant;  // empty: the assembly's default
+    lesson::Mode mode = lesson::Mode::guided;
+    lesson::Task task = lesson::Task::tighten;
+    std::string trainee;
+    std::string language = "en";
+};
+
+struct AppOptions {
+    Choice choice;
+    bool menu = true;  // false: the lesson begins at once
+    play::CourseOptions course;
+    std::optional<joint::Law> law;  // instead of the assembly's own
+    std::filesystem::path out;      // where sessions go
+    // After a lesson, whole or broken off: what is left of it beside the session.
+    std::function<Status(const content::Assembly&, const play::CourseOptions&, const play::Played&)> ended;
+    std::function<void(const std::string&)> tell;  // a line of what happens, for a log
+};
+
+enum class Shows : std::uint8_t { menu, lesson, result };
+
+// A menu's entry.
+struct Listed {
+    std::string name, title;
+    std::vector<content::Variant> variants;
+};
+
+class App {
+  public:
+    explicit App(AppOptions options);
+    App(const App&) = delete;
+    App& operator=(const App&) = delete;
+    ~App();
+
+    // What is on the GPU; again after it was lost.
+    Status start(view::Painter& painter);
+    void drop();  // before the painter goes
+
+    // Records a picture into the frame: it is the renderer's picture 0 afterwards.
+    Status frame(gpu::Frame& frame, std::span<const platform::Event> events, VkExtent2D size, float scale,
+                 double seconds);
+
+    [[nodiscard]] bool closed() const { return closed_; }
+    [[nodiscard]] Shows shows() const { return shows_; }
+    [[nodiscard]] bool wants_full_screen() { return std::exchange(full_screen_, false); }
+    [[nodiscard]] const Playing* playing() const { return playing_ ? &*playing_ : nullptr; }
+    // What went wrong on a menu's start, and whether any lesson was finished.
+    [[nodiscard]] const std::optional<Error>& trouble() const { return trouble_; }
+    [[nodiscard]] bool any_finished() const { return any_finished_; }
+    // Ends a lesson under way as it stands: its session and what is left of it are kept.
+    Status end_lesson();
+
+  private:
+    struct OnGpu;
+    Status begin_lesson();
+    Status place_on_gpu();
+    void draw_interface(const glm::dvec2& size);
+    void draw_menu(const glm::dvec2& size);
+    void draw_result(const glm::dvec2& size);
+    void draw_pause(const glm::dvec2& size);
+    void tell(const std::string& line) const;
+    void tell_events();
+
+    AppOptions options_;
+    Shows shows_ = Shows::menu;
+    std::vector<Listed> listed_;
+    content::Assembly assembly_;
+    std::optional<scene::Shelf> shelf_;
+    std::optional<Playing> playing_;
+    std::optional<play::Played> played_;
+    play::CourseOptions course_;
+    std::optional<Error> trouble_;
+    ui::Input input_;
+    std::unique_ptr<OnGpu> on_;
+    bool closed_ = false, full_screen_ = false, any_finished_ = false;
+    bool start_wished_ = false, end_wished_ = false;
+};
+
+// The assemblies under content/, those that load.
+std::vector<Listed> list_assemblies();
+
+}  // namespace bolt::trainer

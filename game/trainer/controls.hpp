@@ -1,0 +1,64 @@
+// What people mean by keys and mouse in a lesson. Keys are a table that can be another one; the mouse is:
+// left on a nut or the wrench the hand, left elsewhere or right the view, middle moves it, the wheel comes
+// nearer.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "engine/platform/input.hpp"
+
+namespace bolt::trainer {
+
+enum class Action : std::uint8_t {
+    tool,       // take the wrench, or lay it down
+    find_view,  // look at what is due
+    whole_view,
+    hint,
+    flange_map,
+    pause,
+    full_screen,
+    quiet,  // sound off and on
+};
+inline constexpr std::size_t action_count = 8;
+constexpr std::string_view name(Action action) {
+    constexpr std::array<std::string_view, action_count> names{
+        "tool", "find_view", "whole_view", "hint", "flange_map", "pause", "full_screen", "quiet"};
+    return names.at(static_cast<std::size_t>(action));
+}
+
+struct KeyMap {
+    std::array<platform::Key, action_count> keys{platform::Key::t,   platform::Key::v, platform::Key::f,
+                                                 platform::Key::h,   platform::Key::c, platform::Key::escape,
+                                                 platform::Key::f11, platform::Key::m};
+    [[nodiscard]] platform::Key of(Action action) const { return keys.at(static_cast<std::size_t>(action)); }
+};
+
+// Of a frame. Pixels from the upper left corner of the picture.
+struct Wanted {
+    std::array<bool, action_count> actions{};
+    [[nodiscard]] bool wants(Action action) const { return actions.at(static_cast<std::size_t>(action)); }
+    std::optional<glm::dvec2> pressed;  // the left button went down here
+    bool left = false;                  // it is down
+    bool close = false;
+    glm::dvec2 pointer{0.0};
+    glm::dvec2 dragged{0.0};             // with the left button down
+    glm::dvec2 turned{0.0}, moved{0.0};  // with the right, with the middle one
+    double wheel = 0.0;
+};
+
+struct Controls {
+    KeyMap keys;
+    glm::dvec2 pointer{0.0};
+    bool left = false, middle = false, right = false;
+};
+
+// `mine`: whether pointer and keys are the lesson's now, and not the menu's.
+struct Mine {
+    bool pointer = true, keys = true;
+};
+Wanted apply(Controls& controls, std::span<const platform::Event> events, const Mine& mine);
+
+}  // namespace bolt::trainer

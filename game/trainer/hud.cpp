@@ -1,0 +1,112 @@
+#include "game/trainer/hud.hpp"
+
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr ImGuiWindowFlags still = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
+
+constexpr ImU32 grid = IM_COL32(150, 160, 170, 60), frame_color = IM_COL32(200, 205, 210, 160),
+                curve = IM_COL32(255, 205, 70, 255), window_color = IM_COL32(90, 220, 110, 60),
+                strain_color = IM_COL32(255, 120, 80, 255);
+
+void text(const std::string& line) { ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size()); }
+
+void plate(const char* name, const ImVec2& at, const ImVec2& pivot) {
+    ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+    ImGui::SetNextWindowBgAlpha(0.78F);
+    ImGui::Begin(name, nullptr, still);
+}
+
+// Torque over the nut's angle, with the window that is to be reached.
+void draw_plot(const Playing& p, const glm::dvec2& size, float scale) {
+    if (p.plot.size() < 2) return;
+    const auto joint = static_cast<std::size_t>(p.plotted);
+    const content::Specification& spec = p.course->assembly().joints[joint].spec;
+    const ImVec2 area(260.0F * scale, 150.0F * scale);
+    plate("##plot", {static_cast<float>(size.x) - 12.0F * scale, static_cast<float>(size.y) - 12.0F * scale},
+          {1.0F, 1.0F});
+    text(fmt::format("{}: torque (N·m) over angle (°)", p.course->assembly().joints[joint].design.id));
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(area);
+    const auto [least, most] =
+        std::minmax_element(p.plot.begin(), p.plot.end(),
+                            [](const PlotPoint& a, const PlotPoint& b) { return a.angle < b.angle; });
+    const float begin = least->angle, across = std::max(most->angle - begin, 10.0F) * 1.08F;
+    float highest = static_cast<float>(spec.torque.high) * 1.15F, lowest = 0.0F;
+    for (const PlotPoint& q : p.plot) {
+        highest = std::max(highest, q.torque);
+        lowest = std::min(lowest, q.torque);
+    }
+    const auto place = [&](float angle, float torque) {
+        return ImVec2(low.x + area.x * (angle - begin) / across,
+                      low.y + area.y * (highest - torque) / (highest - lowest));
+    };
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(place(begin, static_cast<float>(spec.torque.high)),
+                       place(begin + across, static_cast<float>(spec.torque.low)), window_color);
+    list.AddLine(place(begin, 0.0F), place(begin + across, 0.0F), grid);
+    list.AddRect(low, {low.x + area.x, low.y + area.y}, frame_color);
+    for (std::size_t i = 1; i < p.plot.size(); ++i)
+        list.AddLine(place(p.plot[i - 1].angle, p.plot[i - 1].torque),
+                     place(p.plot[i].angle, p.plot[i].torque), curve, 2.0F * scale);
+    ImGui::End();
+}
+
+// How hard the hand pulls: what a device would let it feel.
+void draw_strain(const Playing& p, const glm::dvec2& size, float scale) {
+    if (p.output.joint < 0 || !p.hand.wrench) return;
+    const servo::Setup& setup = p.course->setup();
+    const double force = std::abs(p.output.wrench_torque) / setup.wrench.handle_length;
+    const double greatest = setup.wrench.stiffness * to_radians(2.5) / setup.wrench.handle_length;
+    const auto share = static_cast<float>(std::clamp(force / greatest, 0.0, 1.0));
+    plate("##strain", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 12.0F * scale},
+          {0.5F, 1.0F});
+    text(fmt::format("pull at the handle: {:.0f} N", force));
+    const ImVec2 low = ImGui::GetCursorScreenPos(), area(260.0F * scale, 12.0F * scale);
+    ImGui::Dummy(area);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(low, {low.x + area.x * share, low.y + area.y}, strain_color, 3.0F * scale);
+    list.AddRect(low, {low.x + area.x, low.y + area.y}, frame_color, 3.0F * scale);
+    ImGui::End();
+}
+
+void draw_step(const Playing& p, float scale) {
+    const lesson::Lesson& lesson = p.course->lesson();
+    const lesson::Step* due = lesson.due();
+    plate("##step", {12.0F * scale, 12.0F * scale}, {0.0F, 0.0F});
+    text(fmt::format("{} of {}   {:.0f} s", std::min(lesson.current + 1, lesson.steps.size()),
+                     lesson.steps.size(), p.course->time()));
+    if (due != nullptr && lesson.mode != lesson::Mode::assessment) {
+        std::string what =
+            fmt::format("{} {}", p.course->assembly().joints[due->joint].design.id, lesson::name(due->kind));
+        if (due->kind == lesson::StepKind::tighten) what += fmt::format(" to {:.0f} N·m", due->torque);
+        text(what);
+    }
+    ImGui::End();
+    if (p.saying.left <= 0.0) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, p.saying.mistake ? ImVec4(1.0F, 0.55F, 0.45F, 1.0F)
+                                                          : ImVec4(0.95F, 0.96F, 0.97F, 1.0F));
+    plate("##saying", {12.0F * scale, 84.0F * scale}, {0.0F, 0.0F});
+    text(p.saying.text);
+    ImGui::End();
+    ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void draw_hud(const Playing& p, const glm::dvec2& size, float scale) {
+    draw_step(p, scale);
+    draw_plot(p, size, scale);
+    draw_strain(p, size, scale);
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,57 @@
+// A lesson being played: what the servo does, what is seen of it and from where. The systems of a frame
+// (systems.hpp) work on this, and a window or a file only shows it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "engine/text/fonts.hpp"
+#include "game/play/course.hpp"
+#include "game/scene/systems.hpp"
+#include "game/trainer/controls.hpp"
+#include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/pointing.hpp"
+#include "game/view/orbit.hpp"
+
+namespace bolt::trainer {
+
+// For the plot of a pull: torque over the nut's angle.
+struct PlotPoint {
+    float angle = 0.0F;   // deg
+    float torque = 0.0F;  // N·m
+};
+
+// Something that is said for a while.
+struct Saying {
+    std::string text;
+    double left = 0.0;  // s
+    bool mistake = false;
+};
+
+struct Playing {
+    std::unique_ptr<play::Course> course;
+    MouseHand hand;
+    scene::Workplace place;
+    scene::Postures postures;
+    view::Glide camera;
+    render::Scene scene;
+
+    Controls controls;
+    bool hand_drag = false;            // the left button holds the hand, not the view
+    glm::dvec2 press{0.0};             // px, where it went down
+    std::optional<std::size_t> under;  // nut under the pointer
+    bool over_wrench = false;
+
+    double owed = 0.0;     // s of ticks that are due
+    servo::Output output;  // of the last tick
+    double pinch = 0.0;
+    std::vector<PlotPoint> plot;  // of the joint in hand
+    int plotted = -1;
+    Saying saying;
+    std::vector<lesson::Event> said;  // by the lesson, since it was last taken
+    bool paused = false, finished = false;
+    double lagged = 0.0;  // s that the lesson's time fell behind the clock's: a slow machine
+};
+
+}  // namespace bolt::trainer

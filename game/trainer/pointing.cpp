@@ -1,0 +1,71 @@
+#include "game/trainer/pointing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double easy = 1.6;          // of a nut's size in the picture: so far beside it still counts
+constexpr double least_reach = 14.0;  // px, of a nut that is far away
+
+}  // namespace
+
+std::optional<glm::dvec2> project(const Screen& screen, const Vec3& point) {
+    const glm::dvec4 clip = glm::dmat4(screen.eye.clip_from_world) * glm::dvec4(point, 1.0);
+    if (clip.w <= 1e-9) return std::nullopt;
+    return glm::dvec2(0.5 * (clip.x / clip.w + 1.0), 0.5 * (clip.y / clip.w + 1.0)) * screen.size;
+}
+
+std::optional<std::size_t> nut_at(const Screen& screen, const glm::dvec2& pointer, const servo::Setup& setup,
+                                  std::span<const Vec3> centres) {
+    std::optional<std::size_t> found;
+    double nearest = 1.0;
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+        const auto at = project(screen, centres[i]);
+        if (!at) continue;
+        // Its size in the picture: that of a length across the line of sight.
+        const Vec3 sight = centres[i] - Vec3(screen.eye.position);
+        const Vec3 helper = std::abs(sight.y) < 0.9 * glm::length(sight) ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
+        const Vec3 across = glm::normalize(glm::cross(sight, helper));
+        const auto beside = project(screen, centres[i] + 0.5 * setup.nuts[i].across_flats * across);
+        if (!beside) continue;
+        const double reach = std::max(easy * glm::distance(*beside, *at), least_reach);
+        const double off = glm::distance(pointer, *at) / reach;
+        if (off >= nearest) continue;
+        nearest = off;
+        found = i;
+    }
+    return found;
+}
+
+std::optional<double> pixels_to(const Screen& screen, const glm::dvec2& pointer, const Vec3& from,
+                                const Vec3& to) {
+    const auto a = project(screen, from), b = project(screen, to);
+    if (!a || !b) return std::nullopt;
+    const glm::dvec2 way = *b - *a;
+    const double length = glm::dot(way, way);
+    const double along = length > 0.0 ? std::clamp(glm::dot(pointer - *a, way) / length, 0.0, 1.0) : 0.0;
+    return glm::distance(pointer, *a + along * way);
+}
+
+glm::dvec2 lever_on_screen(const Screen& screen, const Pose& tool, const Vec3& axis, double handle_length) {
+    constexpr double step = 1e-3;  // rad
+    const Vec3 arm = handle_length * (tool.orientation * Vec3(1, 0, 0));
+    // Tightening turns about -axis.
+    const Quat turn = glm::angleAxis(-step, axis);
+    const auto now = project(screen, tool.position + arm), then = project(screen, tool.position + turn * arm);
+    if (!now || !then) return {least_lever, 0.0};
+    const glm::dvec2 lever = (*then - *now) / step;
+    const double length = glm::length(lever);
+    if (length < 1e-6) return {least_lever, 0.0};
+    return lever * (std::max(length, least_lever) / length);
+}
+
+double turn_of_drag(const glm::dvec2& lever, const glm::dvec2& drag) {
+    return glm::dot(drag, lever) / glm::dot(lever, lever);
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,242 @@
+#include "game/trainer/systems.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "game/view/label_places.hpp"
+#include "game/view/result_pictures.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double longest_step = 0.1;   // s of lesson that one frame catches up with
+constexpr double spin_reach = 120.0;   // px of drag for the fastest twist
+constexpr double wrench_reach = 22.0;  // px beside a wrench that still count
+constexpr std::size_t most_plotted = 4000;
+
+constexpr glm::vec4 due_color{1.0F, 0.78F, 0.1F, 1.0F}, under_color{0.9F, 0.95F, 1.0F, 0.8F}, nothing{0.0F},
+    plate{0.06F, 0.07F, 0.08F, 0.82F}, white{0.95F, 0.96F, 0.97F, 1.0F};
+
+std::vector<Vec3> centres_of(const play::Course& course) {
+    std::vector<Vec3> centres;
+    for (std::size_t i = 0; i < course.setup().nuts.size(); ++i)
+        centres.push_back(servo::nut_centre(course.setup().nuts[i], course.state().joints[i].nut.angle));
+    return centres;
+}
+
+bool loosening(const play::Course& course) { return course.lesson().task == lesson::Task::loosen; }
+
+// What the press meant: the hand, or the view.
+void press(Playing& p, Wish& wish) {
+    p.hand_drag = p.under.has_value() || p.over_wrench;
+    if (p.under) {
+        wish.nut = p.under;
+        wish.loosens = loosening(*p.course);
+    } else if (p.over_wrench) {
+        wish.wrench = true;
+    }
+}
+
+double drag_of(const Playing& p, const Screen& screen, const glm::dvec2& drag) {
+    if (!p.hand.nut || p.hand.doing != Doing::holding || !p.hand.wrench) return 0.0;
+    const servo::Setup& setup = p.course->setup();
+    const glm::dvec2 lever =
+        lever_on_screen(screen, p.output.tool, setup.nuts[*p.hand.nut].axis, setup.wrench.handle_length);
+    return turn_of_drag(lever, drag);
+}
+
+void move_camera(Playing& p, const Wanted& wanted, double height, double aspect) {
+    const glm::dvec2 turned =
+        wanted.turned + (wanted.left && !p.hand_drag ? wanted.dragged : glm::dvec2(0.0));
+    view::turn(p.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
+    view::pan(p.camera.goal, glm::dvec2(wanted.moved.x, -wanted.moved.y) / height);
+    const glm::dvec2 at(wanted.pointer.x / height - 0.5 * aspect, 0.5 - wanted.pointer.y / height);
+    if (wanted.wheel != 0.0) view::zoom(p.camera.goal, wanted.wheel, at, p.place.machine);
+}
+
+void plot(Playing& p, const servo::Output& output) {
+    if (output.joint < 0 || !p.hand.wrench) return;
+    if (output.joint != p.plotted) p.plot.clear();
+    p.plotted = output.joint;
+    const PlotPoint now{static_cast<float>(to_degrees(output.nut_angle)),
+                        static_cast<float>(output.wrench_torque)};
+    const bool same = !p.plot.empty() && std::abs(p.plot.back().angle - now.angle) < 0.02F &&
+                      std::abs(p.plot.back().torque - now.torque) < 0.2F;
+    if (!same && p.plot.size() < most_plotted) p.plot.push_back(now);
+}
+
+void say(Playing& p, std::span<const lesson::Event> events) {
+    for (const lesson::Event& event : events) {
+        if (event.kind == "mistake") p.saying = {event.text, 4.0, true};
+        p.said.push_back(event);
+    }
+}
+
+render::Label label(std::string text, const Vec3& at, float height) {
+    render::Label l;
+    l.text = std::move(text);
+    l.position = glm::vec3(at);
+    l.height = height;
+    l.anchor = {0.5F, 0.0F};
+    l.plate = plate;
+    l.color = white;
+    l.through = 1.0F;
+    return l;
+}
+
+glm::vec4 torque_color(const content::Window& window, double torque, double share) {
+    const double low = share * window.low, high = window.high;
+    return torque > high   ? glm::vec4(1.0F, 0.35F, 0.3F, 1.0F)
+           : torque >= low ? glm::vec4(0.45F, 0.95F, 0.5F, 1.0F)
+                           : white;
+}
+
+}  // namespace
+
+Screen screen_of(const Playing& p, const glm::dvec2& size) {
+    return {view::eye_of(p.camera.shown, render::bounds(p.scene), static_cast<float>(size.x / size.y)), size};
+}
+
+void pointing_system(scene::World&, Frame& frame) {
+    Playing& p = frame.playing;
+    const Wanted& wanted = frame.wanted;
+    const Screen screen = screen_of(p, frame.size);
+    if (!p.hand_drag || !wanted.left) {
+        p.under = nut_at(screen, wanted.pointer, p.course->setup(), centres_of(*p.course));
+        const Vec3 end = p.hand.rest * Vec3(p.course->setup().wrench.handle_length, 0.0, 0.0);
+        const auto off = pixels_to(screen, wanted.pointer, p.hand.rest.position, end);
+        p.over_wrench = !p.hand.wrench && !p.under && off && *off < wrench_reach;
+    }
+    Wish wish;
+    wish.held = wanted.left && p.hand_drag;
+    if (wanted.pressed) {
+        p.press = *wanted.pressed;
+        press(p, wish);
+        wish.held = wanted.left && p.hand_drag;
+    }
+    if (wanted.wants(Action::tool)) (p.hand.wrench ? wish.lay_down : wish.wrench) = true;
+    if (wish.held) {
+        wish.turn = drag_of(p, screen, wanted.dragged);
+        wish.spin = (wanted.pointer.x - p.press.x) / spin_reach;
+    }
+    if (p.finished || p.paused) wish = {};
+    trainer::wish(p.hand, wish, p.course->setup(), p.course->state());
+    move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
+}
+
+void haptic_system(scene::World& world, Frame& frame) {
+    Playing& p = frame.playing;
+    play::Course& course = *p.course;
+    if (!p.paused && !p.finished) p.owed += frame.seconds;
+    p.lagged += std::max(0.0, p.owed - longest_step);
+    p.owed = std::min(p.owed, longest_step);
+    const servo::Setup& setup = course.setup();
+    for (; p.owed >= setup.dt && !course.over() && frame.status; p.owed -= setup.dt) {
+        servo::Input input = move(p.hand, setup, course.state());
+        if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)
+            input.guide = static_cast<std::int16_t>(due->joint);
+        const Result<servo::Output> output = course.step(input);
+        if (!output) {
+            frame.status = fail(output.error());
+            break;
+        }
+        p.output = *output;
+        plot(p, *output);
+        say(p, course.events());
+    }
+    p.finished = p.finished || course.over();
+    const bool pinches = !p.hand.wrench && p.hand.nut && p.hand.doing == Doing::holding;
+    p.pinch += ((pinches ? 1.0 : 0.0) - p.pinch) * (1.0 - std::exp(-frame.seconds / 0.06));
+    const scene::Held held{p.hand.wrench ? p.output.tool : p.hand.pose, p.hand.wrench, p.hand.rest, p.pinch};
+    scene::place_nuts(world, setup, course.state().joints);
+    scene::place_tool(world, held);
+    scene::place_hand(world, p.postures, held);
+}
+
+void lesson_system(scene::World& world, Frame& frame) {
+    Playing& p = frame.playing;
+    const lesson::Lesson& lesson = p.course->lesson();
+    p.saying.left = std::max(0.0, p.saying.left - frame.seconds);
+    const lesson::Step* due = lesson.due();
+    const bool help = lesson.mode == lesson::Mode::guided;
+    for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
+        glm::vec4 color = nothing;
+        if (help && due != nullptr && due->joint == i) color = due_color;
+        if (p.under == i && !p.finished) color = under_color;
+        if (p.finished) color = view::verdict_color(lesson.joints[i].result);
+        scene::outline_joint(world, i, color);
+    }
+    const bool wants_wrench = help && due != nullptr && due->kind != lesson::StepKind::run_down;
+    scene::outline_tool(world, p.over_wrench                    ? under_color
+                               : wants_wrench && !p.hand.wrench ? due_color
+                                                                : nothing);
+}
+
+void view_system(scene::World& world, Frame& frame) {
+    Playing& p = frame.playing;
+    if (frame.wanted.wants(Action::whole_view))
+        p.camera.go(
+            view::framing(p.camera.goal, p.place.machine, static_cast<float>(frame.size.x / frame.size.y)));
+    (void)p.camera.advance(frame.seconds);
+    // What hides the nut at work fades.
+    const lesson::Step* due = p.course->lesson().due();
+    const bool near = p.hand.nut && p.hand.doing != Doing::resting;
+    const std::optional<std::size_t> focus = near             ? p.hand.nut
+                                             : due != nullptr ? std::optional(due->joint)
+                                                              : std::nullopt;
+    p.scene.cut_away.strength = 0.0F;
+    if (!focus || p.course->lesson().mode == lesson::Mode::assessment) return;
+    const servo::NutPlace& nut = p.course->setup().nuts[*focus];
+    p.scene.cut_away = {glm::vec3(servo::nut_centre(nut, p.course->state().joints[*focus].nut.angle)),
+                        static_cast<float>(0.9 * nut.across_flats), near ? 1.0F : 0.0F};
+    world.view<const scene::OfJoint, scene::CanFade>().each(
+        [&](const scene::OfJoint& of, scene::CanFade& can) { can.fades = of.joint != *focus; });
+}
+
+void label_system(scene::World&, Frame& frame) {
+    Playing& p = frame.playing;
+    const play::Course& course = *p.course;
+    const servo::Setup& setup = course.setup();
+    p.scene.labels.clear();
+    const auto above = [&](std::size_t joint) {
+        const servo::NutPlace& nut = setup.nuts[joint];
+        return servo::nut_centre(nut, course.state().joints[joint].nut.angle) + 0.03 * nut.axis;
+    };
+    const lesson::Step* due = course.lesson().due();
+    if (p.output.joint >= 0 && !p.finished) {
+        const auto joint = static_cast<std::size_t>(p.output.joint);
+        const content::Specification& spec = course.assembly().joints[joint].spec;
+        const double torque = std::abs(p.output.wrench_torque);
+        const bool fits = due != nullptr && due->joint == joint;
+        const double share = fits && due->kind == lesson::StepKind::tighten ? due->fraction : 1.0;
+        render::Label figure =
+            label(p.hand.wrench ? fmt::format("{:.0f} N·m   {:.0f}°   {}", torque,
+                                              to_degrees(p.output.nut_angle), joint::name(p.output.stage))
+                                : fmt::format("{:.1f} turns", p.output.nut_angle / (2.0 * pi)),
+                  above(joint), 22.0F);
+        if (p.hand.wrench) figure.color = torque_color(spec.torque, torque, share);
+        figure.moved_px = {0.0F, 34.0F};
+        p.scene.labels.push_back(figure);
+    }
+    const auto named = [&](std::size_t joint, const glm::vec4& color) {
+        render::Label l = label(course.assembly().joints[joint].design.id, above(joint), 16.0F);
+        l.color = color;
+        l.moved_px = {0.0F, 8.0F};
+        p.scene.labels.push_back(l);
+    };
+    if (p.finished)
+        for (std::size_t i = 0; i < setup.nuts.size(); ++i) named(i, white);
+    else if (due != nullptr && course.lesson().mode == lesson::Mode::guided)
+        named(due->joint, due_color);
+    if (p.under && !p.finished && (due == nullptr || *p.under != due->joint)) named(*p.under, white);
+    const Screen screen = screen_of(p, frame.size);
+    if (frame.fonts != nullptr)
+        view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size));
+}
+
+void present_system(scene::World& world, Frame& frame) { scene::present(world, frame.playing.scene); }
+
+}  // namespace bolt::trainer

@@ -1,0 +1,33 @@
+// What happens in a frame of a lesson, in order.
+#pragma once
+
+#include "engine/ecs/schedule.hpp"
+#include "game/trainer/playing.hpp"
+
+namespace bolt::trainer {
+
+struct Frame {
+    Playing& playing;
+    double seconds = 0.0;  // since the last one
+    glm::dvec2 size{1.0};  // px, of the picture
+    Wanted wanted;
+    const text::Fonts* fonts = nullptr;
+    Status status;  // the first error: the session could not be kept
+};
+
+void pointing_system(scene::World& world, Frame& frame);  // what the mouse wants of hand and view
+void haptic_system(scene::World& world,
+                   Frame& frame);  // the servo's ticks, and where everything is after them
+void lesson_system(scene::World& world, Frame& frame);   // what is due is marked, what happened is said
+void view_system(scene::World& world, Frame& frame);     // the camera, and what fades before the nut
+void label_system(scene::World& world, Frame& frame);    // figures at the wrench and at the joints
+void present_system(scene::World& world, Frame& frame);  // everything to the renderer
+
+inline constexpr ecs::System<scene::World, Frame> frame_systems[] = {
+    {"pointing", pointing_system}, {"haptics", haptic_system}, {"lesson", lesson_system},
+    {"view", view_system},         {"labels", label_system},   {"present", present_system}};
+
+// The picture as the camera has it now.
+Screen screen_of(const Playing& playing, const glm::dvec2& size);
+
+}  // namespace bolt::trainer

@@ -1,0 +1,19 @@
+// The trainer in a window of the desktop.
+#pragma once
+
+#include "engine/platform/window.hpp"
+#include "game/trainer/app.hpp"
+
+namespace bolt::trainer {
+
+struct WindowChoice {
+    std::string gpu;           // part of the name of the GPU to use; empty: the best
+    std::uint64_t frames = 0;  // after so many it is closed; 0: by whoever uses it
+};
+
+// Until it is closed; a lesson under way is then ended as it stands. A GPU that is lost is started again,
+// once in a while (gpu::Restarts); the lesson goes on.
+Status run_in_window(App& app, platform::Window& window, const gpu::Instance& instance,
+                     const WindowChoice& choice = {});
+
+}  // namespace bolt::trainer
