@@ -40,9 +40,16 @@ Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::S
     const hand::Hand hand = hand::make_hand(side);
     Postures postures;
     const Pose on_handle = wrist_on_handle(grip_at);
-    hand::Angles angles = closed(0.75);
-    if (wrench != nullptr) angles = grip::close_on(*wrench, hand, closed(1.0), on_handle).shown;
-    postures.on_handle = hand::joints(hand, angles, on_handle);
+    for (std::size_t i = 0; i < postures.on_handle.size(); ++i) {
+        // Over to the other face, and about the handle's middle to the other end.
+        const Quat over = glm::angleAxis((i & 1U) != 0 ? pi : 0.0, Vec3(1, 0, 0));
+        const Quat round = glm::angleAxis((i & 2U) != 0 ? pi : 0.0, Vec3(0, 0, 1));
+        const Pose middle{Vec3(grip_at, 0.0, 0.0)};
+        const Pose wrist = middle * Pose{Vec3(0.0), over * round} * inverse(middle) * on_handle;
+        hand::Angles angles = closed(0.75);
+        if (wrench != nullptr) angles = grip::close_on(*wrench, hand, closed(1.0), wrist).shown;
+        postures.on_handle[i] = hand::joints(hand, angles, wrist);
+    }
 
     // The pads meet at the tool's origin, the fingers come from above and lean to the handle's side.
     const auto meeting = [&](const hand::Angles& bent, double lift) {
@@ -54,6 +61,32 @@ Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::S
     postures.on_nut = meeting(pinched(), 0.0);
     postures.open = meeting(closed(0.25), 0.02);
     return postures;
+}
+
+std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3& up, const Vec3& shoulder) {
+    std::size_t best = 0;
+    double most = -10.0;
+    for (std::size_t i = 0; i < postures.on_handle.size(); ++i) {
+        const hand::Skeleton& s = postures.on_handle[i];
+        const Quat wrist = tool.orientation * s.rotation[hand::wrist];
+        const Vec3 way = shoulder - tool * s.position[hand::wrist];
+        const double palm_down = glm::dot(wrist * Vec3(0, 1, 0), up);
+        const double forearm = glm::dot(wrist * Vec3(0, 0, 1), way) / glm::length(way);
+        if (2.0 * palm_down + forearm <= most) continue;
+        most = 2.0 * palm_down + forearm;
+        best = i;
+    }
+    return best;
+}
+
+Pose towards(const Pose& tool, const Vec3& shoulder, double twisted) {
+    const Vec3 axis = tool.orientation * Vec3(0, 0, 1);
+    Vec3 out = shoulder - tool.position;
+    out -= axis * glm::dot(out, axis);
+    const double length = glm::length(out);
+    if (length < 1e-6) return tool;
+    const Vec3 x = glm::angleAxis(twisted, axis) * (out / length);
+    return {tool.position, glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(axis, x), axis)))};
 }
 
 hand::Skeleton between(const hand::Skeleton& a, const hand::Skeleton& b, double share) {

@@ -2,16 +2,25 @@
 // and index finger on a nut, or open.
 #pragma once
 
-#include <optional>
+#include <array>
 
 #include "haptics/grip/closing.hpp"
 
 namespace bolt::scene {
 
-// The 26 joints in the frame of the tool (servo::DeviceSample).
+// The 26 joints in the frame of the tool (servo::DeviceSample). A handle can be held four ways: palm on the
+// one face or the other, thumb towards the jaw or away from it.
 struct Postures {
-    hand::Skeleton on_handle, on_nut, open;
+    std::array<hand::Skeleton, 4> on_handle;
+    hand::Skeleton on_nut, open;
 };
+
+// The way that suits somebody whose shoulder is there, with the tool so: back of the hand up, forearm towards
+// the shoulder.
+std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3& up, const Vec3& shoulder);
+
+// A tool's frame for fingers on a nut: they come from the shoulder's side, however far they have twisted it.
+Pose towards(const Pose& tool, const Vec3& shoulder, double twisted);
 
 // `grip_at`: m from the jaw's middle along the handle. The fingers close on the wrench as far as it lets
 // them.

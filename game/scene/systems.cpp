@@ -1,5 +1,7 @@
 #include "game/scene/systems.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace bolt::scene {
@@ -8,6 +10,14 @@ namespace {
 
 glm::dmat4 matrix(const Pose& pose) {
     return glm::translate(glm::dmat4(1.0), pose.position) * glm::mat4_cast(pose.orientation);
+}
+
+// m, of a joint from where it is to be.
+double furthest(const hand::Skeleton& a, const hand::Skeleton& b) {
+    double most = a.rotation == b.rotation ? 0.0 : 1e-9;
+    for (std::size_t i = 0; i < hand::joint_count; ++i)
+        most = std::max(most, glm::distance(a.position[i], b.position[i]));
+    return most;
 }
 
 void outline(World& world, ecs::Entity entity, const glm::vec4& color) {
@@ -34,13 +44,17 @@ void place_tool(World& world, const Held& held) {
 }
 
 void place_hand(World& world, const Postures& postures, const Held& held) {
-    const hand::Skeleton shown =
-        held.wrench ? postures.on_handle : between(postures.open, postures.on_nut, held.pinch);
+    constexpr double change = 0.07;  // s in which most of it is done
+    const hand::Skeleton goal =
+        held.wrench ? postures.on_handle.at(held.grip) : between(postures.open, postures.on_nut, held.pinch);
     world.view<Fingers, Placement>().each([&](Fingers& fingers, Placement& placement) {
-        placement.world = glm::mat4(matrix(held.tool));
-        const bool bent = fingers.deformation && fingers.shown.position == shown.position &&
-                          fingers.shown.rotation == shown.rotation;
-        if (bent) return;
+        placement.world = glm::mat4(matrix(held.wrench ? held.tool : held.fingers));
+        const bool first = !fingers.deformation;
+        const double far = first ? 1.0 : furthest(fingers.shown, goal);
+        if (far == 0.0) return;
+        const bool there = first || far < 2e-4;
+        const hand::Skeleton shown =
+            there ? goal : between(fingers.shown, goal, 1.0 - std::exp(-held.seconds / change));
         fingers.shown = shown;
         render::Deformation deformation;
         for (std::size_t i = 0; i < fingers.inverse_bind.size() && i < hand::joint_count; ++i)

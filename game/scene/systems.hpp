@@ -12,7 +12,10 @@ struct Held {
     Pose tool;
     bool wrench = false;  // in the hand
     Pose rest;
-    double pinch = 0.0;  // 0 … 1 of fingers closed on a nut, without a wrench
+    double pinch = 0.0;    // 0 … 1 of fingers closed on a nut, without a wrench
+    Pose fingers;          // what they are shown in, without a wrench
+    std::size_t grip = 0;  // of Postures::on_handle
+    double seconds = 0.0;  // since the last frame: a hand changes its posture in no time, but not at once
 };
 void place_nuts(World& world, const servo::Setup& setup, std::span<const joint::JointState> joints);
 void place_tool(World& world, const Held& held);

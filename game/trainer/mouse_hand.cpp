@@ -196,7 +196,9 @@ void travel(MouseHand& hand, double dt) {
 
 MouseHand make_hand(const Pose& rest) {
     MouseHand hand;
-    hand.rest = hand.pose = rest;
+    hand.rest = rest;
+    // Beside the grip, a little above it.
+    hand.pose = {rest * Vec3(0.16, -0.05, 0.06), rest.orientation};
     return hand;
 }
 

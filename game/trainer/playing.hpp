@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/text/fonts.hpp"
+#include "game/operators/sight.hpp"
 #include "game/play/course.hpp"
 #include "game/scene/systems.hpp"
 #include "game/trainer/controls.hpp"
@@ -46,10 +47,14 @@ struct Playing {
     double owed = 0.0;     // s of ticks that are due
     servo::Output output;  // of the last tick
     double pinch = 0.0;
+    std::size_t grip = 0;         // how the handle is held (scene::Postures)
+    Vec3 shoulder{0.0};           // m, of whoever works
     std::vector<PlotPoint> plot;  // of the joint in hand
     int plotted = -1;
     Saying saying;
     std::vector<lesson::Event> said;  // by the lesson, since it was last taken
+    operators::Sight sight;
+    double unseen = 0.0;  // s that what is due has been out of sight
     bool paused = false, finished = false;
     double lagged = 0.0;  // s that the lesson's time fell behind the clock's: a slow machine
 };

@@ -12,7 +12,8 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double longest_step = 0.1;   // s of lesson that one frame catches up with
+constexpr double twist_shown = 0.3;    // of the fingers' twist, at the wrist
+constexpr double longest_step = 0.25;  // s of lesson that one frame catches up with
 constexpr double spin_reach = 120.0;   // px of drag for the fastest twist
 constexpr double wrench_reach = 22.0;  // px beside a wrench that still count
 constexpr std::size_t most_plotted = 4000;
@@ -150,7 +151,15 @@ void haptic_system(scene::World& world, Frame& frame) {
     p.finished = p.finished || course.over();
     const bool pinches = !p.hand.wrench && p.hand.nut && p.hand.doing == Doing::holding;
     p.pinch += ((pinches ? 1.0 : 0.0) - p.pinch) * (1.0 - std::exp(-frame.seconds / 0.06));
-    const scene::Held held{p.hand.wrench ? p.output.tool : p.hand.pose, p.hand.wrench, p.hand.rest, p.pinch};
+    if (p.hand.doing == Doing::reaching)
+        p.grip =
+            scene::natural_grip(p.postures, p.hand.stations.empty() ? p.hand.to : p.hand.stations.front(),
+                                Vec3(0, 1, 0), p.shoulder);
+    const bool returning = p.hand.doing == Doing::returning || p.hand.doing == Doing::holding;
+    const double twisted = returning ? -twist_shown * (p.hand.handle - p.hand.begun_at) : 0.0;
+    const scene::Held held{
+        p.hand.wrench ? p.output.tool : p.hand.pose,      p.hand.wrench, p.hand.rest,  p.pinch,
+        scene::towards(p.hand.pose, p.shoulder, twisted), p.grip,        frame.seconds};
     scene::place_nuts(world, setup, course.state().joints);
     scene::place_tool(world, held);
     scene::place_hand(world, p.postures, held);

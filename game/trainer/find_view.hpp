@@ -1,0 +1,29 @@
+// A view in which the eye truly sees a nut and the jaw that goes on it, asked of the same obstacles that hold
+// the wrench.
+#pragma once
+
+#include <optional>
+
+#include "game/operators/sight.hpp"
+#include "game/view/orbit.hpp"
+
+namespace bolt::trainer {
+
+struct ViewOf {
+    const servo::Setup& setup;
+    const servo::Touch* touch = nullptr;  // null: nothing can hide anything
+    std::size_t joint = 0;
+    Vec3 nut{0.0};               // m, its middle
+    std::optional<Pose> wrench;  // where the jaw is or will be; none: only the nut counts
+};
+
+// 0 … 1: of nut and jaw the lesser.
+double seen_from(const ViewOf& of, operators::Sight& sight, const Vec3& eye);
+
+// Enough of it, and nobody wants more.
+inline constexpr double well_seen = 0.6;
+
+// The view nearest to `from` in which it is well seen, or the one in which most is; near enough to work by.
+view::Orbit find_view(const ViewOf& of, operators::Sight& sight, const view::Orbit& from);
+
+}  // namespace bolt::trainer
