@@ -51,11 +51,11 @@ Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::S
         postures.on_handle[i] = hand::joints(hand, angles, wrist);
     }
 
-    // The pads meet at the tool's origin, the fingers come from above and lean to the handle's side.
+    // The pads meet at the tool's origin, the fingers come from above and from the handle's side.
     const auto meeting = [&](const hand::Angles& bent, double lift) {
         const hand::Skeleton flat = hand::joints(hand, bent, Pose{});
         const Vec3 middle = 0.5 * (hand::pad(hand, flat, 0) + hand::pad(hand, flat, 1));
-        const Quat lean = glm::angleAxis(35.0 * deg, Vec3(0, 1, 0));
+        const Quat lean = glm::angleAxis(58.0 * deg, Vec3(0, 1, 0));
         return hand::joints(hand, bent, Pose{Vec3(0.0, 0.0, lift) - lean * middle, lean});
     };
     postures.on_nut = meeting(pinched(), 0.0);

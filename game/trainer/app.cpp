@@ -125,7 +125,7 @@ Status App::begin_lesson() {
                                      assembly_.wrench.head_thickness));
     p.postures =
         scene::make_postures(state.touch ? &state.touch->wrench : nullptr, setup.wrench.handle_length);
-    p.shoulder = Vec3(p.place.machine.high) + Vec3(0.1, 0.35, 0.55);
+    p.shoulder = Vec3(p.place.machine.high) + Vec3(0.35, 0.3, 0.4);
     const std::vector<view::Viewpoint>& views = shelf_->machine.views;
     const view::Viewpoint first =
         views.empty() ? view::framed(p.place.machine, view::usual_fov, 16.0F / 9.0F) : views.front();

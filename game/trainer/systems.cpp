@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/trainer/find_view.hpp"
 #include "game/view/label_places.hpp"
 #include "game/view/result_pictures.hpp"
 
@@ -12,10 +13,11 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double twist_shown = 0.3;    // of the fingers' twist, at the wrist
-constexpr double longest_step = 0.25;  // s of lesson that one frame catches up with
-constexpr double spin_reach = 120.0;   // px of drag for the fastest twist
-constexpr double wrench_reach = 22.0;  // px beside a wrench that still count
+constexpr double twist_shown = 0.3;                    // of the fingers' twist, at the wrist
+constexpr double longest_step = 0.25;                  // s of lesson that one frame catches up with
+constexpr double spin_reach = 120.0;                   // px of drag for the fastest twist
+constexpr double wrench_reach = 22.0;                  // px beside a wrench that still count
+constexpr double lost_below = 0.15, lost_after = 1.5;  // of nut and jaw; s
 constexpr std::size_t most_plotted = 4000;
 
 constexpr glm::vec4 due_color{1.0F, 0.78F, 0.1F, 1.0F}, under_color{0.9F, 0.95F, 1.0F, 0.8F}, nothing{0.0F},
@@ -74,6 +76,44 @@ void say(Playing& p, std::span<const lesson::Event> events) {
         if (event.kind == "mistake") p.saying = {event.text, 4.0, true};
         p.said.push_back(event);
     }
+}
+
+// The joint that is worked at, or is due.
+std::optional<std::size_t> at_work(const Playing& p) {
+    if (p.hand.nut && p.hand.doing != Doing::resting) return p.hand.nut;
+    const lesson::Step* due = p.course->lesson().due();
+    return due != nullptr ? std::optional(due->joint) : std::nullopt;
+}
+
+ViewOf view_of(const Playing& p, std::size_t joint) {
+    const servo::Setup& setup = p.course->setup();
+    const servo::State& state = p.course->state();
+    ViewOf of{setup, state.touch ? &*state.touch : nullptr, joint,
+              servo::nut_centre(setup.nuts[joint], state.joints[joint].nut.angle), std::nullopt};
+    if (p.hand.wrench && p.hand.nut == joint) of.wrench = p.output.tool;
+    return of;
+}
+
+void look_at_work(Playing& p) {
+    const auto joint = at_work(p);
+    if (!joint) return;
+    p.camera.go(find_view(view_of(p, *joint), p.sight, p.camera.goal));
+    p.unseen = 0.0;
+}
+
+// What is due has been out of the picture or hidden for a while. Not in an assessment: nobody helps there.
+bool lost(Playing& p, const Frame& frame) {
+    const auto joint = at_work(p);
+    if (!joint || p.course->lesson().mode == lesson::Mode::assessment || p.finished || p.paused) return false;
+    const ViewOf of = view_of(p, *joint);
+    const Screen screen = screen_of(p, frame.size);
+    const auto at = project(screen, of.nut);
+    const glm::dvec2 edge = 0.04 * frame.size;
+    const bool inside = at && at->x > edge.x && at->y > edge.y && at->x < frame.size.x - edge.x &&
+                        at->y < frame.size.y - edge.y;
+    const bool seen = inside && seen_from(of, p.sight, Vec3(screen.eye.position)) > lost_below;
+    p.unseen = seen ? 0.0 : p.unseen + frame.seconds;
+    return p.unseen > lost_after;
 }
 
 render::Label label(std::string text, const Vec3& at, float height) {
@@ -189,13 +229,11 @@ void view_system(scene::World& world, Frame& frame) {
     if (frame.wanted.wants(Action::whole_view))
         p.camera.go(
             view::framing(p.camera.goal, p.place.machine, static_cast<float>(frame.size.x / frame.size.y)));
+    if (frame.wanted.wants(Action::find_view) || lost(p, frame)) look_at_work(p);
     (void)p.camera.advance(frame.seconds);
     // What hides the nut at work fades.
-    const lesson::Step* due = p.course->lesson().due();
     const bool near = p.hand.nut && p.hand.doing != Doing::resting;
-    const std::optional<std::size_t> focus = near             ? p.hand.nut
-                                             : due != nullptr ? std::optional(due->joint)
-                                                              : std::nullopt;
+    const std::optional<std::size_t> focus = at_work(p);
     p.scene.cut_away.strength = 0.0F;
     if (!focus || p.course->lesson().mode == lesson::Mode::assessment) return;
     const servo::NutPlace& nut = p.course->setup().nuts[*focus];
