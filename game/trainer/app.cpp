@@ -180,7 +180,8 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
     input_.scale = scale;
     input_.seconds = seconds;
     ui::Ui& ui = *on_->ui;
-    const Mine mine{shows_ != Shows::menu && !ui.wants_pointer(), shows_ != Shows::menu && !ui.wants_keys()};
+    // Only the menu has something to type into.
+    const Mine mine{shows_ != Shows::menu && !ui.wants_pointer(), shows_ != Shows::menu};
     static const render::Scene no_scene;
     render::Eye eye;
     const render::Scene* scene = &no_scene;

@@ -40,6 +40,12 @@ struct Listed {
     std::vector<content::Variant> variants;
 };
 
+// A button as it was drawn last: for whoever presses it without eyes.
+struct ButtonPlace {
+    std::string label;
+    glm::vec2 middle{0.0F};  // px
+};
+
 class App {
   public:
     explicit App(AppOptions options);
@@ -59,6 +65,7 @@ class App {
     [[nodiscard]] Shows shows() const { return shows_; }
     [[nodiscard]] bool wants_full_screen() { return std::exchange(full_screen_, false); }
     [[nodiscard]] const Playing* playing() const { return playing_ ? &*playing_ : nullptr; }
+    [[nodiscard]] std::span<const ButtonPlace> buttons() const { return buttons_; }
     // What went wrong on a menu's start, and whether any lesson was finished.
     [[nodiscard]] const std::optional<Error>& trouble() const { return trouble_; }
     [[nodiscard]] bool any_finished() const { return any_finished_; }
@@ -73,6 +80,7 @@ class App {
     void draw_menu(const glm::dvec2& size);
     void draw_result(const glm::dvec2& size);
     void draw_pause(const glm::dvec2& size);
+    bool button(const char* label);
     void tell(const std::string& line) const;
     void tell_events();
 
@@ -86,6 +94,7 @@ class App {
     play::CourseOptions course_;
     std::optional<Error> trouble_;
     ui::Input input_;
+    std::vector<ButtonPlace> buttons_;
     std::unique_ptr<OnGpu> on_;
     bool closed_ = false, full_screen_ = false, any_finished_ = false;
     bool start_wished_ = false, end_wished_ = false;

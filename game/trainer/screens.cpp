@@ -26,8 +26,6 @@ void begin_panel(const char* name, const glm::dvec2& size, float width) {
     ImGui::Begin(name, nullptr, panel);
 }
 
-bool wide_button(const char* label) { return ImGui::Button(label, {-1.0F, 0.0F}); }
-
 template <class Value>
 void radio(const char* label, Value& value, Value to) {
     if (ImGui::RadioButton(label, value == to)) value = to;
@@ -41,6 +39,13 @@ void text_field(const char* label, std::string& value) {
 }
 
 }  // namespace
+
+bool App::button(const char* label) {
+    const bool pressed = ImGui::Button(label, {-1.0F, 0.0F});
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    buttons_.push_back({label, {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}});
+    return pressed;
+}
 
 void App::draw_menu(const glm::dvec2& size) {
     Choice& choice = options_.choice;
@@ -70,8 +75,9 @@ void App::draw_menu(const glm::dvec2& size) {
         ImGui::TextWrapped("%s", trouble_->message().c_str());
         ImGui::PopStyleColor();
     }
-    if (wide_button("Start")) start_wished_ = true;
-    if (wide_button("Quit")) closed_ = true;
+    if (button("Start")) start_wished_ = true;
+    ImGui::SetItemDefaultFocus();
+    if (button("Quit")) closed_ = true;
     ImGui::End();
 }
 
@@ -79,12 +85,12 @@ void App::draw_pause(const glm::dvec2& size) {
     begin_panel("##pause", size, 300.0F * input_.scale);
     text("Paused");
     ImGui::Separator();
-    if (wide_button("Go on")) playing_->paused = false;
-    if (wide_button("End the lesson")) {
+    if (button("Go on")) playing_->paused = false;
+    if (button("End the lesson")) {
         playing_->paused = false;
         end_wished_ = true;
     }
-    if (wide_button("Quit")) closed_ = true;
+    if (button("Quit")) closed_ = true;
     ImGui::End();
 }
 
@@ -114,13 +120,14 @@ void App::draw_result(const glm::dvec2& size) {
     for (const lesson::ScoreReason& reason : result.reasons)
         text(fmt::format("{:+.0f}  {}", reason.points, reason.text));
     ImGui::Separator();
-    if (wide_button("Again")) start_wished_ = true;
-    if (options_.menu && wide_button("Menu")) shows_ = Shows::menu;
-    if (wide_button("Quit")) closed_ = true;
+    if (button("Again")) start_wished_ = true;
+    if (options_.menu && button("Menu")) shows_ = Shows::menu;
+    if (button("Quit")) closed_ = true;
     ImGui::End();
 }
 
 void App::draw_interface(const glm::dvec2& size) {
+    buttons_.clear();
     if (shows_ == Shows::lesson) draw_hud(*playing_, size, input_.scale);
     if (shows_ == Shows::lesson && playing_->paused) draw_pause(size);
     if (shows_ == Shows::menu) draw_menu(size);

@@ -1,0 +1,272 @@
+// The trainer without a window: events go in, pictures come out, and somebody plays a whole lesson by
+// pointing, pressing and dragging alone.
+#include "game/trainer/app.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "game/record/session.hpp"
+#include "game/trainer/pointing.hpp"
+#include "tests/support/sanitized.hpp"
+
+using namespace bolt;
+using namespace bolt::trainer;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr VkExtent2D size{320, 180};
+constexpr double step = 0.1;  // s a frame
+
+// A program with somebody at it.
+class Desk {
+  public:
+    explicit Desk(AppOptions options) {
+        folder_ = fs::path(BOLT_TRAINER_OUT) / options.choice.assembly;
+        fs::create_directories(folder_);
+        options.out = folder_;
+        options.tell = [this](const std::string& line) { told_.push_back(line); };
+        options.ended = [this](const content::Assembly&, const play::CourseOptions&,
+                               const play::Played& played) {
+            played_ = played;
+            return Status{};
+        };
+        gpu::InstanceOptions validated;
+        validated.validation = true;
+        auto instance = gpu::Instance::create(validated);
+        if (!instance) FAIL(instance.error().message());
+        instance_.emplace(std::move(*instance));
+        auto painter = view::make_painter(*instance_, {}, {});
+        if (!painter) FAIL(painter.error().message());
+        painter_ = std::move(*painter);
+        app_ = std::make_unique<App>(std::move(options));
+        need(app_->start(painter_));
+    }
+    ~Desk() {
+        app_->drop();
+        (void)painter_.device->idle();
+        for (const std::string& message : instance_->log().messages) FAIL_CHECK(message);
+    }
+    Desk(const Desk&) = delete;
+    Desk& operator=(const Desk&) = delete;
+
+    void need(const Status& status) {
+        if (!status) FAIL(status.error().message());
+    }
+    void frame(std::vector<platform::Event> events = {}) {
+        auto frame = painter_.frames->begin();
+        if (!frame) FAIL(frame.error().message());
+        need(app_->frame(**frame, events, size, 1.0F, step));
+        need(painter_.frames->submit(**frame));
+    }
+    void move(const glm::dvec2& to) { frame({platform::CursorEvent{to}}); }
+    void press(const glm::dvec2& at) {
+        move(at);
+        frame({platform::ButtonEvent{platform::Button::left, true, at}});
+    }
+    void release(const glm::dvec2& at) { frame({platform::ButtonEvent{platform::Button::left, false, at}}); }
+    void key(platform::Key key) {
+        frame({platform::KeyEvent{key, true, false, {}}});
+        frame({platform::KeyEvent{key, false, false, {}}});
+    }
+    // False: there is no such button. New panels have found their size after two frames.
+    bool push(const std::string& label) {
+        frame();
+        frame();
+        for (const ButtonPlace& button : app_->buttons()) {
+            if (button.label != label) continue;
+            const glm::dvec2 at(button.middle);
+            press(at);
+            release(at);
+            frame();
+            return true;
+        }
+        return false;
+    }
+    App& app() { return *app_; }
+    [[nodiscard]] const Playing& playing() const { return *app_->playing(); }
+    [[nodiscard]] Screen screen() const { return screen_of(playing(), glm::dvec2(size.width, size.height)); }
+    [[nodiscard]] const std::vector<std::string>& told() const { return told_; }
+    [[nodiscard]] const std::optional<play::Played>& played() const { return played_; }
+    [[nodiscard]] const fs::path& folder() const { return folder_; }
+
+  private:
+    std::optional<gpu::Instance> instance_;
+    fs::path folder_;
+    view::Painter painter_;
+    std::unique_ptr<App> app_;
+    std::vector<std::string> told_;
+    std::optional<play::Played> played_;
+};
+
+// Somebody who sees the picture and does what is due.
+class Person {
+  public:
+    explicit Person(Desk& desk) : desk_(desk) {}
+
+    void play(double longest, std::size_t steps = SIZE_MAX) {
+        while (going() && p().course->time() < longest && p().course->lesson().current < steps) do_step();
+    }
+    int presses = 0, looks = 0;
+
+  private:
+    [[nodiscard]] const Playing& p() const { return desk_.playing(); }
+    [[nodiscard]] const lesson::Step* due() const { return p().course->lesson().due(); }
+    void wait(double seconds) {
+        for (double t = 0.0; t < seconds && going(); t += step) desk_.frame();
+    }
+    [[nodiscard]] bool going() const { return desk_.app().shows() == Shows::lesson; }
+
+    void do_step() {
+        const bool fingers = due()->kind == lesson::StepKind::run_down;
+        if (p().hand.wrench == fingers) {
+            desk_.key(platform::Key::t);
+            for (int i = 0; i < 200 && p().hand.wrench == fingers; ++i) desk_.frame();
+            return;
+        }
+        const auto at = nut_on_screen();
+        if (!at) {
+            ++looks;
+            REQUIRE(looks < 100);
+            desk_.key(platform::Key::v);
+            wait(0.8);
+            return;
+        }
+        ++presses;
+        desk_.press(*at);
+        const std::size_t joint = due()->joint;
+        glm::dvec2 pointer = *at;
+        double held = 0.0;
+        while (going() && desk_.playing().hand.held && held < 12.0) {
+            if (fingers ? spin(*at, pointer) : pull(joint, pointer)) break;
+            held += step;
+        }
+        desk_.release(pointer);
+        wait(0.5);
+    }
+
+    // Where the due nut is, if a press there would mean it.
+    std::optional<glm::dvec2> nut_on_screen() {
+        const servo::Setup& setup = p().course->setup();
+        const std::size_t joint = due()->joint;
+        const auto at =
+            project(desk_.screen(),
+                    servo::nut_centre(setup.nuts[joint], p().course->state().joints[joint].nut.angle));
+        if (!at || at->x < 4 || at->y < 4 || at->x > size.width - 4 || at->y > size.height - 4) return {};
+        desk_.move(*at);
+        if (p().under != joint) return {};
+        return at;
+    }
+
+    bool spin(const glm::dvec2& from, glm::dvec2& pointer) {
+        pointer = from + glm::dvec2(110.0, 0.0);
+        desk_.move(pointer);
+        return p().course->state().joints[*p().hand.nut].stage != joint::Stage::navigation;
+    }
+
+    bool pull(std::size_t joint, glm::dvec2& pointer) {
+        const play::Course& course = *p().course;
+        const servo::Setup& setup = course.setup();
+        if (p().hand.doing != Doing::holding || course.state().engagement.joint != static_cast<int>(joint)) {
+            desk_.frame();
+            return false;
+        }
+        const lesson::Step& step_due = *due();
+        const double torque = course.state().joints[joint].torque;
+        const bool yields = course.state().joints[joint].stage == joint::Stage::yield;
+        if (torque >= step_due.torque || (yields && step_due.fraction > 0.999)) return true;
+        if (std::abs(p().hand.handle - p().hand.begun_at) > 0.97 * p().hand.room) return true;
+        const glm::dvec2 lever = lever_on_screen(desk_.screen(), p().output.tool, setup.nuts[joint].axis,
+                                                 setup.wrench.handle_length);
+        const double turn = 0.9 * std::max(0.08, 1.0 - torque / step_due.torque) * step;
+        pointer += lever * turn;
+        desk_.move(pointer);
+        return false;
+    }
+
+    Desk& desk_;
+};
+
+AppOptions options(const char* assembly, bool menu) {
+    AppOptions o;
+    o.choice.assembly = assembly;
+    o.menu = menu;
+    o.course.obstacles = play::Obstacles::if_any;
+    return o;
+}
+
+}  // namespace
+
+TEST_CASE("from the menu to the result: a lesson played by pointing, pressing and dragging") {
+    Desk desk(options("cover-m8", true));
+    desk.frame();
+    CHECK(desk.app().shows() == Shows::menu);
+    REQUIRE(desk.push("Start"));
+    desk.frame();
+    REQUIRE(desk.app().shows() == Shows::lesson);
+    Person person(desk);
+    if (test::sanitized) {  // ten times slower: the nuts are run down, and one is tightened
+        person.play(400.0, 5);
+        CHECK(desk.playing().course->lesson().current == 5);
+        return;
+    }
+    person.play(400.0);
+    REQUIRE(desk.played());
+    CHECK(desk.app().shows() == Shows::result);
+    const lesson::LessonResult& result = desk.played()->result;
+    CHECK(result.finished);
+    CHECK(result.score > 85.0);
+    MESSAGE("score " << result.score << " in " << result.duration << " s, " << person.presses
+                     << " presses, looked " << person.looks << " times for a nut");
+    for (const lesson::JointResult& joint : result.joints) CHECK(joint.order_errors == 0);
+    desk.frame();
+    const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
+    REQUIRE(reader);
+    CHECK(reader->complete());
+    CHECK(reader->header().operator_name == "person");
+    // And again, or back to the menu.
+    REQUIRE(desk.push("Menu"));
+    CHECK(desk.app().shows() == Shows::menu);
+    desk.frame();
+    REQUIRE(desk.push("Quit"));
+    CHECK(desk.app().closed());
+}
+
+TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
+    Desk desk(options("cover-m8", false));
+    desk.frame();
+    REQUIRE(desk.app().shows() == Shows::lesson);
+    desk.frame();
+    const double before = desk.playing().course->time();
+    CHECK(before > 0.0);
+    desk.key(platform::Key::escape);
+    const double paused = desk.playing().course->time();
+    for (int i = 0; i < 5; ++i) desk.frame();
+    CHECK(desk.playing().course->time() == paused);
+    REQUIRE(desk.push("Go on"));
+    desk.frame();
+    CHECK(desk.playing().course->time() > paused);
+    desk.key(platform::Key::escape);
+    desk.frame();
+    REQUIRE(desk.push("End the lesson"));
+    desk.frame();
+    REQUIRE(desk.played());
+    CHECK_FALSE(desk.played()->result.finished);
+    CHECK(desk.app().shows() == Shows::result);
+    const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
+    REQUIRE(reader);
+    CHECK(reader->complete());
+}
+
+TEST_CASE("an assembly that is not there: the menu says so and stays") {
+    Desk desk(options("no-such-thing", true));
+    desk.frame();
+    REQUIRE(desk.push("Start"));
+    desk.frame();
+    CHECK(desk.app().shows() == Shows::menu);
+    REQUIRE(desk.app().trouble());
+    CHECK(desk.app().trouble()->message().find("no-such-thing") != std::string::npos);
+}
