@@ -94,7 +94,7 @@ Status App::place_on_gpu() {
     return {};
 }
 
-Status App::begin_lesson() {
+Status App::begin_lesson(float aspect) {
     const Choice& choice = options_.choice;
     content::Loaded loaded = content::load_assembly(choice.assembly, choice.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
@@ -128,8 +128,15 @@ Status App::begin_lesson() {
     p.shoulder = Vec3(p.place.machine.high) + Vec3(0.35, 0.3, 0.4);
     const std::vector<view::Viewpoint>& views = shelf_->machine.views;
     const view::Viewpoint first =
-        views.empty() ? view::framed(p.place.machine, view::usual_fov, 16.0F / 9.0F) : views.front();
-    p.camera.jump(view::orbit_of(first));
+        views.empty() ? view::framed(p.place.machine, view::usual_fov, aspect) : views.front();
+    // The wrench is in the first picture too: it is what one reaches for.
+    render::Box all = p.place.machine;
+    for (const double along : {-0.1, 1.2}) {
+        const glm::vec3 end(p.hand.rest * Vec3(along * setup.wrench.handle_length, 0.0, 0.0));
+        all.low = glm::min(all.low, end);
+        all.high = glm::max(all.high, end);
+    }
+    p.camera.jump(view::framing(view::orbit_of(first), all, aspect));
     played_.reset();
     shows_ = Shows::lesson;
     tell(fmt::format("lesson begun: {} {}, {}", assembly_.name, assembly_.variant,
@@ -166,7 +173,8 @@ void App::tell_events() {
 Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, VkExtent2D size, float scale,
                   double seconds) {
     if (std::exchange(start_wished_, false)) {
-        if (Status begun = begin_lesson(); !begun) {
+        if (Status begun = begin_lesson(static_cast<float>(size.width) / static_cast<float>(size.height));
+            !begun) {
             if (begun.error().lost || !options_.menu) return begun;
             trouble_ = begun.error();
             tell(begun.error().message());
@@ -190,7 +198,11 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         Frame now{p, seconds, extent, apply(p.controls, events, mine), &*on_->fonts, {}};
         if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.paused = !p.paused;
         full_screen_ = full_screen_ || now.wanted.wants(Action::full_screen);
+        const bool had_wrench = p.hand.wrench;
         ecs::run(frame_systems, p.place.world, now);
+        if (p.hand.wrench != had_wrench)
+            tell(fmt::format("{:7.2f} s  the wrench is {}", p.course->time(),
+                             p.hand.wrench ? "in the hand" : "laid down"));
         tell_events();
         if (!now.status) return now.status;
         if (p.course->over() && shows_ == Shows::lesson)
@@ -198,8 +210,12 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         eye = screen_of(p, extent).eye;
         scene = &p.scene;
     }
-    for (const platform::Event& event : events)
+    for (const platform::Event& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
+        const auto* key = std::get_if<platform::KeyEvent>(&event);
+        const bool enter = key != nullptr && key->key == platform::Key::enter && key->down && !key->repeated;
+        start_wished_ = start_wished_ || (enter && shows_ != Shows::lesson);
+    }
     render::Renderer& renderer = *on_->painter->renderer;
     if (Status drawn = renderer.render(frame, *scene, std::span(&eye, 1), size); !drawn) return drawn;
     if (Status begun = ui.begin(frame, input_); !begun) return begun;

@@ -74,7 +74,7 @@ class App {
 
   private:
     struct OnGpu;
-    Status begin_lesson();
+    Status begin_lesson(float aspect);
     Status place_on_gpu();
     void draw_interface(const glm::dvec2& size);
     void draw_menu(const glm::dvec2& size);
