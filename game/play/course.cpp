@@ -7,12 +7,12 @@ namespace bolt::play {
 
 namespace {
 
-record::Header header_of(const content::Assembly& assembly, const CourseOptions& options,
-                         const std::optional<TouchModels>& models) {
+record::Header header_of(const Prepared& at, const CourseOptions& options) {
+    const content::Assembly& assembly = at.assembly;
     record::Header header;
     header.guide = options.guide && options.mode == lesson::Mode::guided ? "on" : "off";
-    header.obstacles = models ? models->files : "none";
-    if (models) header.obstacle_names = models->names;
+    header.obstacles = at.obstacles;
+    header.obstacle_names = at.obstacle_names;
     header.device = record::text_of(options.device);
     header.servo = "virtual time";
     header.assembly = assembly.name;
@@ -48,26 +48,37 @@ Result<std::optional<TouchModels>> obstacles_of(const content::Assembly& assembl
 
 Course::~Course() = default;
 
+Result<Prepared> prepare(const content::Assembly& given, const CourseOptions& options) {
+    Prepared at;
+    at.assembly = lesson::under_law(given, options.law);
+    at.setup = make_setup(at.assembly, options.law, options.device, options.seed, options.dt);
+    at.state = servo::initial_state(at.setup);
+    if (options.task == lesson::Task::loosen)
+        if (Status tight = pretighten(at.assembly, at.setup, at.state); !tight) return fail(tight.error());
+    Result<std::optional<TouchModels>> models = obstacles_of(at.assembly, at.setup, options.obstacles);
+    if (!models) return fail(models.error());
+    if (!models->has_value()) return at;
+    at.obstacles = (*models)->files;
+    at.obstacle_names = std::move((*models)->names);
+    at.state.touch = std::move((*models)->touch);
+    return at;
+}
+
 Result<std::unique_ptr<Course>> Course::begin(const content::Assembly& given, const CourseOptions& options,
                                               const std::filesystem::path& file) {
     std::unique_ptr<Course> course(new Course);
     Course& c = *course;
-    c.assembly_ = lesson::under_law(given, options.law);
-    c.setup_ = make_setup(c.assembly_, options.law, options.device, options.seed, options.dt);
-    c.state_ = servo::initial_state(c.setup_);
-    if (options.task == lesson::Task::loosen)
-        if (Status tight = pretighten(c.assembly_, c.setup_, c.state_); !tight) return fail(tight.error());
-    Result<std::optional<TouchModels>> models = obstacles_of(c.assembly_, c.setup_, options.obstacles);
-    if (!models) return fail(models.error());
-    Result<record::Writer> created = record::Writer::create(file, header_of(c.assembly_, options, *models));
+    Result<Prepared> prepared = prepare(given, options);
+    if (!prepared) return fail(prepared.error());
+    c.at_ = std::move(*prepared);
+    Result<record::Writer> created = record::Writer::create(file, header_of(c.at_, options));
     if (!created) return fail(created.error());
     c.writer_.emplace(std::move(*created));
-    if (models->has_value()) c.state_.touch = std::move((*models)->touch);
 
-    c.lesson_ = lesson::begin(c.assembly_, options.mode, options.task);
+    c.lesson_ = lesson::begin(c.at_.assembly, options.mode, options.task);
     c.lesson_.guides = c.lesson_.guides && options.guide;
     for (std::size_t i = 0; i < c.lesson_.joints.size(); ++i)
-        if (Status kept = c.writer_->update(lesson::judge_joint(c.lesson_, i, c.state_)); !kept)
+        if (Status kept = c.writer_->update(lesson::judge_joint(c.lesson_, i, c.at_.state)); !kept)
             return fail(kept.error());
     return course;
 }
@@ -77,14 +88,14 @@ Status Course::keep_events() {
         if (Status added = writer_->add(event); !added) return added;
         if (event.kind != "step_end" && event.kind != "release") continue;
         const auto joint = static_cast<std::size_t>(event.joint);
-        if (Status kept = writer_->update(lesson::judge_joint(lesson_, joint, state_)); !kept) return kept;
+        if (Status kept = writer_->update(lesson::judge_joint(lesson_, joint, at_.state)); !kept) return kept;
     }
     return {};
 }
 
 Result<servo::Output> Course::step(const servo::Input& input, std::vector<lesson::Event> noticed) {
-    const servo::Output output = servo::tick(setup_, state_, input);
-    lesson::observe(lesson_, state_, output);
+    const servo::Output output = servo::tick(at_.setup, at_.state, input);
+    lesson::observe(lesson_, at_.state, output);
     events_.clear();
     std::swap(events_, lesson_.events);
     for (lesson::Event& seen : noticed) events_.push_back(std::move(seen));
@@ -94,7 +105,7 @@ Result<servo::Output> Course::step(const servo::Input& input, std::vector<lesson
 }
 
 Played Course::judged() const {
-    return {lesson::judge(lesson_, state_, setup_.dt), state_.touch.has_value()};
+    return {lesson::judge(lesson_, at_.state, at_.setup.dt), at_.state.touch.has_value()};
 }
 
 Result<Played> Course::finish() {

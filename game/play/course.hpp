@@ -31,6 +31,16 @@ struct CourseOptions {
     force::OutputLimits device;  // what a 6-DoF arm of the Virtuose class renders, unless said otherwise
 };
 
+// What a lesson begins with.
+struct Prepared {
+    content::Assembly assembly;  // as its law has it
+    servo::Setup setup;
+    servo::State state;
+    std::string obstacles = "none";  // files, as record::Header has them
+    std::vector<record::ObstacleName> obstacle_names;
+};
+Result<Prepared> prepare(const content::Assembly& given, const CourseOptions& options);
+
 // How a lesson came out, and what it was played among.
 struct Played {
     lesson::LessonResult result;
@@ -54,13 +64,13 @@ class Course {
     // What happened in the last tick.
     [[nodiscard]] std::span<const lesson::Event> events() const { return events_; }
 
-    [[nodiscard]] const content::Assembly& assembly() const { return assembly_; }
-    [[nodiscard]] const servo::Setup& setup() const { return setup_; }
-    [[nodiscard]] const servo::State& state() const { return state_; }
+    [[nodiscard]] const content::Assembly& assembly() const { return at_.assembly; }
+    [[nodiscard]] const servo::Setup& setup() const { return at_.setup; }
+    [[nodiscard]] const servo::State& state() const { return at_.state; }
     [[nodiscard]] const lesson::Lesson& lesson() const { return lesson_; }
-    [[nodiscard]] double time() const { return static_cast<double>(state_.tick) * setup_.dt; }  // s
+    [[nodiscard]] double time() const { return static_cast<double>(at_.state.tick) * at_.setup.dt; }  // s
     [[nodiscard]] bool over() const { return lesson_.due() == nullptr; }
-    [[nodiscard]] bool obstacles() const { return state_.touch.has_value(); }
+    [[nodiscard]] bool obstacles() const { return at_.state.touch.has_value(); }
 
     // As it stands; and the same written, after which there are no more ticks.
     [[nodiscard]] Played judged() const;
@@ -70,9 +80,7 @@ class Course {
     Course() = default;
     Status keep_events();
 
-    content::Assembly assembly_;
-    servo::Setup setup_;
-    servo::State state_;
+    Prepared at_;
     lesson::Lesson lesson_;
     std::vector<lesson::Event> events_;
     std::optional<record::Writer> writer_;

@@ -75,6 +75,19 @@ void outline_tool(World& world, const glm::vec4& color) {
         [&](ecs::Entity entity, const OnTool&) { outline(world, entity, color); });
 }
 
+render::Scene lit(const Workplace& place, const render::EnvironmentLight& light) {
+    render::Scene scene;
+    scene.environment = &light;
+    render::SceneLight key;
+    key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
+    key.light.color = glm::vec4(1.6F, 1.55F, 1.5F, 0.0F);
+    key.casts_shadow = true;
+    scene.lights.push_back(key);
+    scene.background = {0.10F, 0.11F, 0.12F, 1.0F};
+    scene.occlusion_radius = 0.04F * glm::distance(place.machine.low, place.machine.high);
+    return scene;
+}
+
 void present(World& world, render::Scene& scene) {
     scene.objects.clear();
     world.view<const Drawn, const Placement>().each(

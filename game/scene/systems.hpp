@@ -25,6 +25,9 @@ void place_hand(World& world, const Postures& postures, const Held& held);
 void outline_joint(World& world, std::size_t joint, const glm::vec4& color);
 void outline_tool(World& world, const glm::vec4& color);
 
+// A scene without anything in it yet, in the workshop's light and a lamp's over the left shoulder.
+render::Scene lit(const Workplace& place, const render::EnvironmentLight& light);
+
 // Everything there is, as the renderer takes it; lights, labels and background are left as they are.
 void present(World& world, render::Scene& scene);
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "content/format/load.hpp"
-#include "game/play/course.hpp"
+#include "game/scene/resting_place.hpp"
 #include "game/trainer/hud.hpp"
 #include "game/trainer/ui_input.hpp"
 
@@ -81,16 +81,7 @@ Status App::place_on_gpu() {
         scene::make_workplace(*shelf_, *on_->shelf, p.course->assembly(), p.course->setup());
     if (!place) return fail(place.error());
     p.place = std::move(*place);
-    render::Scene& scene = p.scene;
-    scene = {};
-    scene.environment = &on_->shelf->light;
-    render::SceneLight key;
-    key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
-    key.light.color = glm::vec4(1.6F, 1.55F, 1.5F, 0.0F);
-    key.casts_shadow = true;
-    scene.lights.push_back(key);
-    scene.background = {0.10F, 0.11F, 0.12F, 1.0F};
-    scene.occlusion_radius = 0.04F * glm::distance(p.place.machine.low, p.place.machine.high);
+    p.scene = scene::lit(p.place, on_->shelf->light);
     return {};
 }
 
@@ -121,11 +112,10 @@ Status App::begin_lesson(float aspect) {
     if (Status placed = place_on_gpu(); !placed) return placed;
     const servo::Setup& setup = p.course->setup();
     const servo::State& state = p.course->state();
-    p.hand = make_hand(resting_place(Vec3(p.place.machine.low), Vec3(p.place.machine.high),
-                                     assembly_.wrench.head_thickness));
+    p.hand = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness));
     p.postures =
         scene::make_postures(state.touch ? &state.touch->wrench : nullptr, setup.wrench.handle_length);
-    p.shoulder = Vec3(p.place.machine.high) + Vec3(0.35, 0.3, 0.4);
+    p.shoulder = scene::shoulder_at(p.place.machine);
     const std::vector<view::Viewpoint>& views = shelf_->machine.views;
     const view::Viewpoint first =
         views.empty() ? view::framed(p.place.machine, view::usual_fov, aspect) : views.front();

@@ -202,12 +202,6 @@ MouseHand make_hand(const Pose& rest) {
     return hand;
 }
 
-Pose resting_place(const Vec3& low, const Vec3& high, double head_thickness) {
-    // The handle to the right, the jaw's normal up.
-    const Quat flat = glm::angleAxis(-0.5 * pi, Vec3(1, 0, 0));
-    return {{0.5 * (low.x + high.x), low.y + 0.5 * head_thickness + 0.002, high.z + 0.06}, flat};
-}
-
 void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo::State& state) {
     hand.held = w.held;
     hand.spin = std::clamp(w.spin, -1.0, 1.0);

@@ -58,9 +58,6 @@ struct MouseHand {
 // The hand at rest where the wrench lies.
 MouseHand make_hand(const Pose& rest);
 
-// Where a wrench lies for an assembly that fills this box: before it, its handle along x.
-Pose resting_place(const Vec3& low, const Vec3& high, double head_thickness);
-
 void wish(MouseHand& hand, const Wish& wish, const servo::Setup& setup, const servo::State& state);
 
 // One tick. Without the guiding force: `guide` is the lesson's to fill in.

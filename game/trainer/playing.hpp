@@ -56,7 +56,8 @@ struct Playing {
     operators::Sight sight;
     double unseen = 0.0;  // s that what is due has been out of sight
     bool paused = false, finished = false;
-    double lagged = 0.0;  // s that the lesson's time fell behind the clock's: a slow machine
+    bool clamp_map = false;  // the clamp force of every joint is shown
+    double lagged = 0.0;     // s that the lesson's time fell behind the clock's: a slow machine
 };
 
 }  // namespace bolt::trainer

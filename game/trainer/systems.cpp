@@ -1,11 +1,10 @@
 #include "game/trainer/systems.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "game/trainer/find_view.hpp"
+#include "game/scene/find_view.hpp"
+#include "game/scene/labels.hpp"
 #include "game/view/label_places.hpp"
 #include "game/view/result_pictures.hpp"
 
@@ -20,8 +19,7 @@ constexpr double wrench_reach = 22.0;                  // px beside a wrench tha
 constexpr double lost_below = 0.15, lost_after = 1.5;  // of nut and jaw; s
 constexpr std::size_t most_plotted = 4000;
 
-constexpr glm::vec4 due_color{1.0F, 0.78F, 0.1F, 1.0F}, under_color{0.9F, 0.95F, 1.0F, 0.8F}, nothing{0.0F},
-    plate{0.06F, 0.07F, 0.08F, 0.82F}, white{0.95F, 0.96F, 0.97F, 1.0F};
+constexpr glm::vec4 under_color{0.9F, 0.95F, 1.0F, 0.8F}, nothing{0.0F};
 
 std::vector<Vec3> centres_of(const play::Course& course) {
     std::vector<Vec3> centres;
@@ -85,11 +83,11 @@ std::optional<std::size_t> at_work(const Playing& p) {
     return due != nullptr ? std::optional(due->joint) : std::nullopt;
 }
 
-ViewOf view_of(const Playing& p, std::size_t joint) {
+scene::ViewOf view_of(const Playing& p, std::size_t joint) {
     const servo::Setup& setup = p.course->setup();
     const servo::State& state = p.course->state();
-    ViewOf of{setup, state.touch ? &*state.touch : nullptr, joint,
-              servo::nut_centre(setup.nuts[joint], state.joints[joint].nut.angle), std::nullopt};
+    scene::ViewOf of{setup, state.touch ? &*state.touch : nullptr, joint,
+                     servo::nut_centre(setup.nuts[joint], state.joints[joint].nut.angle), std::nullopt};
     if (p.hand.wrench && p.hand.nut == joint) of.wrench = p.output.tool;
     return of;
 }
@@ -97,7 +95,7 @@ ViewOf view_of(const Playing& p, std::size_t joint) {
 void look_at_work(Playing& p) {
     const auto joint = at_work(p);
     if (!joint) return;
-    p.camera.go(find_view(view_of(p, *joint), p.sight, p.camera.goal));
+    p.camera.go(scene::find_view(view_of(p, *joint), p.sight, p.camera.goal));
     p.unseen = 0.0;
 }
 
@@ -105,34 +103,15 @@ void look_at_work(Playing& p) {
 bool lost(Playing& p, const Frame& frame) {
     const auto joint = at_work(p);
     if (!joint || p.course->lesson().mode == lesson::Mode::assessment || p.finished || p.paused) return false;
-    const ViewOf of = view_of(p, *joint);
+    const scene::ViewOf of = view_of(p, *joint);
     const Screen screen = screen_of(p, frame.size);
     const auto at = project(screen, of.nut);
     const glm::dvec2 edge = 0.04 * frame.size;
     const bool inside = at && at->x > edge.x && at->y > edge.y && at->x < frame.size.x - edge.x &&
                         at->y < frame.size.y - edge.y;
-    const bool seen = inside && seen_from(of, p.sight, Vec3(screen.eye.position)) > lost_below;
+    const bool seen = inside && scene::seen_from(of, p.sight, Vec3(screen.eye.position)) > lost_below;
     p.unseen = seen ? 0.0 : p.unseen + frame.seconds;
     return p.unseen > lost_after;
-}
-
-render::Label label(std::string text, const Vec3& at, float height) {
-    render::Label l;
-    l.text = std::move(text);
-    l.position = glm::vec3(at);
-    l.height = height;
-    l.anchor = {0.5F, 0.0F};
-    l.plate = plate;
-    l.color = white;
-    l.through = 1.0F;
-    return l;
-}
-
-glm::vec4 torque_color(const content::Window& window, double torque, double share) {
-    const double low = share * window.low, high = window.high;
-    return torque > high   ? glm::vec4(1.0F, 0.35F, 0.3F, 1.0F)
-           : torque >= low ? glm::vec4(0.45F, 0.95F, 0.5F, 1.0F)
-                           : white;
 }
 
 }  // namespace
@@ -213,14 +192,14 @@ void lesson_system(scene::World& world, Frame& frame) {
     const bool help = lesson.mode == lesson::Mode::guided;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         glm::vec4 color = nothing;
-        if (help && due != nullptr && due->joint == i) color = due_color;
+        if (help && due != nullptr && due->joint == i) color = scene::due_color;
         if (p.under == i && !p.finished) color = under_color;
         if (p.finished) color = view::verdict_color(lesson.joints[i].result);
         scene::outline_joint(world, i, color);
     }
     const bool wants_wrench = help && due != nullptr && due->kind != lesson::StepKind::run_down;
     scene::outline_tool(world, p.over_wrench                    ? under_color
-                               : wants_wrench && !p.hand.wrench ? due_color
+                               : wants_wrench && !p.hand.wrench ? scene::due_color
                                                                 : nothing);
 }
 
@@ -247,38 +226,28 @@ void label_system(scene::World&, Frame& frame) {
     Playing& p = frame.playing;
     const play::Course& course = *p.course;
     const servo::Setup& setup = course.setup();
-    p.scene.labels.clear();
-    const auto above = [&](std::size_t joint) {
-        const servo::NutPlace& nut = setup.nuts[joint];
-        return servo::nut_centre(nut, course.state().joints[joint].nut.angle) + 0.03 * nut.axis;
-    };
+    const servo::State& state = course.state();
     const lesson::Step* due = course.lesson().due();
-    if (p.output.joint >= 0 && !p.finished) {
-        const auto joint = static_cast<std::size_t>(p.output.joint);
-        const content::Specification& spec = course.assembly().joints[joint].spec;
-        const double torque = std::abs(p.output.wrench_torque);
-        const bool fits = due != nullptr && due->joint == joint;
-        const double share = fits && due->kind == lesson::StepKind::tighten ? due->fraction : 1.0;
-        render::Label figure =
-            label(p.hand.wrench ? fmt::format("{:.0f} N·m   {:.0f}°   {}", torque,
-                                              to_degrees(p.output.nut_angle), joint::name(p.output.stage))
-                                : fmt::format("{:.1f} turns", p.output.nut_angle / (2.0 * pi)),
-                  above(joint), 22.0F);
-        if (p.hand.wrench) figure.color = torque_color(spec.torque, torque, share);
-        figure.moved_px = {0.0F, 34.0F};
-        p.scene.labels.push_back(figure);
-    }
+    p.scene.labels.clear();
+    if (frame.wanted.wants(Action::flange_map)) p.clamp_map = !p.clamp_map;
+    if (!p.finished)
+        if (auto figure = scene::work_label(course.assembly(), setup, state, p.output, due, p.hand.wrench))
+            p.scene.labels.push_back(*figure);
     const auto named = [&](std::size_t joint, const glm::vec4& color) {
-        render::Label l = label(course.assembly().joints[joint].design.id, above(joint), 16.0F);
-        l.color = color;
-        l.moved_px = {0.0F, 8.0F};
-        p.scene.labels.push_back(l);
+        render::Label label = scene::plate(course.assembly().joints[joint].design.id,
+                                           scene::above_nut(setup, state, joint), 16.0F);
+        label.color = color;
+        label.moved_px = {0.0F, 8.0F};
+        p.scene.labels.push_back(label);
     };
-    if (p.finished)
-        for (std::size_t i = 0; i < setup.nuts.size(); ++i) named(i, white);
-    else if (due != nullptr && course.lesson().mode == lesson::Mode::guided)
-        named(due->joint, due_color);
-    if (p.under && !p.finished && (due == nullptr || *p.under != due->joint)) named(*p.under, white);
+    const bool guided = course.lesson().mode == lesson::Mode::guided;
+    const std::size_t marked = due != nullptr && guided ? due->joint : SIZE_MAX;
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
+        if (p.clamp_map || p.finished)
+            p.scene.labels.push_back(scene::clamp_label(course.assembly(), setup, state, i));
+        else if (i == marked || p.under == i)
+            named(i, i == marked ? scene::due_color : scene::label_color);
+    }
     const Screen screen = screen_of(p, frame.size);
     if (frame.fonts != nullptr)
         view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size));

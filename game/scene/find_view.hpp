@@ -7,7 +7,7 @@
 #include "game/operators/sight.hpp"
 #include "game/view/orbit.hpp"
 
-namespace bolt::trainer {
+namespace bolt::scene {
 
 struct ViewOf {
     const servo::Setup& setup;
@@ -26,4 +26,4 @@ inline constexpr double well_seen = 0.6;
 // The view nearest to `from` in which it is well seen, or the one in which most is; near enough to work by.
 view::Orbit find_view(const ViewOf& of, operators::Sight& sight, const view::Orbit& from);
 
-}  // namespace bolt::trainer
+}  // namespace bolt::scene

@@ -1,10 +1,10 @@
-#include "game/trainer/find_view.hpp"
+#include "game/scene/find_view.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace bolt::trainer {
+namespace bolt::scene {
 
 namespace {
 
@@ -49,4 +49,4 @@ view::Orbit find_view(const ViewOf& of, operators::Sight& sight, const view::Orb
     return best;
 }
 
-}  // namespace bolt::trainer
+}  // namespace bolt::scene

@@ -1,0 +1,53 @@
+// A lesson that was recorded, drawn: the workplace as it was at any moment, from any view.
+#pragma once
+
+#include "engine/render/picture.hpp"
+#include "engine/text/fonts.hpp"
+#include "game/play/replay.hpp"
+#include "game/scene/find_view.hpp"
+#include "game/scene/systems.hpp"
+#include "game/view/orbit.hpp"
+#include "game/view/painter.hpp"
+
+namespace bolt::film {
+
+struct FilmOptions {
+    std::string view;  // of the assembly; empty: follows the work
+    VkExtent2D size{1280, 720};
+    std::string gpu;
+    bool validate = false;
+};
+
+class Film {
+  public:
+    // Errors: no GPU, a model that cannot be drawn, a view that the assembly has not.
+    static Result<std::unique_ptr<Film>> create(const play::Prepared& at, const FilmOptions& options);
+    Film(const Film&) = delete;
+    Film& operator=(const Film&) = delete;
+    ~Film();
+
+    // `seconds`: since the picture before; the camera glides, and fingers bend, meanwhile.
+    Result<render::Picture> draw(const play::Moment& moment, double seconds);
+
+    // What the validation layers said, if they were asked for.
+    [[nodiscard]] Status no_messages() const;
+
+  private:
+    struct OnGpu;
+    Film() = default;
+    void follow(const play::Moment& moment);
+
+    FilmOptions options_;
+    content::Assembly assembly_;
+    std::unique_ptr<OnGpu> on_;
+    scene::Workplace place_;
+    scene::Postures postures_;
+    render::Scene scene_;
+    view::Glide camera_;
+    operators::Sight sight_;
+    std::optional<std::size_t> followed_;
+    Pose rest_;
+    double pinch_ = 0.0;
+};
+
+}  // namespace bolt::film

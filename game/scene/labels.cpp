@@ -1,0 +1,64 @@
+#include "game/scene/labels.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace bolt::scene {
+
+namespace {
+
+constexpr glm::vec4 plate_color{0.06F, 0.07F, 0.08F, 0.82F}, enough{0.45F, 0.95F, 0.5F, 1.0F},
+    too_much{1.0F, 0.35F, 0.3F, 1.0F};
+
+glm::vec4 torque_color(const content::Window& window, double torque, double share) {
+    if (torque > window.high) return too_much;
+    return torque >= share * window.low ? enough : label_color;
+}
+
+}  // namespace
+
+render::Label plate(std::string text, const Vec3& at, float height) {
+    render::Label label;
+    label.text = std::move(text);
+    label.position = glm::vec3(at);
+    label.height = height;
+    label.anchor = {0.5F, 0.0F};
+    label.plate = plate_color;
+    label.color = label_color;
+    label.through = 1.0F;
+    return label;
+}
+
+Vec3 above_nut(const servo::Setup& setup, const servo::State& state, std::size_t joint) {
+    const servo::NutPlace& nut = setup.nuts[joint];
+    return servo::nut_centre(nut, state.joints[joint].nut.angle) + 0.03 * nut.axis;
+}
+
+std::optional<render::Label> work_label(const content::Assembly& assembly, const servo::Setup& setup,
+                                        const servo::State& state, const servo::Output& output,
+                                        const lesson::Step* due, bool wrench) {
+    if (output.joint < 0) return std::nullopt;
+    const auto joint = static_cast<std::size_t>(output.joint);
+    const double torque = std::abs(output.wrench_torque);
+    const bool fits = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
+    render::Label label = plate(wrench ? fmt::format("{:.0f} N·m   {:.0f}°   {}", torque,
+                                                     to_degrees(output.nut_angle), joint::name(output.stage))
+                                       : fmt::format("{:.1f} turns", output.nut_angle / (2.0 * pi)),
+                                above_nut(setup, state, joint), 22.0F);
+    if (wrench)
+        label.color = torque_color(assembly.joints[joint].spec.torque, torque, fits ? due->fraction : 1.0);
+    label.moved_px = {0.0F, 34.0F};
+    return label;
+}
+
+render::Label clamp_label(const content::Assembly& assembly, const servo::Setup& setup,
+                          const servo::State& state, std::size_t joint) {
+    render::Label label =
+        plate(fmt::format("{} {:.1f} kN", assembly.joints[joint].design.id, state.joints[joint].clamp / 1e3),
+              above_nut(setup, state, joint), 15.0F);
+    label.moved_px = {0.0F, 8.0F};
+    return label;
+}
+
+}  // namespace bolt::scene
