@@ -107,12 +107,15 @@ Result<render::Picture> Film::draw(const play::Moment& moment, double seconds) {
     scene::place_nuts(place_.world, moment.setup, moment.state.joints);
     scene::place_tool(place_.world, held);
     scene::place_hand(place_.world, postures_, held);
+    scene_.cut_away.strength = 0.0F;
+    if (const auto joint = at_work(moment); joint && moment.output.joint >= 0)
+        scene::keep_in_sight(place_.world, scene_, moment.setup, moment.state, *joint);
     scene::present(place_.world, scene_);
     follow(moment);
     (void)camera_.advance(seconds);
     scene_.labels.clear();
-    if (const auto label = scene::work_label(assembly_, moment.setup, moment.state, moment.output,
-                                             moment.lesson.due(), wrench))
+    if (const auto label =
+            scene::work_label(moment.lesson, moment.setup, moment.state, moment.output, wrench))
         scene_.labels.push_back(*label);
     const float aspect = static_cast<float>(options_.size.width) / static_cast<float>(options_.size.height);
     const render::Eye eye = view::eye_of(camera_.shown, render::bounds(scene_), aspect);

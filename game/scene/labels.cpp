@@ -35,19 +35,22 @@ Vec3 above_nut(const servo::Setup& setup, const servo::State& state, std::size_t
     return servo::nut_centre(nut, state.joints[joint].nut.angle) + 0.03 * nut.axis;
 }
 
-std::optional<render::Label> work_label(const content::Assembly& assembly, const servo::Setup& setup,
-                                        const servo::State& state, const servo::Output& output,
-                                        const lesson::Step* due, bool wrench) {
+std::optional<render::Label> work_label(const lesson::Lesson& lesson, const servo::Setup& setup,
+                                        const servo::State& state, const servo::Output& output, bool wrench) {
     if (output.joint < 0) return std::nullopt;
     const auto joint = static_cast<std::size_t>(output.joint);
+    const lesson::JointTrack& track = lesson.joints[joint];
+    const lesson::Step* due = lesson.due();
     const double torque = std::abs(output.wrench_torque);
+    const double angle = output.nut_angle - (track.snug ? track.snug_angle : track.begin_angle);
     const bool fits = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
-    render::Label label = plate(wrench ? fmt::format("{:.0f} N·m   {:.0f}°   {}", torque,
-                                                     to_degrees(output.nut_angle), joint::name(output.stage))
+    render::Label label = plate(wrench ? fmt::format("{:.0f} N·m   {:+.0f}°   {}", torque, to_degrees(angle),
+                                                     joint::name(output.stage))
                                        : fmt::format("{:.1f} turns", output.nut_angle / (2.0 * pi)),
                                 above_nut(setup, state, joint), 22.0F);
     if (wrench)
-        label.color = torque_color(assembly.joints[joint].spec.torque, torque, fits ? due->fraction : 1.0);
+        label.color =
+            torque_color(lesson.assembly->joints[joint].spec.torque, torque, fits ? due->fraction : 1.0);
     label.moved_px = {0.0F, 34.0F};
     return label;
 }

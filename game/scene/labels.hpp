@@ -1,9 +1,8 @@
 // Figures that stand in the scene, at the place that they belong to.
 #pragma once
 
-#include "content/format/assembly.hpp"
 #include "engine/render/label.hpp"
-#include "game/lesson/plan.hpp"
+#include "game/lesson/lesson.hpp"
 #include "haptics/servo/tick.hpp"
 
 namespace bolt::scene {
@@ -17,13 +16,12 @@ render::Label plate(std::string text, const Vec3& at, float height);
 // Above a nut, where its name stands.
 Vec3 above_nut(const servo::Setup& setup, const servo::State& state, std::size_t joint);
 
-// Torque, angle and stage at the wrench, in the colour of how the torque lies to what is asked for; turns by
-// hand. None: nothing is held.
-std::optional<render::Label> work_label(const content::Assembly& assembly, const servo::Setup& setup,
-                                        const servo::State& state, const servo::Output& output,
-                                        const lesson::Step* due, bool wrench);
+// At the wrench: torque in the colour of how it lies to what is asked for, the angle since the joint was snug
+// (or since the step began, before it is), the stage; by hand the turns. None: nothing is held.
+std::optional<render::Label> work_label(const lesson::Lesson& lesson, const servo::Setup& setup,
+                                        const servo::State& state, const servo::Output& output, bool wrench);
 
-// Clamp force of a joint, and its share of what the joint is designed for.
+// Clamp force of a joint, with its name.
 render::Label clamp_label(const content::Assembly& assembly, const servo::Setup& setup,
                           const servo::State& state, std::size_t joint);
 

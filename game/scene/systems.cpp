@@ -75,6 +75,16 @@ void outline_tool(World& world, const glm::vec4& color) {
         [&](ecs::Entity entity, const OnTool&) { outline(world, entity, color); });
 }
 
+void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup, const servo::State& state,
+                   std::size_t joint) {
+    constexpr double kept_free = 0.9;  // of the nut's width, around its middle
+    const servo::NutPlace& nut = setup.nuts[joint];
+    scene.cut_away = {glm::vec3(servo::nut_centre(nut, state.joints[joint].nut.angle)),
+                      static_cast<float>(kept_free * nut.across_flats), 1.0F};
+    world.view<const OfJoint, CanFade>().each(
+        [&](const OfJoint& of, CanFade& can) { can.fades = of.joint != joint; });
+}
+
 render::Scene lit(const Workplace& place, const render::EnvironmentLight& light) {
     render::Scene scene;
     scene.environment = &light;

@@ -25,6 +25,10 @@ void place_hand(World& world, const Postures& postures, const Held& held);
 void outline_joint(World& world, std::size_t joint, const glm::vec4& color);
 void outline_tool(World& world, const glm::vec4& color);
 
+// What hides a nut fades: the machine, other joints, the hand.
+void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup, const servo::State& state,
+                   std::size_t joint);
+
 // A scene without anything in it yet, in the workshop's light and a lamp's over the left shoulder.
 render::Scene lit(const Workplace& place, const render::EnvironmentLight& light);
 

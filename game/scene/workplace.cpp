@@ -114,6 +114,7 @@ void add_hand(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
     for (const render::Object& object : rest.objects) {
         const ecs::Entity entity = add(place.world, object);
         place.world.get<Drawn>(entity).moves = true;
+        place.world.add<CanFade>(entity, true);
         place.world.add<Fingers>(entity, hand::Skeleton{}, shelf.hand.skins.front().inverse_bind, nullptr);
         place.hand = entity;
     }

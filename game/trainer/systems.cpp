@@ -210,16 +210,10 @@ void view_system(scene::World& world, Frame& frame) {
             view::framing(p.camera.goal, p.place.machine, static_cast<float>(frame.size.x / frame.size.y)));
     if (frame.wanted.wants(Action::find_view) || lost(p, frame)) look_at_work(p);
     (void)p.camera.advance(frame.seconds);
-    // What hides the nut at work fades.
-    const bool near = p.hand.nut && p.hand.doing != Doing::resting;
-    const std::optional<std::size_t> focus = at_work(p);
+    const bool helps = p.course->lesson().mode != lesson::Mode::assessment;
     p.scene.cut_away.strength = 0.0F;
-    if (!focus || p.course->lesson().mode == lesson::Mode::assessment) return;
-    const servo::NutPlace& nut = p.course->setup().nuts[*focus];
-    p.scene.cut_away = {glm::vec3(servo::nut_centre(nut, p.course->state().joints[*focus].nut.angle)),
-                        static_cast<float>(0.9 * nut.across_flats), near ? 1.0F : 0.0F};
-    world.view<const scene::OfJoint, scene::CanFade>().each(
-        [&](const scene::OfJoint& of, scene::CanFade& can) { can.fades = of.joint != *focus; });
+    if (p.hand.nut && p.hand.doing != Doing::resting && helps)
+        scene::keep_in_sight(world, p.scene, p.course->setup(), p.course->state(), *p.hand.nut);
 }
 
 void label_system(scene::World&, Frame& frame) {
@@ -231,7 +225,7 @@ void label_system(scene::World&, Frame& frame) {
     p.scene.labels.clear();
     if (frame.wanted.wants(Action::flange_map)) p.clamp_map = !p.clamp_map;
     if (!p.finished)
-        if (auto figure = scene::work_label(course.assembly(), setup, state, p.output, due, p.hand.wrench))
+        if (auto figure = scene::work_label(course.lesson(), setup, state, p.output, p.hand.wrench))
             p.scene.labels.push_back(*figure);
     const auto named = [&](std::size_t joint, const glm::vec4& color) {
         render::Label label = scene::plate(course.assembly().joints[joint].design.id,

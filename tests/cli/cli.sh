@@ -109,6 +109,17 @@ check "the same seed gives the same session among obstacles" bash -c "
 check "what was touched is named" bash -c "'$bin/boltwright' export solid/session.boltwright --csv - | grep -c ',B1_washer_nut,none' >/dev/null"
 expect 0 '"obstacles": false' cat a/summary.json
 expect 0 '"guide": true' cat a/summary.json
+
+# Played again: to the same bits, as a picture, as a film; what has changed since is noticed.
+expect 0 'all as they were recorded' "$bin/boltwright" replay solid/session.boltwright
+expect 0 'now.png' "$bin/boltwright" replay solid/session.boltwright --at 8 --png now.png --size 160x90 --validate
+check "the picture is there" test -s now.png
+expect 0 'film.mp4: 3 pictures' "$bin/boltwright" replay solid/session.boltwright --from 2 --until 2.25 --rate 10 --video film.mp4 --size 64x36
+check "the film is there" test -s film.mp4
+expect 2 'no view' "$bin/boltwright" replay solid/session.boltwright --at 8 --png now.png --view nowhere
+expect 1 'FFmpeg' env PATH=/nonexistent "$bin/boltwright" replay solid/session.boltwright --video no.mp4 --size 64x36
+expect 3 'format 2' "$bin/boltwright" replay "$sources/tests/data/format-1.boltwright"
+expect 2 '' "$bin/boltwright" replay solid/session.boltwright --at 8
 expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --no-obstacles --no-guide --out alone
 expect 0 '"guide": false' cat alone/summary.json
 bare="$sources/tests/data/cover.json"

@@ -6,6 +6,7 @@
 
 #include "content/format/load.hpp"
 #include "game/operators/operator.hpp"
+#include "game/play/replay.hpp"
 #include "game/play/servo_setup.hpp"
 #include "game/play/summary.hpp"
 #include "game/play/train.hpp"
@@ -183,27 +184,24 @@ TEST_CASE("a recorded lesson replays from its inputs to the same bits") {
     const auto reader = record::Reader::open(file);
     REQUIRE(reader.has_value());
     CHECK(reader->complete());
-    // From nothing but the file: the assembly's text, the seed and the inputs.
-    const content::Loaded loaded = content::parse_assembly(reader->header().assembly_text, "session");
-    REQUIRE(loaded.ok());
-    const servo::Setup setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, {},
-                                                reader->header().seed, reader->header().dt);
-    servo::State state = servo::initial_state(setup);
-    std::uint64_t ticks = 0, wrong = 0;
-    REQUIRE(reader->for_each_chunk([&](std::uint64_t, std::span<const record::TickRecord> chunk) {
-        for (const record::TickRecord& tick : chunk) {
-            const servo::Output output = servo::tick(setup, state, record::input_of(tick));
-            const record::TickRecord again = record::make_record(record::input_of(tick), output);
-            ++ticks;
-            if (again.wrench_torque != tick.wrench_torque || again.clamp != tick.clamp ||
-                again.nut_angle != tick.nut_angle || again.force[1] != tick.force[1] ||
-                again.joint != tick.joint)
-                ++wrong;
-        }
-    }));
-    CHECK(ticks == reader->tick_count());
-    CHECK(ticks > 100'000);
-    CHECK(wrong == 0);
+    // From the file: the assembly's text, the seed and the inputs.
+    auto at = play::prepare_again(*reader);
+    REQUIRE(at);
+    const auto replayed = play::replay(*reader, std::move(*at), [](const play::Moment&) { return true; });
+    REQUIRE(replayed);
+    CHECK(replayed->ticks == reader->tick_count());
+    CHECK(replayed->ticks > 100'000);
+    CHECK(replayed->wrong == 0);
+    // And it sees one that is not: another seed is another friction.
+    auto other = play::prepare_again(*reader);
+    REQUIRE(other);
+    other->setup = play::make_setup(other->assembly, joint::Law::mechanistic, {}, reader->header().seed + 1,
+                                    reader->header().dt);
+    const auto wrong = play::replay(*reader, std::move(*other),
+                                    [](const play::Moment& moment) { return moment.time < 60.0; });
+    REQUIRE(wrong);
+    CHECK(wrong->wrong > 0);
+    CHECK(wrong->first_wrong < wrong->ticks);
     std::filesystem::remove(file);
 }
 

@@ -5,6 +5,7 @@
 
 #include "game/lesson/lesson.hpp"
 #include "game/operators/operator.hpp"
+#include "game/play/replay.hpp"
 #include "game/play/train.hpp"
 #include "game/record/device_text.hpp"
 #include "tests/support/sanitized.hpp"
@@ -103,35 +104,19 @@ TEST_CASE("a lesson among obstacles replays from its session and the models that
     REQUIRE(play::train(loaded.assembly, options, file, [](const play::Progress&) { return true; }));
     const auto reader = record::Reader::open(file);
     REQUIRE(reader);
-    const record::Header& header = reader->header();
-    const auto device = record::limits_of(header.device);
-    REQUIRE(device);
-    const servo::Setup setup =
-        play::make_setup(loaded.assembly, joint::Law::mechanistic, *device, header.seed, header.dt);
-    auto models = play::load_touch_models(loaded.assembly, setup);
-    REQUIRE((models && models->has_value()));
-    CHECK((*models)->files == header.obstacles);
-    CHECK((*models)->names.size() == header.obstacle_names.size());
-    servo::State state = servo::initial_state(setup);
-    state.touch = std::move((*models)->touch);
-    std::uint64_t ticks = 0, wrong = 0, touched = 0;
-    REQUIRE(reader->for_each_chunk([&](std::uint64_t, std::span<const record::TickRecord> chunk) {
-        for (const record::TickRecord& tick : chunk) {
-            const Output output = servo::tick(setup, state, record::input_of(tick));
-            const record::TickRecord again = record::make_record(record::input_of(tick), output);
-            bool same = again.nut_angle == tick.nut_angle && again.joint == tick.joint &&
-                        again.contacts == tick.contacts && again.touched == tick.touched &&
-                        again.fault == tick.fault;
-            for (int i = 0; i < 3; ++i)
-                same = same && again.force[i] == tick.force[i] && again.torque[i] == tick.torque[i];
-            ++ticks;
-            wrong += same ? 0U : 1U;
-            touched += tick.touched >= 0 ? 1U : 0U;
-        }
-    }));
-    CHECK(ticks == reader->tick_count());
-    CHECK(ticks > 50'000);
+    auto at = play::prepare_again(*reader);
+    REQUIRE(at);
+    CHECK(at->obstacles == reader->header().obstacles);
+    CHECK(at->obstacle_names.size() == reader->header().obstacle_names.size());
+    std::uint64_t touched = 0;
+    const auto replayed = play::replay(*reader, std::move(*at), [&](const play::Moment& moment) {
+        touched += moment.output.touched >= 0 ? 1U : 0U;
+        return true;
+    });
+    REQUIRE(replayed);
+    CHECK(replayed->ticks == reader->tick_count());
+    CHECK(replayed->ticks > 50'000);
     CHECK(touched > 200);
-    CHECK(wrong == 0);
+    CHECK(replayed->wrong == 0);
     std::filesystem::remove(file);
 }
