@@ -11,8 +11,8 @@
 namespace bolt::record {
 
 inline constexpr std::int64_t application_id = 0x424F4C54;  // "BOLT", in SQLite's header
-// user_version; raised when an older program would misread. 2: contacts, faults, the servo's times.
-inline constexpr std::int64_t format_version = 2, oldest_format = 1;
+// user_version; raised when an older program would misread. 2: contacts, faults, the servo's times; 3: undo.
+inline constexpr std::int64_t format_version = 3, oldest_format = 1;
 
 // Angles are in radians: the unit that is computed in, so that what is read is what was written.
 inline constexpr const char* schema = R"(

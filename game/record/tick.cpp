@@ -24,6 +24,7 @@ TickRecord make_record(const servo::Input& input, const servo::Output& output) {
     record.contacts = output.contacts;
     record.touched = output.touched;
     record.fault = static_cast<std::uint8_t>(output.fault);
+    record.undo = input.undo;
     return record;
 }
 
@@ -37,13 +38,15 @@ servo::Input input_of(const TickRecord& record) {
     input.reset = (record.flags & flag_reset) != 0;
     input.missed = static_cast<std::uint8_t>(record.flags >> 4);
     input.guide = record.guide;
+    input.undo = record.undo;
     return input;
 }
 
 bool is_valid(const TickRecord& record) {
     constexpr auto last_grip = static_cast<std::uint8_t>(servo::Grip::wrench);
     return record.grip <= last_grip && record.stage < joint::stage_count && record.guide >= -1 &&
-           record.joint >= -1 && record.touched >= -1 && record.fault < force::fault_kinds;
+           record.joint >= -1 && record.touched >= -1 && record.fault < force::fault_kinds &&
+           (record.undo <= servo::most_marks || record.undo == servo::keep_mark);
 }
 
 }  // namespace bolt::record

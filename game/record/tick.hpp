@@ -24,6 +24,8 @@ struct TickRecord {
     std::uint16_t contacts = 0;  // of the wrench
     std::int16_t touched = -1;   // obstacle that it lies against, named in Header::obstacle_names
     std::uint8_t fault = 0;      // force::Fault of the output stage
+
+    std::uint8_t undo = 0;  // Input::undo; since format 3
 };
 
 // Of the input's small values; above them four bits of missed deadlines.

@@ -29,6 +29,10 @@ inline DeviceSample sample_of(const Pose& tool) {
     return sample;
 }
 
+// What Input::undo may ask for: the nuts as they are now are kept as a mark (the last `most_marks` are), or
+// all of them go back to the n-th last mark, 1 the last one.
+inline constexpr std::uint8_t most_marks = 8, keep_mark = 255;
+
 struct Input {
     DeviceSample device;
     Grip grip = Grip::none;
@@ -39,6 +43,8 @@ struct Input {
     bool stop = false;        // emergency stop pressed: latches
     bool reset = false;       // ends it, with the dead-man and the stop let go
     std::uint8_t missed = 0;  // deadlines without a tick since the one before, 15 at most
+    // See above; not while a nut is held, nor where the tool is so near to one that it could be in the way.
+    std::uint8_t undo = 0;
 };
 
 struct Output {
@@ -62,6 +68,7 @@ struct Output {
     double clamp = 0.0;          // N
 
     std::int16_t slipped = -1;  // joint over whose corners the jaw slipped in this tick; −1: none
+    std::uint8_t undone = 0;    // marks that the nuts went back by in this tick
     double rounded = 0.0;       // m of its flats that the engaged or slipped nut has lost at each corner
 };
 

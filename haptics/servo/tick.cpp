@@ -121,12 +121,36 @@ force::Wanted led(const Setup& setup, State& state, const ToolPose& tool, int jo
     return force::guide(setup.guiding, state.guide, {tool.position, jaw, tool.normal}, goal, free, setup.dt);
 }
 
+constexpr double out_of_the_way = 0.12;  // m, of a tool from nuts that are to leap
+
+// What an instructor's hand, or an undo, does between two ticks: no work of the trainee's.
+std::uint8_t go_back(const Setup& setup, State& state, const ToolPose& tool, std::uint8_t undo) {
+    if (undo == keep_mark) {
+        Mark& mark = state.marks.at(state.marked++ % most_marks);
+        std::copy(state.joints.begin(), state.joints.end(), mark.joints.begin());
+        std::copy(state.rounded.begin(), state.rounded.end(), mark.rounded.begin());
+        return 0;
+    }
+    if (undo == 0 || undo > std::min<std::uint32_t>(state.marked, most_marks)) return 0;
+    if (state.engagement.joint >= 0) return 0;
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i)
+        if (tool.valid && glm::distance(tool.position, nut_centre(setup.nuts[i], state.joints[i].nut.angle)) <
+                              out_of_the_way)
+            return 0;
+    const Mark& mark = state.marks.at((state.marked - undo) % most_marks);
+    std::copy(mark.joints.begin(), mark.joints.end(), state.joints.begin());
+    std::copy(mark.rounded.begin(), mark.rounded.end(), state.rounded.begin());
+    state.marked -= undo - 1U;  // what came after it is no more; the mark itself stays
+    return undo;
+}
+
 }  // namespace
 
 State initial_state(const Setup& setup) {
     State state;
     state.joints = joint::initial_state(setup.group, setup.nuts.size());
     state.rounded.assign(setup.nuts.size(), 0.0);
+    state.marks.fill({state.joints, state.rounded});
     return state;
 }
 
@@ -139,6 +163,7 @@ Output tick(const Setup& setup, State& state, const Input& input) {
 Output tick(const Setup& setup, State& state, const Input& input, force::Free free) {
     const FlushDenormals flush;
     const ToolPose hand = pose_of(input.device);
+    const std::uint8_t undone = input.undo != 0 ? go_back(setup, state, hand, input.undo) : std::uint8_t{0};
     const Grip grip = input.enabled ? input.grip : Grip::none;
     force::Wanted bumps;
     ToolPose tool = hand;
@@ -164,6 +189,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
     step_group(setup.group, state.joints, engaged, handle_of(setup, state), setup.dt);
 
     Output output;
+    output.undone = undone;
     force::Wanted wanted;
     // Engaged it has come there, and without a pose there is nobody to lead: what help there was fades.
     const bool leads = engaged < 0 && tool.valid && input.enabled;

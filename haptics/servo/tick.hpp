@@ -8,6 +8,7 @@
 //   5 output stage: watchdog, passivity, limits                              force/output_stage.hpp
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,12 @@ struct Opening {
     double share = 0.0;  // of the stiffness that is left
 };
 
+// How nuts and joints stood once.
+struct Mark {
+    std::vector<joint::JointState> joints;
+    std::vector<double> rounded;
+};
+
 struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
@@ -37,7 +44,9 @@ struct State {
     force::OutputCommand helped;  // by the guiding force in the tick before
     force::GuideState guide;
     force::OutputStage output;
-    std::optional<Touch> touch;  // none: nothing is bumped into
+    std::optional<Touch> touch;          // none: nothing is bumped into
+    std::array<Mark, most_marks> marks;  // a ring
+    std::uint32_t marked = 0;            // since the beginning
 };
 
 State initial_state(const Setup& setup);

@@ -38,6 +38,22 @@ TEST_CASE("a session of format 1, recorded by an older program, opens with all t
     CHECK(reader->events()->size() > 2);
 }
 
+TEST_CASE("a session of format 2 too, and nothing was undone in it") {
+    const auto reader = Reader::open(bolt::test::test_file("data/format-2.boltwright"));
+    REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
+    CHECK(reader->complete());
+    CHECK(reader->header().obstacles == "none");
+    CHECK_FALSE(reader->header().device.empty());
+    const std::vector<TickRecord> ticks = all_ticks(*reader);
+    CHECK(ticks.size() > 10'000);
+    bool held = false;
+    for (const TickRecord& tick : ticks) {
+        CHECK(tick.undo == 0);
+        held = held || (tick.joint == 0 && tick.wrench_torque > 15.0F);
+    }
+    CHECK(held);
+}
+
 TEST_CASE("a device's limits come back from their text to the last bit") {
     Random random(3);
     for (int i = 0; i < 100; ++i) {

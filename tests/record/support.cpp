@@ -55,6 +55,8 @@ TickRecord random_tick(Random& random) {
     tick.contacts = static_cast<std::uint16_t>(random.bits() % 65536);
     tick.touched = static_cast<std::int16_t>(static_cast<int>(random.bits() % 32769) - 1);
     tick.fault = static_cast<std::uint8_t>(random.bits() % force::fault_kinds);
+    tick.undo = static_cast<std::uint8_t>(random.bits() % (servo::most_marks + 2U));
+    if (tick.undo > servo::most_marks) tick.undo = servo::keep_mark;
     return tick;
 }
 
