@@ -21,9 +21,10 @@ Verdict worst(Verdict a, Verdict b) {
 
 std::string times(int n) { return n == 1 ? "once" : fmt::format("{} times", n); }
 
-void take_points(LessonResult& result, double points, std::string text) {
-    result.score -= points;
-    result.reasons.push_back({-points, std::move(text)});
+void take_points(LessonResult& result, ScoreReason reason) {
+    reason.points = -reason.points;
+    result.score += reason.points;
+    result.reasons.push_back(std::move(reason));
 }
 
 }  // namespace
@@ -62,22 +63,30 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         JointResult joint = judge_joint(lesson, i, state);
         if (joint.condition != joint::Condition::sound)
-            take_points(result, 1.5 * share, fmt::format("{} is {}", joint.id, joint::name(joint.condition)));
+            take_points(result, {1.5 * share, fmt::format("{} is {}", joint.id, joint::name(joint.condition)),
+                                 Fault::damaged, static_cast<int>(i), 1});
         else if (joint.overall != Verdict::ok)
-            take_points(result, share,
-                        fmt::format("{}: torque {} ({:.1f} N·m), angle {}", joint.id,
-                                    name(joint.torque_verdict), joint.torque, name(joint.angle_verdict)));
+            take_points(result,
+                        {share,
+                         fmt::format("{}: torque {} ({:.1f} N·m), angle {}", joint.id,
+                                     name(joint.torque_verdict), joint.torque, name(joint.angle_verdict)),
+                         Fault::not_ok, static_cast<int>(i), 1});
         rehits += joint.rehits;
         order_errors += joint.order_errors;
         result.joints.push_back(std::move(joint));
     }
     if (order_errors > 0)
-        take_points(result, 2.0 * order_errors, times(order_errors) + " a joint out of turn");
-    if (rehits > 0) take_points(result, rehits, times(rehits) + " a joint that was done already");
+        take_points(result, {2.0 * order_errors, times(order_errors) + " a joint out of turn",
+                             Fault::out_of_turn, -1, order_errors});
+    if (rehits > 0)
+        take_points(result, {1.0 * rehits, times(rehits) + " a joint that was done already",
+                             Fault::done_already, -1, rehits});
     if (!result.finished)
-        take_points(
-            result, 0.0,
-            fmt::format("the lesson was left at step {} of {}", lesson.current + 1, lesson.steps.size()));
+        take_points(result, {0.0,
+                             fmt::format("the lesson was left at step {} of {}", lesson.current + 1,
+                                         lesson.steps.size()),
+                             Fault::unfinished, -1, static_cast<int>(lesson.current) + 1,
+                             static_cast<int>(lesson.steps.size())});
     result.score = std::clamp(result.score, 0.0, 100.0);
     return result;
 }

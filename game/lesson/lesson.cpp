@@ -22,7 +22,12 @@ const content::Specification& spec_of(const Lesson& lesson, std::size_t joint) {
 
 void say(Lesson& lesson, std::uint64_t tick, std::string_view kind, int joint, double value,
          std::string text) {
-    lesson.events.push_back({tick, std::string(kind), joint, value, std::move(text)});
+    lesson.events.push_back({tick, std::string(kind), joint, value, std::move(text), Cause::none});
+}
+
+void mistake(Lesson& lesson, std::uint64_t tick, Cause cause, std::size_t joint, double value,
+             std::string text) {
+    lesson.events.push_back({tick, "mistake", static_cast<int>(joint), value, std::move(text), cause});
 }
 
 double low_edge(const Lesson& lesson, const Step& step) {
@@ -54,7 +59,8 @@ bool reached(const Lesson& lesson, const Step& step, const servo::State& state) 
 void begin_step(Lesson& lesson, const servo::State& state) {
     const Step* step = lesson.due();
     if (step == nullptr) return;
-    if (lesson.current == 0 || lesson.steps[lesson.current - 1].pass != step->pass) {
+    if (lesson.announced != step->pass) {
+        lesson.announced = step->pass;
         const std::string share =
             step->kind == StepKind::tighten ? fmt::format(" to {:.0f} %", 100 * step->fraction) : "";
         say(lesson, state.tick, "pass_begin", -1, step->pass, fmt::format("{}{}", name(step->kind), share));
@@ -62,6 +68,8 @@ void begin_step(Lesson& lesson, const servo::State& state) {
     JointTrack& track = lesson.joints[step->joint];
     track.peak_torque = 0.0;
     track.begin_angle = state.joints[step->joint].nut.angle;
+    lesson.begun.resize(lesson.current);
+    lesson.begun.push_back(lesson.joints);
     say(lesson, state.tick, "step_begin", static_cast<int>(step->joint), step->torque,
         std::string(name(step->kind)));
 }
@@ -89,13 +97,13 @@ void work_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& sta
     const std::string& id = track.result.id;
     if (track.done_in_pass == due.pass) {
         ++track.result.rehits;
-        say(lesson, state.tick, "mistake", static_cast<int>(joint), 0.0,
-            fmt::format("{} was done already in this pass", id));
+        mistake(lesson, state.tick, Cause::done_already, joint, 0.0,
+                fmt::format("{} was done already in this pass", id));
         return;
     }
     ++track.result.order_errors;
-    say(lesson, state.tick, "mistake", static_cast<int>(joint), 0.0,
-        fmt::format("{} is not the next joint; {} is", id, lesson.joints[due.joint].result.id));
+    mistake(lesson, state.tick, Cause::out_of_turn, joint, 0.0,
+            fmt::format("{} is not the next joint; {} is", id, lesson.joints[due.joint].result.id));
 }
 
 void take(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state) {
@@ -139,7 +147,7 @@ void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
 void note_turning(const Lesson& lesson, JointTrack& track, const joint::JointState& joint, double work) {
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
-        track.snug = track.yielded = false;
+        track.snug = track.yielded = track.overdone = false;
         track.turned_torque = track.result.torque = track.result.angle = 0.0;
     }
     if (joint.nut.speed < turning_speed) {
@@ -147,6 +155,16 @@ void note_turning(const Lesson& lesson, JointTrack& track, const joint::JointSta
     } else if (joint.nut.angle - track.pull_begin > past_breakaway) {
         track.turned_torque = std::max(track.turned_torque, work);
     }
+}
+
+// Once until the nut is off its seat again. Breakaway turns nothing, and is not too much.
+void note_overdone(Lesson& lesson, std::size_t joint, std::uint64_t tick) {
+    JointTrack& track = lesson.joints[joint];
+    const double most = spec_of(lesson, joint).torque.high;
+    if (track.overdone || track.turned_torque <= most) return;
+    track.overdone = true;
+    mistake(lesson, tick, Cause::over_torque, joint, track.turned_torque,
+            fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, most));
 }
 
 void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const servo::Output& output) {
@@ -158,6 +176,7 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
         first_work(lesson, joint, state);
     track.peak_torque = std::max(track.peak_torque, work);
     note_turning(lesson, track, state.joints[joint], work);
+    note_overdone(lesson, joint, state.tick);
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
         !fingers) {
         track.snug = true;
@@ -174,8 +193,9 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     if (condition != track.result.condition) {
         track.result.condition = condition;
         track.result.torque = std::max(track.result.torque, track.peak_torque);
-        say(lesson, state.tick, "mistake", static_cast<int>(joint), torque,
-            fmt::format("{} is {}", track.result.id, joint::name(condition)));
+        const Cause cause = condition == joint::Condition::stripped ? Cause::stripped : Cause::broken;
+        mistake(lesson, state.tick, cause, joint, torque,
+                fmt::format("{} is {}", track.result.id, joint::name(condition)));
     }
 }
 
@@ -211,10 +231,10 @@ void observe(Lesson& lesson, const servo::State& state, const servo::Output& out
     if (output.joint >= 0 && lesson.held < 0) take(lesson, output.joint, state.engagement.grip, state);
     if (lesson.held >= 0) watch(lesson, static_cast<std::size_t>(lesson.held), state, output);
     if (output.slipped >= 0) {
-        const std::string& id = lesson.joints[static_cast<std::size_t>(output.slipped)].result.id;
-        say(lesson, state.tick, "mistake", output.slipped, output.rounded,
-            fmt::format("{}: the wrench slipped, {:.2f} mm of the nut's corners are gone", id,
-                        1e3 * output.rounded));
+        const auto joint = static_cast<std::size_t>(output.slipped);
+        mistake(lesson, state.tick, Cause::slipped, joint, output.rounded,
+                fmt::format("{}: the wrench slipped, {:.2f} mm of the nut's corners are gone",
+                            lesson.joints[joint].result.id, 1e3 * output.rounded));
     }
     hand_in(lesson, state);
     // A broken bolt is never tight: its step cannot be done, and the lesson goes on to the next.
@@ -222,6 +242,30 @@ void observe(Lesson& lesson, const servo::State& state, const servo::Output& out
     if (due != nullptr && lesson.held < 0 &&
         lesson.joints[due->joint].result.condition != joint::Condition::sound)
         end_step(lesson, state);
+}
+
+bool back(Lesson& lesson, const servo::State& state, std::size_t steps) {
+    if (lesson.mode == Mode::assessment || steps > lesson.current) return false;
+    const std::size_t to = lesson.current - steps;
+    if (to >= lesson.begun.size()) return false;  // done with all, or not begun
+    if (lesson.held >= 0) {
+        const auto joint = static_cast<std::size_t>(lesson.held);
+        say(lesson, state.tick, "release", lesson.held, lesson.joints[joint].peak_torque, {});
+        lesson.held = -1;
+        lesson.released_at = state.tick;
+    }
+    std::vector<JointTrack> tracks = lesson.begun[to];
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        tracks[i].result.rehits = lesson.joints[i].result.rehits;
+        tracks[i].result.order_errors = lesson.joints[i].result.order_errors;
+        tracks[i].result.condition = state.joints[i].condition;
+    }
+    lesson.joints = std::move(tracks);
+    lesson.current = to;
+    say(lesson, state.tick, "back", static_cast<int>(lesson.steps[to].joint), static_cast<double>(steps),
+        fmt::format("back to step {} of {}", to + 1, lesson.steps.size()));
+    begin_step(lesson, state);
+    return true;
 }
 
 }  // namespace bolt::lesson

@@ -35,6 +35,7 @@ struct JointTrack {
     double begin_angle = 0.0;    // rad, nut angle when the step began
     bool yielded = false;        // the yield stage has been felt
     bool worked = false;         // the hand has done something with the nut in this visit
+    bool overdone = false;       // more than its window was said, since it was last off its seat
     int done_in_pass = -1;       // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };
@@ -49,8 +50,10 @@ struct Lesson {
     std::vector<JointTrack> joints;
     int held = -1;  // joint in the hand at the last tick
     servo::Grip grip = servo::Grip::none;
-    std::uint64_t released_at = 0;  // tick
-    std::vector<Event> events;      // since they were last taken
+    std::uint64_t released_at = 0;               // tick
+    int announced = -1;                          // pass that was announced last
+    std::vector<std::vector<JointTrack>> begun;  // by step: all tracks when it began, for back()
+    std::vector<Event> events;                   // since they were last taken
 
     [[nodiscard]] const Step* due() const { return current < steps.size() ? &steps[current] : nullptr; }
 };
@@ -60,6 +63,12 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 
 // After each tick.
 void observe(Lesson& lesson, const servo::State& state, const servo::Output& output);
+
+// Makes the step before the due one due again, `steps` of them; 0: begins the due one anew. What was noted of
+// the joints is as it was when that step began, and `state` is to be so too: whoever calls this has put the
+// joints back. Mistakes stay counted. A nut in the hand is let go of. False, and nothing changes: in
+// assessment, and where there is no such step.
+bool back(Lesson& lesson, const servo::State& state, std::size_t steps);
 
 // The state of one joint's result now, with verdicts; and of the whole, with the score and its reasons.
 JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::State& state);

@@ -6,6 +6,8 @@ namespace bolt::lesson {
 
 namespace {
 
+constexpr double finger_drag = 0.4;  // of what fingers can give: a nut that drags more is run down by wrench
+
 StepKind kind_of(content::StepKind kind) {
     switch (kind) {
         case content::StepKind::run_down:
@@ -51,6 +53,11 @@ std::vector<Step> make_plan(const content::Assembly& assembly, Task task) {
         ++number;
     }
     return steps;
+}
+
+bool by_fingers(const content::Assembly& assembly, const Step& step, double finger_torque) {
+    return step.kind == StepKind::run_down &&
+           assembly.joints[step.joint].design.prevailing_torque < finger_drag * finger_torque;
 }
 
 }  // namespace bolt::lesson

@@ -42,4 +42,8 @@ content::Assembly under_law(content::Assembly assembly, joint::Law law);
 // order.
 std::vector<Step> make_plan(const content::Assembly& assembly, Task task);
 
+// Whether a step is work for fingers: a nut that is run down, unless it drags too much for them.
+// `finger_torque`: N·m that they can put on it.
+bool by_fingers(const content::Assembly& assembly, const Step& step, double finger_torque);
+
 }  // namespace bolt::lesson

@@ -34,10 +34,17 @@ struct JointResult {
     int order_errors = 0;  // visits out of turn
 };
 
+// What points were taken for. A session that is read again has the text alone.
+enum class Fault : std::uint8_t { none, damaged, not_ok, out_of_turn, done_already, unfinished };
+
 // A point taken from or given to the score, with its reason in words.
 struct ScoreReason {
     double points = 0.0;
     std::string text;
+    Fault fault = Fault::none;
+    int joint = -1;  // index, of what is a single joint's fault
+    int count = 0;   // how often; unfinished: the step that was due, from 1
+    int of = 0;      // unfinished: how many steps there are
 };
 
 struct LessonResult {
@@ -48,14 +55,18 @@ struct LessonResult {
     std::vector<ScoreReason> reasons;
 };
 
+// What a mistake was, for who says it in another language. Sessions keep the text alone.
+enum class Cause : std::uint8_t { none, out_of_turn, done_already, over_torque, slipped, stripped, broken };
+
 // Something that happened, for reports and replay. Kinds: step_begin, step_end, engage, release, stage,
-// mistake, pass_begin, note.
+// mistake, pass_begin, back, note.
 struct Event {
     std::uint64_t tick = 0;
     std::string kind;
     int joint = -1;      // index, −1: none
     double value = 0.0;  // what the kind says: torque at release, stage number …
     std::string text;    // in words
+    Cause cause = Cause::none;
 };
 
 }  // namespace bolt::lesson

@@ -4,13 +4,7 @@
 
 namespace bolt::operators {
 
-namespace {
-
 using lesson::StepKind;
-
-constexpr double finger_drag = 0.4;  // of what fingers can give: a nut that drags more is run down by wrench
-
-}  // namespace
 
 const lesson::Step* next_step(const lesson::Lesson& lesson, const Intent& intent) {
     const lesson::Step* due = lesson.due();
@@ -30,7 +24,7 @@ Intent intend(const Profile& profile, Random& random, const servo::Setup& setup,
     intent.joint = due.joint;
     const double drag = lesson.assembly->joints[due.joint].design.prevailing_torque;
     intent.until_seated = due.kind == StepKind::run_down;
-    intent.fingers = intent.until_seated && drag < finger_drag * setup.finger_torque(setup.nuts[due.joint]);
+    intent.fingers = lesson::by_fingers(*lesson.assembly, due, setup.finger_torque(setup.nuts[due.joint]));
     intent.loosening = due.kind == StepKind::loosen;
     intent.checks = due.kind == StepKind::recheck;
     if (!retry && !intent.fingers && joints > 1 && random.chance(profile.wrong_joint)) {

@@ -2,89 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include <initializer_list>
-
-#include "game/lesson/lesson.hpp"
+#include "tests/lesson/script.hpp"
 
 using namespace bolt;
 using namespace bolt::lesson;
-
-namespace {
-
-// Two joints; one pass to half and one in full. Every call is a run of ticks.
-struct Script {
-    content::Assembly assembly;
-    Lesson lesson;
-    servo::State state;
-
-    explicit Script(Mode mode = Mode::guided, content::Strategy strategy = content::Strategy::torque) {
-        for (const char* id : {"A", "B"}) {
-            content::AssemblyJoint joint;
-            joint.design.id = id;
-            joint.spec.torque = {70.0, 63.0, 77.0};
-            joint.spec.snug_torque = 10.0;
-            joint.spec.strategy = strategy;
-            assembly.joints.push_back(joint);
-        }
-        content::Pass run{content::StepKind::run_down, 1.0, {0, 1}};
-        content::Pass half{content::StepKind::tighten, 0.5, {0, 1}};
-        content::Pass full{content::StepKind::tighten, 1.0, {0, 1}};
-        assembly.passes = {run, half, full};
-        lesson = begin(assembly, mode, Task::tighten);
-        state.joints.resize(2);
-    }
-
-    void tick(int joint, servo::Grip grip, double torque, double speed = 0.0) {
-        servo::Output output;
-        output.joint = static_cast<std::int16_t>(joint);
-        state.engagement.joint = joint;
-        state.engagement.grip = joint >= 0 ? grip : servo::Grip::none;
-        if (joint >= 0) {
-            joint::JointState& j = state.joints[static_cast<std::size_t>(joint)];
-            j.nut.speed = speed;
-            j.nut.angle += speed * 1e-3;
-            j.torque = output.wrench_torque = torque;
-            output.nut_angle = j.nut.angle;
-            output.stage = j.stage;
-            output.clamp = j.clamp;
-        }
-        ++state.tick;
-        observe(lesson, state, output);
-    }
-    void idle(int ticks = 1) {
-        for (int i = 0; i < ticks; ++i) tick(-1, servo::Grip::none, 0.0);
-    }
-    void seat(int joint) {
-        tick(joint, servo::Grip::fingers, 0.1, 1.0);
-        state.joints[static_cast<std::size_t>(joint)].stage = joint::Stage::transition;
-        tick(joint, servo::Grip::fingers, 0.6);
-        idle();
-    }
-    // A pull to `torque` that turns the nut by 0.1 rad, then off.
-    void pull(int joint, double torque) {
-        for (int i = 0; i <= 100; ++i) tick(joint, servo::Grip::wrench, torque * i / 100.0, 1.0);
-        state.joints[static_cast<std::size_t>(joint)].stage = joint::Stage::linearity;
-        tick(joint, servo::Grip::wrench, torque);
-        idle();
-    }
-    void seat_both() {
-        idle();
-        seat(0);
-        seat(1);
-    }
-    [[nodiscard]] int order_errors() const {
-        int n = 0;
-        for (const JointTrack& joint : lesson.joints) n += joint.result.order_errors;
-        return n;
-    }
-    [[nodiscard]] int count(const char* kind) const {
-        int n = 0;
-        for (const Event& event : lesson.events) n += event.kind == kind ? 1 : 0;
-        return n;
-    }
-};
-
-}  // namespace
+using test::Script;
 
 TEST_CASE("a nut that is not on its seat yet is not run down") {
     Script s;
@@ -233,7 +155,11 @@ TEST_CASE("a bolt that breaks keeps its torque, is named, and the lesson goes on
     CHECK(s.lesson.current == 3);
     CHECK(s.lesson.joints[0].result.torque == doctest::Approx(120.0));
     CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::high);
-    CHECK(s.count("mistake") == 1);
+    // Before it breaks it has had too much, and both are told.
+    std::vector<Cause> causes;
+    for (const Event& event : s.lesson.events)
+        if (event.kind == "mistake") causes.push_back(event.cause);
+    CHECK(causes == std::vector{Cause::over_torque, Cause::broken});
 }
 
 TEST_CASE("fingers exchanged for the wrench without letting go are a new visit") {
@@ -276,4 +202,35 @@ TEST_CASE("in assessment, the last joint left for another is out of turn: nothin
     s.pull(0, 70.0);
     CHECK(s.lesson.current == 5);
     CHECK(s.lesson.joints[0].result.rehits == 1);
+}
+
+TEST_CASE("more torque than the window is told once, and again only when the nut has been off its seat") {
+    Script s;
+    s.seat_both();
+    s.pull(0, 76.9);
+    CHECK(s.count("mistake") == 0);
+    s.pull(1, 35.0);
+    s.pull(0, 78.0);
+    s.pull(0, 90.0);
+    CHECK(s.count("mistake") == 2);  // the other is that it was done already
+    CHECK(s.lesson.events.back().joint == 0);
+    s.state.joints[0].stage = joint::Stage::navigation;
+    s.tick(0, servo::Grip::wrench, -0.1, -1.0);
+    s.state.joints[0].stage = joint::Stage::transition;
+    s.idle();
+    s.lesson.events.clear();
+    s.pull(0, 90.0);
+    int told = 0;
+    for (const Event& event : s.lesson.events) told += event.cause == Cause::over_torque ? 1 : 0;
+    CHECK(told == 1);
+}
+
+TEST_CASE("breakaway alone is not told as too much") {
+    Script s;
+    s.seat_both();
+    s.pull(0, 62.0);
+    for (int i = 0; i < 20; ++i) s.tick(0, servo::Grip::wrench, 90.0, 1.0);  // a degree
+    s.idle();
+    CHECK(s.count("mistake") == 1);  // it was done already
+    for (const Event& event : s.lesson.events) CHECK(event.cause != Cause::over_torque);
 }

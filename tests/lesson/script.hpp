@@ -1,0 +1,85 @@
+// A lesson fed with ticks written by hand.
+#pragma once
+
+#include <initializer_list>
+
+#include "game/lesson/lesson.hpp"
+
+namespace bolt::test {
+
+using namespace bolt::lesson;
+
+// Two joints; one pass to half and one in full. Every call is a run of ticks.
+struct Script {
+    content::Assembly assembly;
+    Lesson lesson;
+    servo::State state;
+
+    explicit Script(Mode mode = Mode::guided, content::Strategy strategy = content::Strategy::torque) {
+        for (const char* id : {"A", "B"}) {
+            content::AssemblyJoint joint;
+            joint.design.id = id;
+            joint.spec.torque = {70.0, 63.0, 77.0};
+            joint.spec.snug_torque = 10.0;
+            joint.spec.strategy = strategy;
+            assembly.joints.push_back(joint);
+        }
+        content::Pass run{content::StepKind::run_down, 1.0, {0, 1}};
+        content::Pass half{content::StepKind::tighten, 0.5, {0, 1}};
+        content::Pass full{content::StepKind::tighten, 1.0, {0, 1}};
+        assembly.passes = {run, half, full};
+        lesson = begin(assembly, mode, Task::tighten);
+        state.joints.resize(2);
+    }
+
+    void tick(int joint, servo::Grip grip, double torque, double speed = 0.0) {
+        servo::Output output;
+        output.joint = static_cast<std::int16_t>(joint);
+        state.engagement.joint = joint;
+        state.engagement.grip = joint >= 0 ? grip : servo::Grip::none;
+        if (joint >= 0) {
+            joint::JointState& j = state.joints[static_cast<std::size_t>(joint)];
+            j.nut.speed = speed;
+            j.nut.angle += speed * 1e-3;
+            j.torque = output.wrench_torque = torque;
+            output.nut_angle = j.nut.angle;
+            output.stage = j.stage;
+            output.clamp = j.clamp;
+        }
+        ++state.tick;
+        observe(lesson, state, output);
+    }
+    void idle(int ticks = 1) {
+        for (int i = 0; i < ticks; ++i) tick(-1, servo::Grip::none, 0.0);
+    }
+    void seat(int joint) {
+        tick(joint, servo::Grip::fingers, 0.1, 1.0);
+        state.joints[static_cast<std::size_t>(joint)].stage = joint::Stage::transition;
+        tick(joint, servo::Grip::fingers, 0.6);
+        idle();
+    }
+    // A pull to `torque` that turns the nut by 0.1 rad, then off.
+    void pull(int joint, double torque) {
+        for (int i = 0; i <= 100; ++i) tick(joint, servo::Grip::wrench, torque * i / 100.0, 1.0);
+        state.joints[static_cast<std::size_t>(joint)].stage = joint::Stage::linearity;
+        tick(joint, servo::Grip::wrench, torque);
+        idle();
+    }
+    void seat_both() {
+        idle();
+        seat(0);
+        seat(1);
+    }
+    [[nodiscard]] int order_errors() const {
+        int n = 0;
+        for (const JointTrack& joint : lesson.joints) n += joint.result.order_errors;
+        return n;
+    }
+    [[nodiscard]] int count(const char* kind) const {
+        int n = 0;
+        for (const Event& event : lesson.events) n += event.kind == kind ? 1 : 0;
+        return n;
+    }
+};
+
+}  // namespace bolt::test
