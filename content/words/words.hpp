@@ -1,0 +1,63 @@
+// One language: a text for every key, read from content/words/LANGUAGE.json:
+//
+//   {"format": "boltwright words 1", "language": "de", "name": "Deutsch", "decimal": ",",
+//    "words": {"hint.next": "Als Nächstes {joint}.", ...}}
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "content/words/key.hpp"
+#include "engine/base/error.hpp"
+
+namespace bolt::words {
+
+// A number that is written as the language writes it.
+struct Number {
+    double value = 0.0;
+    int decimals = 0;
+};
+
+// What stands in a text where it says {name}.
+struct Place {
+    std::string_view name;
+    std::variant<std::string, Number> value;
+};
+
+struct Words {
+    std::string language;  // ISO 639, as in assembly files: "de"
+    std::string name;      // what the language calls itself
+    std::string decimal = ".";
+    std::array<std::string, key_count> texts;
+
+    [[nodiscard]] const std::string& operator[](Key key) const { return texts[key.index()]; }
+};
+
+std::string say(const Words& words, Key key, std::span<const Place> places);
+std::string say(const Words& words, Key key, std::initializer_list<Place> places = {});
+std::string say(const Words& words, const Number& number);
+
+// 20 and 7.5: no more decimals than a torque wrench shows.
+Number torque_number(double newton_metres);
+
+// Either words and no errors, or all mistakes of the file, each with its line and column.
+struct Loaded {
+    Words words;
+    std::vector<Error> errors;
+    [[nodiscard]] bool ok() const { return errors.empty(); }
+};
+Loaded parse_words(std::string_view text, std::string_view file);
+
+// `language`: a code for which `folder` has a file; the error of another one names those.
+Loaded load_words(const std::filesystem::path& folder, std::string_view language);
+
+// The codes for which there are files, in order; and where they lie (content/words).
+std::vector<std::string> languages(const std::filesystem::path& folder);
+std::filesystem::path words_folder();
+
+}  // namespace bolt::words

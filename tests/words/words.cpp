@@ -1,0 +1,177 @@
+#include "content/words/words.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "engine/base/file.hpp"
+#include "engine/text/fonts.hpp"
+#include "engine/text/utf8.hpp"
+
+using namespace bolt;
+using namespace bolt::words;
+
+namespace {
+
+std::string text_of(std::string_view language) {
+    const auto file = words_folder() / (std::string(language) + ".json");
+    const Result<std::string> text = read_file(file, 1U << 20U, ErrorCode::bad_content);
+    REQUIRE(text.has_value());
+    return *text;
+}
+
+Words english() {
+    Loaded loaded = load_words(words_folder(), "en");
+    REQUIRE(loaded.ok());
+    return std::move(loaded.words);
+}
+
+// The English file with one thing changed, and what is then said of it.
+std::string mistakes(const std::string& from, const std::string& to) {
+    std::string text = text_of("en");
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+    std::string said;
+    for (const Error& error : parse_words(text, "en.json").errors) {
+        CHECK(error.code == ErrorCode::bad_content);
+        said += error.message() + "\n";
+    }
+    return said;
+}
+
+bool letters_are_there(const text::Fonts& fonts, const std::string& said) {
+    const std::u32string points = text::decode(said);
+    return std::all_of(points.begin(), points.end(),
+                       [&](char32_t point) { return find(fonts, point).glyph != 0; });
+}
+
+}  // namespace
+
+TEST_CASE("there are English, German and Chinese, and each has every text with its places") {
+    const std::vector<std::string> there = languages(words_folder());
+    for (const char* language : {"en", "de", "zh"})
+        CHECK(std::find(there.begin(), there.end(), language) != there.end());
+    for (const std::string& language : there) {
+        CAPTURE(language);
+        const Loaded loaded = load_words(words_folder(), language);
+        for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+        CHECK(loaded.words.language == language);
+        CHECK_FALSE(loaded.words.name.empty());
+    }
+}
+
+TEST_CASE("the fonts have every letter of every language") {
+    const Result<text::Fonts> fonts = text::load_fonts();
+    REQUIRE(fonts.has_value());
+    for (const std::string& language : languages(words_folder())) {
+        CAPTURE(language);
+        const Loaded loaded = load_words(words_folder(), language);
+        CHECK(letters_are_there(*fonts, loaded.words.name));
+        for (const std::string& said : loaded.words.texts) {
+            CAPTURE(said);
+            CHECK(letters_are_there(*fonts, said));
+        }
+    }
+    CHECK_FALSE(letters_are_there(*fonts, "a\U000E0001b"));  // and it can fail
+}
+
+TEST_CASE("a translation is one: hints are not left in English") {
+    const Words en = english();
+    for (const std::string& language : languages(words_folder())) {
+        if (language == "en") continue;
+        CAPTURE(language);
+        const Words other = load_words(words_folder(), language).words;
+        for (std::size_t i = 0; i < key_count; ++i) {
+            const Key key = Key::at(i);
+            CAPTURE(key.row().name);
+            if (en[key].find(' ') != std::string::npos) CHECK(en[key] != other[key]);
+        }
+    }
+}
+
+TEST_CASE("files are in the order of the table, so that translators find their way") {
+    for (const std::string& language : languages(words_folder())) {
+        const auto file = nlohmann::ordered_json::parse(text_of(language));
+        std::size_t i = 0;
+        for (const auto& [key, said] : file["words"].items()) CHECK(key == key_rows[i++].name);
+    }
+}
+
+TEST_CASE("what is said: places are filled in, numbers are written as the language writes them") {
+    const Words en = english();
+    const Words de = load_words(words_folder(), "de").words;
+    CHECK(say(en, "hint.next", {{"joint", "B7"}}) == "B7 is next.");
+    CHECK(say(de, "hint.next", {{"joint", "B7"}}) == "Als Nächstes kommt B7.");
+    const Place places[] = {{"joint", "B1"}, {"torque", torque_number(17.46)}, {"low", torque_number(18.0)}};
+    CHECK(say(en, "reason.torque_low", places) == "B1 has 17.5 N·m; 18 N·m are the least.");
+    CHECK(say(de, "reason.torque_low", places) == "B1 hat 17,5 N·m; mindestens 18 N·m sind nötig.");
+    // A place that nobody fills in is seen, and does no harm.
+    CHECK(say(en, "hint.next") == "{joint} is next.");
+    // What is put in is not looked at for places.
+    CHECK(say(en, "hint.next", {{"joint", "{joint}"}}) == "{joint} is next.");
+    CHECK(say(en, "hint.set_back", {{"joint", "B7"}}) == en["hint.set_back"]);
+}
+
+TEST_CASE("torques have no more decimals than a torque wrench shows") {
+    const Words en = english();
+    for (const auto& [torque, said] : {std::pair{20.0, "20"},
+                                       {7.5, "7.5"},
+                                       {21.98, "22"},
+                                       {210.4, "210"},
+                                       {0.04, "0"},
+                                       {-0.04, "0"},
+                                       {-3.5, "-3.5"}})
+        CHECK(say(en, torque_number(torque)) == said);
+}
+
+TEST_CASE("mistakes of a file are told with their place") {
+    const std::string text = text_of("en");
+    const auto line =
+        std::count(text.begin(), text.begin() + static_cast<long>(text.find("\"hint.next\"")), '\n') + 1;
+    const std::string at = "en.json:" + std::to_string(line), there = at + ":18: /words/hint.next: ";
+    const std::string next = "{joint} is next.";
+    CHECK(mistakes(next, "{joint} is next now.").empty());
+    CHECK(mistakes(next, "The next is next.") == there + "{joint} is missing in the text\n");
+    CHECK(mistakes(next, "{jont} is next.") ==
+          there + "nothing is put into {jont} here; did you mean \"joint\"?\n" + there +
+              "{joint} is missing in the text\n");
+    const std::string alone = there + "a brace stands alone; expected places as {name}\n";
+    for (const char* to : {"{joint is next.", "joint} is next.", "{{joint}} is next.", "{joint} is next.{"})
+        CHECK(mistakes(next, to) == alone);
+    CHECK(mistakes("\"hint.next\"", "\"hint.nxt\"") ==
+          "en.json:6:12: /words: \"hint.next\" is missing\n" + at +
+              ":5: /words/hint.nxt: \"hint.nxt\" is not known here; did you mean \"hint.next\"?\n");
+    for (const char* to : {"7", "\"\""})
+        CHECK(mistakes("\"" + next + "\"", to) ==
+              there + "\"hint.next\" says nothing; expected a text of at most 1000 bytes\n");
+    CHECK(mistakes("\"decimal\": \".\"", "\"decimal\": \";\"") ==
+          "en.json:5:14: /decimal: \";\" is no decimal sign; expected \".\" or \",\"\n");
+    CHECK(mistakes("boltwright words 1", "boltwright words 9").find("en.json:2:13: /format") == 0);
+    CHECK(mistakes("\"name\": \"English\",", "").find("\"name\" is missing") != std::string::npos);
+    CHECK(mistakes("{\n  \"format\"", "{\n  \"forma\": 1,\n  \"format\"").find("en.json:2:3: /forma") == 0);
+    CHECK(mistakes("\"words\": {", "\"words\": [{").find("en.json:") == 0);  // no JSON
+    CHECK(parse_words("[]", "x").errors.size() == 1);
+    CHECK(parse_words("{}", "x").errors.size() == 5);
+    CHECK(parse_words(R"({"words": 3})", "x").errors.size() == 5);
+}
+
+TEST_CASE("a language that is not there is answered with those that are") {
+    const Loaded none = load_words(words_folder(), "ed");
+    REQUIRE(none.errors.size() == 1);
+    CHECK(none.errors[0].code == ErrorCode::usage);
+    CHECK(none.errors[0].what == "there are no words in the language \"ed\"");
+    CHECK_FALSE(load_words(words_folder(), "../words/en").ok());
+    const auto folder = std::filesystem::temp_directory_path() / "boltwright-test-words";
+    std::filesystem::remove_all(folder);
+    CHECK(languages(folder).empty());
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "fr.json") << text_of("en");
+    REQUIRE(load_words(folder, "fr").errors.size() == 1);
+    CHECK(load_words(folder, "fr").errors[0].pointer == "/language");
+    std::filesystem::remove_all(folder);
+}
