@@ -30,32 +30,6 @@ void mistake(Lesson& lesson, std::uint64_t tick, Cause cause, std::size_t joint,
     lesson.events.push_back({tick, "mistake", static_cast<int>(joint), value, std::move(text), cause});
 }
 
-double low_edge(const Lesson& lesson, const Step& step) {
-    const content::Window& window = spec_of(lesson, step.joint).torque;
-    return window.target > 0.0 ? step.torque * window.low / window.target : step.torque;
-}
-
-bool reached(const Lesson& lesson, const Step& step, const servo::State& state) {
-    const JointTrack& track = lesson.joints[step.joint];
-    const joint::JointState& joint = state.joints[step.joint];
-    const double turned = joint.nut.angle - track.begin_angle;
-    switch (step.kind) {
-        case StepKind::run_down:
-            return joint.stage != joint::Stage::navigation;
-        case StepKind::tighten: {
-            if (track.peak_torque < low_edge(lesson, step)) return false;
-            const content::Specification& spec = spec_of(lesson, step.joint);
-            const bool into_yield = spec.strategy == content::Strategy::yield && step.fraction > 0.999;
-            return !into_yield || track.yielded || track.peak_torque > spec.torque.high;
-        }
-        case StepKind::recheck:
-            return turned > moved || track.peak_torque >= low_edge(lesson, step);
-        case StepKind::loosen:
-            return joint.stage == joint::Stage::navigation;
-    }
-    return false;
-}
-
 void begin_step(Lesson& lesson, const servo::State& state) {
     const Step* step = lesson.due();
     if (step == nullptr) return;
@@ -123,7 +97,7 @@ void release(Lesson& lesson, const servo::State& state) {
     lesson.held = -1;
     lesson.released_at = state.tick;
     const Step* due = lesson.due();
-    if (due != nullptr && due->joint == joint && reached(lesson, *due, state)) end_step(lesson, state);
+    if (due != nullptr && due->joint == joint && reached(lesson, state.joints)) end_step(lesson, state);
 }
 
 // First work of a visit: is it this joint's turn?
@@ -208,6 +182,39 @@ void hand_in(Lesson& lesson, const servo::State& state) {
 }
 
 }  // namespace
+
+content::Window window(const Lesson& lesson, const Step& step) {
+    const content::Window& whole = spec_of(lesson, step.joint).torque;
+    if (whole.target <= 0.0) return {step.torque, step.torque, step.torque};
+    const double share = step.torque / whole.target;
+    return {step.torque, share * whole.low, share * whole.high};
+}
+
+bool into_yield(const Lesson& lesson, const Step& step) {
+    return step.kind == StepKind::tighten && step.fraction > 0.999 &&
+           spec_of(lesson, step.joint).strategy == content::Strategy::yield;
+}
+
+bool reached(const Lesson& lesson, std::span<const joint::JointState> joints) {
+    const Step* step = lesson.due();
+    if (step == nullptr) return false;
+    const JointTrack& track = lesson.joints[step->joint];
+    const joint::JointState& joint = joints[step->joint];
+    const double turned = joint.nut.angle - track.begin_angle;
+    switch (step->kind) {
+        case StepKind::run_down:
+            return joint.stage != joint::Stage::navigation;
+        case StepKind::tighten:
+            if (track.peak_torque < window(lesson, *step).low) return false;
+            return !into_yield(lesson, *step) || track.yielded ||
+                   track.peak_torque > spec_of(lesson, step->joint).torque.high;
+        case StepKind::recheck:
+            return turned > moved || track.peak_torque >= window(lesson, *step).low;
+        case StepKind::loosen:
+            return joint.stage == joint::Stage::navigation;
+    }
+    return false;
+}
 
 Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
     Lesson lesson;

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "content/format/assembly.hpp"
@@ -60,6 +61,15 @@ struct Lesson {
 
 // `assembly` must outlive the lesson.
 Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
+
+// What the torque of a step is to be: the joint's window, scaled to the pass's share.
+content::Window window(const Lesson& lesson, const Step& step);
+
+// Whether the step goes on until the bolt begins to yield.
+bool into_yield(const Lesson& lesson, const Step& step);
+
+// Whether the due step is done as soon as the hand lets go.
+bool reached(const Lesson& lesson, std::span<const joint::JointState> joints);
 
 // After each tick.
 void observe(Lesson& lesson, const servo::State& state, const servo::Output& output);

@@ -15,6 +15,9 @@ struct Script {
     Lesson lesson;
     servo::State state;
 
+    Script(const Script&) = delete;  // the lesson points at the assembly
+    Script& operator=(const Script&) = delete;
+    ~Script() = default;
     explicit Script(Mode mode = Mode::guided, content::Strategy strategy = content::Strategy::torque) {
         for (const char* id : {"A", "B"}) {
             content::AssemblyJoint joint;

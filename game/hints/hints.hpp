@@ -1,0 +1,56 @@
+// Hints as time passes: they become more explicit the longer nothing comes of the work, and do not flicker.
+//
+//   guided      a text at once, an outline and an arrow after some seconds, then a ghost, then the very
+//   motion practice    the same, but only after long, or one level more whenever somebody asks assessment
+//   nothing, whatever is asked
+//
+// What is said stays for a second and a half, unless the step is another, there is something to stop, or what
+// it asked for is done.
+#pragma once
+
+#include <optional>
+
+#include "game/hints/hint.hpp"
+
+namespace bolt::hints {
+
+// s without progress after which each level is reached.
+struct HintTimes {
+    std::array<double, 4> level;
+};
+inline constexpr HintTimes guided_times{{0.0, 4.0, 9.0, 15.0}};
+inline constexpr HintTimes practice_times{{20.0, 35.0, 50.0, 65.0}};
+
+inline constexpr double shortest_hint = 1.5;       // s
+inline constexpr double shortest_when_past = 0.5;  // s, when what it asked for has been done
+
+// How far the work on a step has come.
+struct Progress {
+    double torque = 0.0;    // N·m, most of it in this step
+    double angle = 0.0;     // rad, furthest in the step's sense
+    double distance = 1e9;  // m to the nut, least since the nut was last moved
+    int reached = 0;        // likewise: 1 the right tool in the hand, 2 on the nut
+    double idle = 0.0;      // s since the last of it
+};
+
+struct Hints {
+    std::optional<Hint> shown;                  // none: nothing is said
+    Situation situation = Situation::all_done;  // for which it is said
+    double stands = 0.0;                        // s that it has been so
+    Situation seen = Situation::all_done;       // in the last frame, and
+    double seen_for = 0.0;                      // s for which
+    double other_for = 0.0;                     // s that something else was seen than is said
+    Situation then = Situation::all_done;       // behind an announcement
+    std::size_t step = SIZE_MAX;
+    double step_for = 0.0;  // s
+    int pass = -1;
+    bool new_round = false;
+    int level = -1;  // in this situation; −1: none yet
+    int held = -1;
+    Progress progress;
+};
+
+// A frame of `dt` seconds. `asked`: somebody asks for help, once a press.
+const std::optional<Hint>& update(Hints& hints, const Scene& scene, double dt, bool asked = false);
+
+}  // namespace bolt::hints

@@ -1,0 +1,76 @@
+// What is to be done now, read off the lesson, the joints and the hand. No time passes here: hints.hpp.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "game/lesson/lesson.hpp"
+#include "haptics/servo/setup.hpp"
+#include "haptics/servo/tick.hpp"
+
+namespace bolt::hints {
+
+enum class Situation : std::uint8_t {
+    take_wrench,
+    put_wrench_away,
+    find_by_wrench,
+    find_by_fingers,
+    set_on,
+    set_on_again,    // the pulls before were not enough
+    set_on_rounded,  // on corners that a slipping jaw has worn
+    grip_nut,
+    run_down,
+    run_down_by_wrench,
+    twist_back,  // the fingers have no more way
+    seated,
+    pull,
+    pull_to_yield,
+    set_back,  // the handle has no more room
+    ease,
+    ease_to_yield,
+    stop,
+    stop_at_yield,
+    stop_too_much,
+    take_off,
+    check,
+    checked,
+    break_loose,
+    turn_off,
+    free,
+    wrong_joint,
+    other_way_on,
+    other_way_off,
+    wrench_needed,  // fingers hold what they cannot do
+    leave_broken,
+    leave_stripped,
+    next,  // these five are said when a step begins
+    round_run_down,
+    round_tighten,
+    round_recheck,
+    round_loosen,
+    all_done,
+};
+inline constexpr std::size_t situation_count = 38;
+
+// What there is to see of the work after a tick.
+struct Scene {
+    const lesson::Lesson& lesson;  // it has observed the tick
+    const servo::Setup& setup;
+    std::span<const joint::JointState> joints;
+    const servo::Output& output;
+    std::span<const double> rounded;  // m, servo::State::rounded; may be empty
+    bool wrench_in_hand = false;      // also while it is on no nut
+    // rad that handle or fingers can still swing on in the step's sense, as far as the caller knows.
+    double room = std::numeric_limits<double>::infinity();
+};
+
+enum class Held : std::uint8_t { nothing, wrench, nut_by_fingers, nut_by_wrench };
+Held held(const Scene& scene);
+
+Situation situation(const Scene& scene);
+
+// m, from the tool to the nut that is due; infinite without one.
+double distance_to_due(const Scene& scene);
+
+}  // namespace bolt::hints

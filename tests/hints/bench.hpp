@@ -1,0 +1,73 @@
+// A lesson fed by hand (tests/lesson/script.hpp) and what hints see of it.
+#pragma once
+
+#include "game/hints/hints.hpp"
+#include "tests/lesson/script.hpp"
+
+namespace bolt::test {
+
+using namespace bolt::hints;
+
+// What may be said soon after something else: who has got so far has done what was asked before.
+inline bool at_work(Situation s) {
+    for (const Situation work : {Situation::run_down, Situation::run_down_by_wrench, Situation::pull,
+                                 Situation::pull_to_yield, Situation::check, Situation::break_loose,
+                                 Situation::turn_off, Situation::ease, Situation::ease_to_yield})
+        if (s == work) return true;
+    return false;
+}
+
+struct Bench : Script {
+    servo::Setup setup;
+    servo::Output output;
+    std::vector<double> rounded{0.0, 0.0};
+    bool wrench = false;
+    double room = std::numeric_limits<double>::infinity();
+    Hints hints;
+
+    explicit Bench(Mode mode = Mode::guided, content::Strategy strategy = content::Strategy::torque,
+                   Task task = Task::tighten)
+        : Script(mode, strategy) {
+        assembly.passes.push_back({content::StepKind::recheck, 1.0, {0, 1}});
+        lesson = begin(assembly, mode, task);
+        for (const double x : {0.0, 0.2}) {
+            servo::NutPlace nut;
+            nut.seat = Vec3(x, 0.0, 0.0);
+            nut.across_flats = 0.024;
+            nut.height = 0.014;
+            setup.nuts.push_back(nut);
+        }
+        far_away();
+        if (task == Task::loosen)
+            for (joint::JointState& joint : state.joints) joint.stage = joint::Stage::linearity;
+    }
+
+    void far_away() { output.tool.position = Vec3(0.1, 0.3, 0.4); }
+    void near(std::size_t joint) { output.tool.position = setup.nuts[joint].seat + Vec3(0.0, 0.03, 0.0); }
+    // Turns a nut for some ticks, to `torque`.
+    void turn(int joint, double torque, double speed = 1.0) {
+        for (int i = 1; i <= 100; ++i) tick(joint, servo::Grip::wrench, torque * i / 100.0, speed);
+    }
+    void to_the_full_pass() {
+        seat_both();
+        for (const int joint : {0, 1}) pull(joint, 35.0);
+        wrench = true;
+    }
+    // By strategy yield; the last step of each joint is done by what it gives.
+    void to_the_check() {
+        to_the_full_pass();
+        for (const int joint : {0, 1}) pull(joint, 70.0);
+    }
+
+    [[nodiscard]] Scene scene() const { return {lesson, setup, state.joints, output, rounded, wrench, room}; }
+    [[nodiscard]] Situation now() const { return situation(scene()); }
+    const std::optional<Hint>& frame(double dt = 0.05, bool asked = false) {
+        return update(hints, scene(), dt, asked);
+    }
+    const std::optional<Hint>& wait(double seconds) {
+        for (double t = 0.0; t < seconds - 1e-9; t += 0.05) frame();
+        return hints.shown;
+    }
+};
+
+}  // namespace bolt::test
