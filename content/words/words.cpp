@@ -110,14 +110,16 @@ struct Checker {
                    R"(expected "." or ",")");
     }
 
-    void texts(const json& all, Words& words) {
+    void texts(const json& all, Loaded& loaded) {
+        Words& words = loaded.words;
         std::vector<std::string> known;
         for (const KeyRow& row : key_rows) known.emplace_back(row.name);
         only(all, "/words", known);
         for (std::size_t i = 0; i < key_count; ++i) {
             words.texts[i] = text(all, "/words", known[i]);
-            if (!words.texts[i].empty())
-                places("/words/" + pointer_token(known[i]), words.texts[i], split(key_rows[i].places));
+            const std::string pointer = "/words/" + pointer_token(known[i]);
+            loaded.lines[i] = document.line(pointer);
+            if (!words.texts[i].empty()) places(pointer, words.texts[i], split(key_rows[i].places));
         }
     }
 };
@@ -188,7 +190,7 @@ Loaded parse_words(std::string_view text, std::string_view file) {
     else if (!all->is_object())
         checker.report("/words", Part::value, "these are no words", "expected an object of texts by key");
     else
-        checker.texts(*all, loaded.words);
+        checker.texts(*all, loaded);
     std::stable_sort(loaded.errors.begin(), loaded.errors.end(), [](const Error& a, const Error& b) {
         return std::tie(a.line, a.column) < std::tie(b.line, b.column);
     });
@@ -202,13 +204,18 @@ Loaded load_words(const std::filesystem::path& folder, std::string_view language
         loaded.errors.push_back(unknown_language(language, there));
         return loaded;
     }
-    const std::filesystem::path file = folder / fmt::format("{}.json", language);
+    return read_words(folder / fmt::format("{}.json", language));
+}
+
+Loaded read_words(const std::filesystem::path& file) {
+    Loaded loaded;
     const Result<std::string> text = read_file(file, longest_file, ErrorCode::bad_content);
     if (!text) {
         loaded.errors.push_back(text.error());
         return loaded;
     }
     loaded = parse_words(*text, file.string());
+    const std::string language = file.stem().string();
     if (loaded.ok() && loaded.words.language != language) {
         Error error;
         error.code = ErrorCode::bad_content;

@@ -49,9 +49,11 @@ Number torque_number(double newton_metres);
 struct Loaded {
     Words words;
     std::vector<Error> errors;
+    std::array<int, key_count> lines{};  // where each text stands
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 Loaded parse_words(std::string_view text, std::string_view file);
+Loaded read_words(const std::filesystem::path& file);  // named after its language
 
 // `language`: a code for which `folder` has a file; the error of another one names those.
 Loaded load_words(const std::filesystem::path& folder, std::string_view language);

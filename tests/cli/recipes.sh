@@ -13,6 +13,7 @@ for file in pump-cover/assembly.json after.svg loosened/report.html compare.html
     [[ -s $file ]] || { echo "the recipes left no $file"; exit 1; }
 done
 grep -q '"id": "B5"' five/summary.json
+[[ -s mistakes.txt ]] || { echo "a wrong place in a language's file was not found"; exit 1; }
 cmp -s before.csv after.csv && { echo "the change of the torque changed nothing"; exit 1; }
 
 # What README.md shows exists: every command of it is known to its program.

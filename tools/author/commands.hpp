@@ -14,5 +14,6 @@ void add_preview(CLI::App& app, int& exit_code);
 void add_curve(CLI::App& app, int& exit_code);
 void add_torque(CLI::App& app, int& exit_code);
 void add_views(CLI::App& app, int& exit_code);
+void add_words(CLI::App& app, int& exit_code);
 
 }  // namespace bolt::author

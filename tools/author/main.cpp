@@ -16,5 +16,6 @@ int main(int argc, char** argv) {
     bolt::author::add_curve(app, exit_code);
     bolt::author::add_torque(app, exit_code);
     bolt::author::add_views(app, exit_code);
+    bolt::author::add_words(app, exit_code);
     return bolt::cli::run_program(app, argc, argv, exit_code);
 }
