@@ -1,8 +1,8 @@
 // Hints as time passes: they become more explicit the longer nothing comes of the work, and do not flicker.
 //
-//   guided      a text at once, an outline and an arrow after some seconds, then a ghost, then the very
-//   motion practice    the same, but only after long, or one level more whenever somebody asks assessment
-//   nothing, whatever is asked
+//   guided:     a text at once, an outline and an arrow after some seconds, a ghost, then the very motion
+//   practice:   the same after long, or one level more whenever somebody asks
+//   assessment: nothing, whatever is asked
 //
 // What is said stays for a second and a half, unless the step is another, there is something to stop, or what
 // it asked for is done.
