@@ -61,9 +61,13 @@ void note_progress(Progress& progress, const Scene& scene, Situation now, double
     if (torque || angle > progress.angle + some_angle) {
         progress.torque = std::max(progress.torque, track.peak_torque);
         progress.angle = std::max(progress.angle, angle);
+        progress.moved = true;
+        progress.idle = 0.0;
+    }
+    if (progress.moved && scene.lesson.held < 0) {
+        progress.moved = false;
         progress.distance = 1e9;
         progress.reached = 0;
-        progress.idle = 0.0;
     }
     const bool tool = now != Situation::take_wrench && now != Situation::put_wrench_away &&
                       now != Situation::wrong_joint && now != Situation::wrench_needed;

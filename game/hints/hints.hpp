@@ -28,8 +28,9 @@ inline constexpr double shortest_when_past = 0.5;  // s, when what it asked for 
 struct Progress {
     double torque = 0.0;    // N·m, most of it in this step
     double angle = 0.0;     // rad, furthest in the step's sense
-    double distance = 1e9;  // m to the nut, least since the nut was last moved
+    double distance = 1e9;  // m to the nut, least since the hand let go of what it had moved
     int reached = 0;        // likewise: 1 the right tool in the hand, 2 on the nut
+    bool moved = false;     // the nut, since the hand took it
     double idle = 0.0;      // s since the last of it
 };
 

@@ -151,7 +151,7 @@ const Case cases[] = {
     {Situation::other_way_on, "hint.other_way_on", Motion::pull_on,
      [](Bench& b) {
          b.seat_both();
-         b.turn(0, -12.0, -1.0);
+         b.turn(0, -4.0, -1.0);
      }},
     {Situation::other_way_on, "hint.other_way_on", Motion::pull_on,
      [](Bench& b) {

@@ -105,6 +105,51 @@ TEST_CASE("coming back for the next stroke is progress") {
     }
 }
 
+TEST_CASE("who sets on for the next stroke has time for it, however long ago the nut was turned") {
+    Searching b;
+    b.near(0);
+    b.wait(3.5);
+    for (int i = 0; i < 200; ++i) b.tick(0, Grip::wrench, 5.0, 1.0);
+    b.wait(0.5);
+    b.idle();
+    b.wait(3.0);
+    b.tick(0, Grip::wrench, 0.2);
+    CHECK(b.wait(3.0)->level == 0);
+    CHECK(b.wait(1.5)->level == 1);
+}
+
+TEST_CASE(
+    "between two twists of the fingers nothing else is said; a hand that stays away is told to come back") {
+    Bench b;
+    b.idle();
+    b.near(0);
+    b.wait(4.0);
+    for (int twist = 0; twist < 10; ++twist) {
+        for (int i = 0; i < 400; ++i) b.tick(0, Grip::fingers, 0.1, 6.0);
+        CHECK(b.wait(0.6)->situation == Situation::run_down);
+        b.idle();
+        CHECK(b.wait(0.8)->situation == Situation::run_down);
+    }
+    CHECK(b.wait(1.0)->situation == Situation::grip_nut);
+}
+
+TEST_CASE("where all changes all the time, what is said is not left behind for long") {
+    Searching b;
+    b.wait(4.0);
+    REQUIRE(b.hints.shown->situation == Situation::find_by_wrench);
+    bool followed = false;
+    for (int i = 0; i < 80; ++i) {
+        if (i % 2 == 0)
+            b.tick(0, Grip::fingers, 0.2);
+        else
+            b.tick(0, Grip::wrench, 0.2);
+        b.frame();
+        followed = followed || b.hints.shown->situation != Situation::find_by_wrench;
+        if (i < 55) CHECK_FALSE(followed);
+    }
+    CHECK(followed);
+}
+
 TEST_CASE("what is to stop is said at once, what is wrong nearly so") {
     Searching b;
     b.wait(0.5);
