@@ -127,9 +127,9 @@ bool replaces(const Hints& hints, Situation seen) {
 }
 
 int level_by_time(const HintTimes& times, double idle) {
-    int level = -1;
-    while (level < most_level && idle >= times.level[static_cast<std::size_t>(level + 1)]) ++level;
-    return level;
+    const auto reached =
+        std::count_if(times.level.begin(), times.level.end(), [&](double from) { return idle >= from; });
+    return static_cast<int>(reached) - 1;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "game/hints/controls.hpp"
 #include "tests/hints/bench.hpp"
 
 using namespace bolt;
@@ -255,8 +256,6 @@ TEST_CASE("every state of a lesson is known for what it is") {
 TEST_CASE("a guided lesson has a hint in every state, of the due joint, in every language and in full") {
     std::vector<words::Words> languages;
     for (const char* language : {"en", "de", "zh"}) languages.push_back(words_in(language));
-    Controls controls;
-    controls.fill("F");
     for (const Case& c : cases) {
         CAPTURE(c.text);
         Bench b(Mode::guided, c.strategy, c.task);
@@ -273,11 +272,18 @@ TEST_CASE("a guided lesson has a hint in every state, of the due joint, in every
             Hint at = hint;
             at.level = level;
             for (const words::Words& language : languages) {
-                const std::string said = say(language, at), motion = say_motion(language, at, controls);
+                const std::string said = say(language, at);
                 CHECK_FALSE(said.empty());
                 CHECK(said.find('{') == std::string::npos);
-                CHECK(motion.find('{') == std::string::npos);
-                CHECK(motion.empty() == (level < 3 || c.motion == Motion::none));
+                for (const Controls& controls :
+                     {mouse_controls(language, "T"), device_controls(language, "A")}) {
+                    const std::string motion = say_motion(language, at, controls);
+                    CHECK(motion.empty() == (level < 3 || c.motion == Motion::none));
+                    CHECK(motion.find('{') == std::string::npos);
+                    const std::string& pressed = controls[static_cast<std::size_t>(c.motion)];
+                    CHECK(pressed.empty() == (c.motion == Motion::none));
+                    CHECK((motion.empty() || motion.find(pressed) != std::string::npos));
+                }
             }
         }
     }
@@ -328,4 +334,7 @@ TEST_CASE("what is said has the numbers of the step") {
     CHECK(say(en, *start.hints.shown) == "This round: all nuts to 50 % of their torque. Begin with A.");
     start.wait(4.0);
     CHECK(say(en, *start.hints.shown) == "Take the 24 mm wrench.");
+    start.wait(12.0);
+    CHECK(say_motion(en, *start.hints.shown, mouse_controls(en, "T")) ==
+          "Move the hand to the wrench and close it on the handle: press T or click on the wrench.");
 }

@@ -44,6 +44,14 @@ std::string mistakes(const std::string& from, const std::string& to) {
     return said;
 }
 
+// Whether a text has words that a translator would change; single ones and names may be the same.
+bool is_sentence(std::string text) {
+    const bool several = text.find(' ') != std::string::npos;
+    for (std::size_t open = 0; (open = text.find('{')) != std::string::npos;)
+        text.erase(open, text.find('}') + 1 - open);
+    return several && std::any_of(text.begin(), text.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
 bool letters_are_there(const text::Fonts& fonts, const std::string& said) {
     const std::u32string points = text::decode(said);
     return std::all_of(points.begin(), points.end(),
@@ -89,7 +97,7 @@ TEST_CASE("a translation is one: hints are not left in English") {
         for (std::size_t i = 0; i < key_count; ++i) {
             const Key key = Key::at(i);
             CAPTURE(key.row().name);
-            if (en[key].find(' ') != std::string::npos) CHECK(en[key] != other[key]);
+            if (is_sentence(en[key])) CHECK(en[key] != other[key]);
         }
     }
 }

@@ -1,0 +1,15 @@
+// What is pressed or moved for each motion that a hint asks for, in somebody's language. Keys and buttons are
+// named by who has bound them.
+#pragma once
+
+#include "game/hints/hint.hpp"
+
+namespace bolt::hints {
+
+// With a mouse: press on a nut and hold, drag, let go. `tool_key` takes the wrench and lays it down.
+Controls mouse_controls(const words::Words& words, const std::string& tool_key);
+
+// With a device in the hand: `button` closes the hand.
+Controls device_controls(const words::Words& words, const std::string& button);
+
+}  // namespace bolt::hints
