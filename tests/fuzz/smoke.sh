@@ -23,4 +23,5 @@ smoke cal 100000 "$bin/../corpus/cal"
 smoke calibration 50000 -dict="$here/calibration.dict" -max_len=8192 "$bin/../corpus/calibration"
 smoke report 200000 -max_len=512
 smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
+smoke words 10000 -max_len=32768 "$bin/../corpus/words"
 echo "$passed passed, 0 failed"
