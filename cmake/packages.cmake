@@ -12,6 +12,7 @@ find_package(embree 3 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
+pkg_check_modules(openal REQUIRED IMPORTED_TARGET openal)
 
 # The author's tools that read and make STEP files; without it everything else still builds. The sanitizer presets leave it
 # out to keep ./test short; -DBOLT_OPENCASCADE=ON brings it back.

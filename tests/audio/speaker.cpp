@@ -1,0 +1,144 @@
+// The thread and OpenAL under it, each in a process of its own: OpenAL reads what drivers it may use once.
+
+#include "engine/audio/speaker.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <vector>
+
+#include "engine/audio/openal.hpp"
+#include "engine/audio/pcm.hpp"
+#include "engine/base/file.hpp"
+#include "tests/support/eventually.hpp"
+
+using namespace bolt;
+using namespace bolt::audio;
+
+namespace {
+
+struct Ended {
+    int status = -1;
+    std::string wrote;  // to stderr
+};
+
+// What `work` returns, and what it and the libraries under it write to the console.
+template <class Work>
+Ended in_child(const char* drivers, const char* config, const Work& work) {
+    std::array<int, 2> pipe_ends{};
+    REQUIRE(pipe(pipe_ends.data()) == 0);
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        dup2(pipe_ends[1], STDERR_FILENO);
+        close(pipe_ends[0]);
+        close(pipe_ends[1]);
+        setenv("ALSOFT_DRIVERS", drivers, 1);
+        setenv("ALSOFT_CONF", config, 1);
+        _exit(work());
+    }
+    close(pipe_ends[1]);
+    Ended ended;
+    std::array<char, 4096> bytes{};
+    for (ssize_t n = 0; (n = read(pipe_ends[0], bytes.data(), bytes.size())) > 0;)
+        ended.wrote.append(bytes.data(), static_cast<std::size_t>(n));
+    close(pipe_ends[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + status;
+    return ended;
+}
+
+Fill silence() {
+    return [](std::span<float> samples) { std::fill(samples.begin(), samples.end(), 0.0F); };
+}
+
+}  // namespace
+
+TEST_CASE("a speaker plays through OpenAL, block after block, and says so once") {
+    const Ended ended = in_child("null", "/dev/null", [] {
+        auto speaker = Speaker::start(silence());
+        if (!speaker) return 1;
+        std::optional<std::string> news;
+        if (!test::eventually([&] { return (news = speaker->news()).has_value(); })) return 2;
+        if (news->rfind("sound: ", 0) != 0) return 3;
+        if (!test::eventually([&] { return speaker->report().blocks > 3 * in_queue; })) return 4;
+        speaker->set_volume(0.0);
+        const std::uint64_t then = speaker->report().blocks;
+        if (!test::eventually([&] { return speaker->report().blocks > then + in_queue; })) return 5;
+        return speaker->news() ? 6 : 0;
+    });
+    CHECK(ended.status == 0);
+}
+
+TEST_CASE("what is heard is what was filled in") {
+    const auto folder = std::filesystem::temp_directory_path();
+    const auto heard = folder / "bolt-test-heard.wav", config = folder / "bolt-test-alsoft.conf";
+    REQUIRE(write_file(config,
+                       "[general]\nfrequency=48000\nchannels=mono\nsample-type=int16\ndither=false\n"
+                       "output-limiter=false\n[wave]\nfile=" +
+                           heard.string() + "\n"));
+    const Ended ended = in_child("wave", config.c_str(), [] {
+        // A staircase: every block at a height of its own.
+        int blocks = 0;
+        auto speaker = Speaker::start([&](std::span<float> samples) {
+            std::fill(samples.begin(), samples.end(), 0.01F * static_cast<float>(1 + blocks++ % 50));
+        });
+        if (!speaker) return 1;
+        return test::eventually([&] { return speaker->report().blocks > 60; }) ? 0 : 2;
+    });
+    CHECK(ended.status == 0);
+    const auto bytes = read_file(heard, 1U << 26U, ErrorCode::failed);
+    std::filesystem::remove(heard);
+    std::filesystem::remove(config);
+    REQUIRE(bytes);
+    // Every stair is there for its whole length; a machine that is too busy may leave gaps of silence
+    // between.
+    std::vector<int> lengths(51, 0);
+    for (std::size_t i = 60; i + 1 < bytes->size(); i += 2) {
+        const auto value = static_cast<std::int16_t>(static_cast<unsigned char>((*bytes)[i]) |
+                                                     static_cast<unsigned char>((*bytes)[i + 1]) << 8U);
+        for (int stair = 1; stair <= 50; ++stair)
+            if (std::abs(value - to_pcm16(0.01F * static_cast<float>(stair))) <= 1)
+                ++lengths[static_cast<std::size_t>(stair)];
+    }
+    for (int stair = 2; stair <= 40; ++stair) {
+        CAPTURE(stair);
+        CHECK(lengths[static_cast<std::size_t>(stair)] >= static_cast<int>(block) - 1);
+    }
+}
+
+TEST_CASE("without a device the reason is said once, by us alone, and the program goes on") {
+    for (const char* drivers : {"none", "alsa"}) {
+        CAPTURE(drivers);
+        const Ended ended = in_child(drivers, "/dev/null", [] {
+            // Whatever this machine has: ALSA finds no card by this name.
+            setenv("ALSA_CARD", "bolt_no_such_card", 1);
+            auto speaker = Speaker::start([](std::span<float>) { _exit(9); });  // nobody asks for samples
+            if (!speaker) return 1;
+            std::optional<std::string> news;
+            if (!test::eventually([&] { return (news = speaker->news()).has_value(); })) return 2;
+            if (news->rfind("no sound: ", 0) != 0) return 3;
+            return speaker->news() ? 4 : 0;
+        });
+        CHECK(ended.status == 0);
+        CHECK(ended.wrote.find("ALSA lib") == std::string::npos);
+    }
+}
+
+TEST_CASE("a speaker ends while its device works, and one that is moved plays on") {
+    const Ended ended = in_child("null", "/dev/null", [] {
+        for (int i = 0; i < 5; ++i)
+            if (!Speaker::start(silence())) return 1;
+        auto first = Speaker::start(silence());
+        auto second = Speaker::start(silence());  // each with a context of its own
+        if (!first || !second) return 2;
+        *first = std::move(*second);
+        return test::eventually([&] { return first->report().blocks > 2 * in_queue; }) ? 0 : 3;
+    });
+    CHECK(ended.status == 0);
+}
