@@ -1,0 +1,148 @@
+#include "game/sound/ear.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "haptics/servo/touch.hpp"
+
+namespace bolt::sound {
+
+namespace {
+
+// s, in which a wrench that struck something must have lost its speed for good: one that is held back for a
+// tick and then goes on did not.
+constexpr double struck_within = 4e-3;
+constexpr double least_strike = 0.03;  // m/s; what is slower, hands do themselves
+// A wrench that trembles against something does not knock in every tick: what follows must be louder than
+// what rings on.
+constexpr double rings_on = 0.05;  // s
+constexpr double louder = 1.5;
+
+constexpr double seated = 0.1;       // of full load: from here the thread is under load and does not run
+constexpr double usual_press = 3.0;  // N, where there is no device whose force would tell
+
+constexpr double rearmed = 0.7;  // of its setting, below which a torque wrench can click again
+
+Ear::Ends ends_of(const servo::Setup& setup, const Pose& tool) {
+    return {tool.position, tool.position + tool.orientation * Vec3(setup.wrench.handle_length, 0.0, 0.0)};
+}
+
+// Clamp force over what the joint is worth; the published law has torques only.
+double load_of(const servo::Setup& setup, const servo::Output& output) {
+    if (output.joint < 0) return 0.0;
+    if (setup.group.law == joint::Law::published)
+        return std::abs(output.wrench_torque) / setup.group.published.T_max_Nm;
+    const double reference = setup.group.joints[static_cast<std::size_t>(output.joint)].reference_load;
+    return reference > 0.0 ? output.clamp / reference : 0.0;
+}
+
+std::size_t window(const servo::Setup& setup) {
+    const auto ticks = static_cast<std::size_t>(std::lround(struck_within / setup.dt));
+    return std::clamp<std::size_t>(ticks, 2, Ear::most_back / 2);
+}
+
+// m/s that one end lost, along the way that it went before: what goes faster is not hit.
+double lost(const Ear& ear, Vec3 Ear::Ends::*end, std::size_t n, double dt) {
+    const Vec3 before = (ear.was[n].*end - ear.was[2 * n].*end) / (static_cast<double>(n) * dt);
+    const double fast = glm::length(before);
+    if (fast == 0.0) return 0.0;
+    double left = -fast;
+    for (std::size_t i = 0; i < n; ++i)
+        left = std::max(left, glm::dot(ear.was[i].*end - ear.was[i + 1].*end, before) / (fast * dt));
+    return fast - left;
+}
+
+void remember(Ear& ear, const servo::Setup& setup, const Ear::Ends& now) {
+    // A tool that is taken into the hand is suddenly elsewhere: that is no motion.
+    if (ear.known > 0 && glm::length(now.jaw - ear.was[0].jaw) > setup.limits.speed * setup.dt) ear.known = 0;
+    std::copy_backward(ear.was.begin(), ear.was.end() - 1, ear.was.end());
+    ear.was[0] = now;
+    ear.known = std::min(ear.known + 1, ear.was.size());
+}
+
+void hear_strike(Ear& ear, const servo::Setup& setup, Heard& heard) {
+    const std::size_t n = window(setup);
+    ear.since_strike += setup.dt;
+    if (ear.known <= 2 * n || ear.untouched > n) return;
+    const double hard =
+        std::max(lost(ear, &Ear::Ends::jaw, n, setup.dt), lost(ear, &Ear::Ends::grip, n, setup.dt));
+    // Where it comes to rest over some ticks, the most is what it lost.
+    const double masked = louder * ear.last_strike * std::exp(-ear.since_strike / rings_on);
+    if (hard > ear.rising && hard > std::max(least_strike, masked)) {
+        ear.rising = hard;
+        return;
+    }
+    if (ear.rising == 0.0) return;
+    heard.strike = static_cast<float>(ear.rising);
+    ear.last_strike = std::exchange(ear.rising, 0.0);
+    ear.since_strike = 0.0;
+}
+
+void hear_slide(const Ear& ear, const servo::Setup& setup, const servo::Output& output, Heard& heard) {
+    // With a nut that it turns the jaw goes along.
+    const bool own = output.joint >= 0 && output.touched == servo::first_nut + output.joint;
+    if (own || ear.known < 2) return;
+    const Vec3 slide = 0.5 * (ear.was[0].jaw - ear.was[1].jaw + ear.was[0].grip - ear.was[1].grip) / setup.dt;
+    const double fast = glm::length(slide);
+    const Vec3 along = fast > 0.0 ? slide / fast : Vec3(0.0);
+    const double pressed = glm::length(output.force - glm::dot(output.force, along) * along);
+    heard.slide = static_cast<float>(fast);
+    heard.press = static_cast<float>(setup.limits.force > 0.0 ? pressed : usual_press);
+}
+
+void hear_contact(Ear& ear, const servo::Setup& setup, const servo::Output& output, Heard& heard) {
+    remember(ear, setup, ends_of(setup, output.tool));
+    if (output.touched >= 0) {
+        ear.untouched = 0;
+        ear.on_nut = output.touched >= servo::first_nut;
+        hear_slide(ear, setup, output, heard);
+    } else {
+        ++ear.untouched;
+    }
+    heard.met = ear.on_nut ? Met::nut : Met::casing;
+    hear_strike(ear, setup, heard);
+}
+
+void hear_nut(Ear& ear, const servo::Setup& setup, const servo::Output& output, Heard& heard) {
+    const double load = load_of(setup, output);
+    if (output.joint >= 0 && output.joint == ear.joint) {
+        const double turned = std::abs(output.nut_angle - ear.nut_angle) / setup.dt;
+        const double under = std::clamp(load / seated, 0.0, 1.0);
+        heard.run = static_cast<float>((1.0 - under) * turned);
+        heard.creep = static_cast<float>(under * turned);
+        heard.load = static_cast<float>(load);
+    }
+    // The joint that slips is engaged no more: how much it bore is known from the tick before.
+    if (output.slipped >= 0) heard.slip = static_cast<float>(std::max(0.05, ear.load));
+    ear.joint = output.joint;
+    ear.nut_angle = output.nut_angle;
+    ear.load = load;
+}
+
+}  // namespace
+
+Heard hear(Ear& ear, const servo::Setup& setup, const servo::Output& output, const Cues& cues) {
+    Heard heard;
+    hear_contact(ear, setup, output, heard);
+    hear_nut(ear, setup, output, heard);
+    if (cues.click_at > 0.0) {
+        const double torque = output.joint >= 0 ? output.wrench_torque : 0.0;
+        heard.click = !ear.clicked && torque >= cues.click_at;
+        ear.clicked = (ear.clicked && torque > rearmed * cues.click_at) || heard.click;
+    }
+    heard.done = cues.done;
+    heard.mistake = cues.mistake;
+    return heard;
+}
+
+Cues cues_of(std::span<const lesson::Event> events) {
+    Cues cues;
+    for (const lesson::Event& event : events) {
+        cues.done = cues.done || event.kind == "step_end";
+        cues.mistake = cues.mistake || event.kind == "mistake";
+    }
+    return cues;
+}
+
+}  // namespace bolt::sound

@@ -1,0 +1,47 @@
+// From ticks to what there is to be heard of them: nothing but the servo's output decides, so that a session
+// that is replayed sounds as it did. No clock, no allocation; the same ticks give the same numbers.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "game/lesson/result.hpp"
+#include "game/sound/heard.hpp"
+#include "haptics/servo/io.hpp"
+#include "haptics/servo/setup.hpp"
+
+namespace bolt::sound {
+
+// What the lesson adds to a tick.
+struct Cues {
+    double click_at = 0.0;  // N·m that a torque wrench is set to; 0: it is none
+    bool done = false;      // a step of a joint was done in this tick
+    bool mistake = false;   // a mistake was made in it
+};
+
+// Of what the lesson said in a tick (Lesson::events).
+Cues cues_of(std::span<const lesson::Event> events);
+
+struct Ear {
+    // Ends of the wrench, m, in the ticks before, newest first; as far back as a strike is looked for.
+    struct Ends {
+        Vec3 jaw{0.0}, grip{0.0};
+    };
+    static constexpr std::size_t most_back = 32;
+    std::array<Ends, most_back + 1> was{};
+    std::size_t known = 0;              // of them
+    std::size_t untouched = most_back;  // ticks
+    bool on_nut = false;                // what was touched last
+    double since_strike = 0.0;          // s
+    double last_strike = 0.0;           // m/s
+    double rising = 0.0;                // m/s, of a strike that is not over
+
+    std::int16_t joint = -1;
+    double nut_angle = 0.0;  // rad
+    double load = 0.0;
+    bool clicked = false;  // and not let go of since
+};
+
+Heard hear(Ear& ear, const servo::Setup& setup, const servo::Output& output, const Cues& cues = {});
+
+}  // namespace bolt::sound

@@ -1,0 +1,103 @@
+// A whole simulated lesson, listened to.
+
+#include "engine/audio/wav.hpp"
+#include "engine/base/file.hpp"
+#include "tests/sound/support.hpp"
+
+using namespace bolt;
+
+namespace {
+
+// How loud it was while something was the case: 20 ms at a time, the median and the most.
+struct Level {
+    std::vector<double> pieces;
+    std::vector<float> samples;
+
+    void add(std::span<const float> more) {
+        samples.insert(samples.end(), more.begin(), more.end());
+        if (samples.size() < 960) return;
+        pieces.push_back(test::rms(samples));
+        samples.clear();
+    }
+    [[nodiscard]] double share(double part) {
+        REQUIRE(pieces.size() > 10);
+        std::sort(pieces.begin(), pieces.end());
+        return pieces[static_cast<std::size_t>(part * static_cast<double>(pieces.size() - 1))];
+    }
+};
+
+}  // namespace
+
+TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, its wrench clicks") {
+    const auto path = std::filesystem::temp_directory_path() / "bolt-test-lesson.wav";
+    auto wav = audio::WavWriter::create(path, test::rate);
+    REQUIRE(wav);
+    Level air, spun, half, full;
+    int clicks = 0, pulls = 0, chimes = 0, mistakes = 0, strikes = 0;
+    std::size_t count = 0, ticks = 0, since = 0;
+    double most = 0.0, step = 0.0;
+    float before = 0.0F;
+    bool above = false;
+    const double click_at = 18.0;  // N·m
+    const lesson::LessonResult result = test::hear_lesson(
+        "cover-m8", "expert", 300.0, click_at,
+        [&](const servo::Output& output, const sound::Heard& heard, std::span<const float> samples) {
+            REQUIRE(wav->write(samples));
+            ++ticks;
+            count += samples.size();
+            for (const float s : samples) {
+                most = std::max(most, std::abs(static_cast<double>(s)));
+                step = std::max(step, std::abs(static_cast<double>(s - before)));
+                before = s;
+            }
+            clicks += heard.click ? 1 : 0;
+            chimes += heard.done ? 1 : 0;
+            mistakes += heard.mistake ? 1 : 0;
+            strikes += heard.strike > 0.0F ? 1 : 0;
+            const bool now = output.joint >= 0 && output.wrench_torque >= click_at;
+            pulls += now && !above ? 1 : 0;
+            above = now;
+            // Away from what rings on for itself.
+            since = heard.click || heard.done || heard.strike > 0.0F ? 0 : since + 1;
+            if (since < 2000) return;
+            if (output.joint < 0 && output.touched < 0) air.add(samples);
+            if (heard.run > 5.0F) spun.add(samples);
+            if (heard.creep > 0.2F && heard.load > 0.2F && heard.load < 0.4F) half.add(samples);
+            if (heard.creep > 0.2F && heard.load > 0.6F) full.add(samples);
+        });
+    REQUIRE(wav->finish());
+    REQUIRE(result.finished);
+    CHECK(chimes == 16);  // four nuts: run down, half, full, looked at again
+    CHECK(mistakes == 0);
+    CHECK(pulls >= 4);
+    CHECK(clicks == pulls);
+    CHECK(strikes > 4);
+    CHECK(strikes < 100);
+    CHECK(most < 1.0);
+    CHECK(step <= 1.0001 * sound::steepest / test::rate);
+    // In the air all is silent but for what rings out.
+    CHECK(air.share(0.5) < 2e-3);
+    CHECK(spun.share(0.5) > 0.02);
+    CHECK(half.share(0.5) > 2e-3);
+    CHECK(full.share(0.5) > 2.5 * half.share(0.5));
+    CHECK(count == ticks * 48);
+    const auto bytes = read_file(path, 1U << 28U, ErrorCode::failed);
+    std::filesystem::remove(path);
+    REQUIRE(bytes);
+    CHECK(bytes->size() == 44 + 2 * count);
+}
+
+TEST_CASE("the same lesson sounds the same, sample for sample") {
+    const auto sum = [](double longest) {
+        std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
+        test::hear_lesson("cover-m8", "clumsy", longest, 0.0,
+                          [&](const servo::Output&, const sound::Heard&, std::span<const float> samples) {
+                              for (const float s : samples)
+                                  hash = (hash ^ std::bit_cast<std::uint32_t>(s)) * 1099511628211ULL;
+                          });
+        return hash;
+    };
+    const std::uint64_t once = sum(60.0);
+    CHECK(once == sum(60.0));
+    CHECK(once != sum(59.0));
+}

@@ -1,0 +1,108 @@
+// What sound tests share: ticks made by hand, spectra, a simulated lesson that is listened to.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <vector>
+
+#include "content/format/load.hpp"
+#include "game/operators/operator.hpp"
+#include "game/play/servo_setup.hpp"
+#include "game/play/touch_models.hpp"
+#include "game/sound/ear.hpp"
+#include "game/sound/track.hpp"
+#include "tests/servo/support.hpp"
+
+namespace bolt::test {
+
+inline constexpr int rate = 48000;
+
+inline double loudest(std::span<const float> samples) {
+    double most = 0.0;
+    for (const float s : samples) most = std::max(most, std::abs(static_cast<double>(s)));
+    return most;
+}
+
+inline double rms(std::span<const float> samples) {
+    double sum = 0.0;
+    for (const float s : samples) sum += square(s);
+    return samples.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(samples.size()));
+}
+
+inline double steepest_step(std::span<const float> samples) {
+    double most = 0.0;
+    for (std::size_t i = 1; i < samples.size(); ++i)
+        most =
+            std::max(most, std::abs(static_cast<double>(samples[i]) - static_cast<double>(samples[i - 1])));
+    return most;
+}
+
+// How much of a frequency there is, by its Fourier sum under a Hann window.
+inline double amount(std::span<const float> samples, double frequency) {
+    const auto n = static_cast<double>(samples.size());
+    const std::complex<double> turn = std::polar(1.0, 2.0 * pi * frequency / rate),
+                               slow = std::polar(1.0, 2.0 * pi / n);
+    std::complex<double> phase = 1.0, window = 1.0, sum = 0.0;
+    for (const float sample : samples) {
+        sum += static_cast<double>(sample) * (1.0 - window.real()) * phase;
+        phase *= turn;
+        window *= slow;
+    }
+    return std::abs(sum) / n;
+}
+
+inline double dominant(std::span<const float> samples, double from, double to, double step) {
+    double best = 0.0, most = -1.0;
+    for (double f = from; f <= to; f += step) {
+        const double found = amount(samples, f);
+        if (found > most) {
+            most = found;
+            best = f;
+        }
+    }
+    return best;
+}
+
+// So many seconds of one thing that is heard over and over.
+inline std::vector<float> listen(sound::Synth& synth, const sound::Heard& heard, double seconds) {
+    sound::sound(synth, heard);
+    std::vector<float> samples(static_cast<std::size_t>(seconds * rate));
+    sound::render(synth, samples);
+    return samples;
+}
+
+// A lesson as boltwright train plays it, listened to; `visit` gets every tick's output and samples.
+using Visit = std::function<void(const servo::Output&, const sound::Heard&, std::span<const float>)>;
+inline lesson::LessonResult hear_lesson(const char* name, const char* trainee, double longest,
+                                        double click_at, const Visit& visit) {
+    const content::Loaded loaded = content::load_assembly(name);
+    REQUIRE(loaded.ok());
+    const content::Assembly& assembly = loaded.assembly;
+    const servo::Setup setup = play::make_setup(assembly, joint::Law::mechanistic, {}, 1, 1e-3);
+    servo::State state = servo::initial_state(setup);
+    auto touch = play::load_touch(assembly, setup);
+    REQUIRE(touch);
+    REQUIRE(touch->has_value());
+    state.touch = std::move(**touch);
+    lesson::Lesson lesson = lesson::begin(assembly, lesson::Mode::guided, lesson::Task::tighten);
+    operators::Operator hand(operators::find_profile(trainee).value(), 1, setup);
+    sound::Ear ear;
+    sound::Track track(sound::make_synth(setup, rate), setup.dt);
+    while (lesson.due() != nullptr && static_cast<double>(state.tick) * setup.dt < longest) {
+        const servo::Input input = hand.act(setup, state, lesson);
+        const servo::Output output = servo::tick(setup, state, input);
+        lesson::observe(lesson, state, output);
+        sound::Cues cues = sound::cues_of(lesson.events);
+        lesson.events.clear();
+        cues.click_at = click_at;
+        const sound::Heard heard = sound::hear(ear, setup, output, cues);
+        visit(output, heard, track.next(heard));
+    }
+    return lesson::judge(lesson, state, setup.dt);
+}
+
+}  // namespace bolt::test
