@@ -69,6 +69,7 @@ class OpenAl final : public Sink {
         alGenBuffers(static_cast<ALsizei>(buffers_.size()), buffers_.data());
         alGenSources(1, &source_);
         if (alGetError() != AL_NO_ERROR) return no_sound("OpenAL makes no source");
+        alSourcei(source_, AL_SOURCE_RELATIVE, AL_TRUE);  // at the ears, wherever a listener is
         free_.assign(buffers_.begin(), buffers_.end());
         return {};
     }

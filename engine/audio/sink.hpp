@@ -12,9 +12,10 @@
 
 namespace bolt::audio {
 
-inline constexpr int rate = 48000;          // samples a second
-inline constexpr std::size_t block = 480;   // samples: 10 ms
-inline constexpr std::size_t in_queue = 4;  // blocks that wait in a sink at most: what a picture is ahead of
+inline constexpr int rate = 48000;         // samples a second
+inline constexpr std::size_t block = 480;  // samples: 10 ms
+inline constexpr std::size_t in_queue =
+    4;  // blocks that wait in a sink at most: 40 ms from being made to being heard
 
 class Sink {
   public:

@@ -7,12 +7,12 @@ namespace bolt::sound {
 
 namespace {
 
-// How loud each is at most, of full scale, before the limiter; chosen by ear and by the picture of a lesson.
-constexpr double strike_level = 0.9, scrape_gain = 0.5, run_level = 0.06, mark_level = 0.08,
-                 groan_level = 0.35, click_level = 0.7, slip_level = 1.2, crackle_level = 0.35,
-                 bell_level = 0.22, gong_level = 0.35;
+// How loud each is, of full scale, before the limiter; chosen, by how the samples of lessons look.
+constexpr double strike_level = 0.55, scrape_gain = 0.5, run_level = 0.06, mark_level = 0.08,
+                 groan_level = 0.2, click_level = 0.5, slip_level = 1.2, crackle_level = 0.04,
+                 bell_level = 0.16, gong_level = 0.22;
 
-constexpr double glide_time = 4e-3;  // s
+constexpr double glide_time = 4e-3, crackle_time = 25e-3;  // s
 
 // A free steel bar bends in these: (k L)² relative to the first of 4.730 (Blevins, Formulas for Natural
 // Frequency and Mode Shape, 1979). A hand that holds it damps the low ones least.
@@ -139,6 +139,14 @@ double creep(Synth& s) {
     return s.groan.next(s.on_groan.next());
 }
 
+// Steel that is scraped off the corners.
+double crackle(Synth& s) {
+    if (s.crackle == 0.0) return 0.0;
+    s.crackle *= s.dies;
+    if (s.crackle < 1e-4) s.crackle = 0.0;
+    return crackle_level * s.crackle * white(s.noise);
+}
+
 }  // namespace
 
 double Glide::next(double share) {
@@ -151,6 +159,7 @@ Synth make_synth(const servo::Setup& setup, int rate, std::uint64_t seed) {
     Synth s;
     s.rate = rate;
     s.follow = 1.0 - std::exp(-1.0 / (glide_time * s.rate));
+    s.dies = std::exp(-1.0 / (crackle_time * s.rate));
     s.noise = Random(seed, 7);
     s.wrench = make_wrench(setup.wrench, s.rate);
     s.casing = {casing_tones, s.rate};
@@ -182,7 +191,7 @@ void sound(Synth& s, const Heard& heard) {
     if (const double hard = sane(heard.slip, 1.5); hard > 0.0) {
         hit(s.on_wrench, slip_level * (0.3 + 0.7 * hard), 0.2e-3, s.rate);
         hit(s.on_nut, slip_level * (0.3 + 0.7 * hard), 0.15e-3, s.rate);
-        s.crackle.now = std::min(1.0, s.crackle.now + 0.3 + 0.7 * hard);
+        s.crackle = std::min(1.0, s.crackle + 0.3 + 0.7 * hard);
     }
     if (heard.click) {
         hit(s.on_ratchet, click_level, 0.3e-3, s.rate);
@@ -202,11 +211,9 @@ void render(Synth& s, std::span<float> samples) {
     for (float& sample : samples) {
         double sum = scrape(s) + run(s) + creep(s);
         sum += s.wrench.next(s.on_wrench.next()) + s.casing.next(s.on_casing.next());
-        sum += s.nut.next(s.on_nut.next()) + s.ratchet.next(s.on_ratchet.next());
+        sum += s.nut.next(s.on_nut.next() + crackle(s)) + s.ratchet.next(s.on_ratchet.next());
         sum += s.bell.next(s.on_bell.next()) + s.second_bell.next(s.on_second_bell.next());
         sum += s.gong.next(s.on_gong.next());
-        if (const double left = s.crackle.next(s.follow); left > 0.0)
-            sum += crackle_level * left * white(s.noise);
         s.last += std::clamp(limited(sum) - s.last, -step, step);
         sample = static_cast<float>(s.last);
         ++s.counted;

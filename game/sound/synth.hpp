@@ -19,8 +19,8 @@
 
 namespace bolt::sound {
 
-inline constexpr double steepest =
-    12e3;  // 1/s: a quarter of full scale from one sample to the next at 48 kHz
+// 1/s: a quarter of full scale from one sample to the next at 48 kHz.
+inline constexpr double steepest = 12e3;
 inline constexpr double marks_a_turn = 120.0;  // of the nut: the pitch of `run`
 
 struct Glide {
@@ -31,6 +31,7 @@ struct Glide {
 struct Synth {
     double rate = 48000.0;
     double follow = 0.0;  // share of the way that a glide goes in a sample
+    double dies = 0.0;    // share of a crackle that is left after a sample
     Random noise{1};
 
     Bank wrench, casing, nut, groan, ratchet, bell, second_bell, gong;
@@ -46,7 +47,7 @@ struct Synth {
     Glide creep, load;
     double wound = 0.0, holds = 0.0;  // rad, and at which it lets go
 
-    Glide crackle;              // what a slip leaves of noise
+    double crackle = 0.0;       // 0 … 1, what a slip leaves of noise in the nut
     std::uint32_t counted = 0;  // samples, for what is not computed at each
     double last = 0.0;          // sample
 };

@@ -195,6 +195,31 @@ TEST_CASE("a click, a slip and both chimes are there and are not each other") {
     CHECK(test::loudest(std::span(click).last(24000)) < 1e-3);
 }
 
+TEST_CASE("no sound by itself is so steep or so loud that a limiter would bend it, but a slip's") {
+    std::vector<Heard> sounds{strike(1.0, Met::casing), strike(1.0, Met::nut)};
+    const auto add = [&](auto set) { set(sounds.emplace_back()); };
+    add([](Heard& h) { h.slide = 0.5F, h.press = 10.0F; });
+    add([](Heard& h) { h.run = 12.0F; });
+    add([](Heard& h) { h.run = 60.0F; });
+    add([](Heard& h) { h.creep = 1.0F, h.load = 1.0F; });
+    add([](Heard& h) { h.click = true; });
+    add([](Heard& h) { h.done = true; });
+    add([](Heard& h) { h.mistake = true; });
+    for (std::size_t i = 0; i < sounds.size(); ++i) {
+        Synth synth = make();
+        Heard goes_on = sounds[i];
+        goes_on.strike = 0.0F;
+        goes_on.click = goes_on.done = goes_on.mistake = false;
+        std::vector<float> samples = test::listen(synth, sounds[i], 1e-3);
+        const std::vector<float> more = test::listen(synth, goes_on, 1.0);
+        samples.insert(samples.end(), more.begin(), more.end());
+        CAPTURE(i);
+        CHECK(test::steepest_step(samples) < 0.999 * steepest / test::rate);
+        CHECK(test::loudest(samples) < 0.75);
+        CHECK(test::loudest(samples) > 0.03);
+    }
+}
+
 TEST_CASE("nothing is louder than 1 and nothing leaps, whatever the ticks say") {
     for (const int rate : {8000, 22050, 44100, 48000, 96000}) {
         for (std::uint64_t seed = 1; seed <= 6; ++seed) {
