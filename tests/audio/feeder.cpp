@@ -23,7 +23,10 @@ struct Room {
 
 class Card final : public Sink {
   public:
-    explicit Card(Room& room) : room_(room) { room_.free = in_queue; }
+    explicit Card(Room& room) : room_(room) {
+        room_.free = in_queue;
+        room_.volume = -1.0;  // a new one knows nothing
+    }
     [[nodiscard]] std::string name() const override { return "card"; }
     Result<std::size_t> room() override {
         if (!room_.plugged) return fail(ErrorCode::no_device, "pulled out");
@@ -125,9 +128,15 @@ TEST_CASE(
     CHECK(feeder.report().playing);
     CHECK(feeder.report().openings == 2);
     CHECK(room.volume == 0.3);
+    room.plugged = false;
+    feeder.turn(9.0, 0.3);
+    room.plugged = true;
+    feeder.turn(11.0, 0.3);
+    CHECK(feeder.report().openings == 3);
+    CHECK(room.volume == 0.3);
     // Nothing was made while nobody listened.
-    CHECK(room.heard.size() == 2 * in_queue * block);
-    CHECK(room.heard.back() == static_cast<float>(2 * in_queue * block - 1));
+    CHECK(room.heard.size() == 3 * in_queue * block);
+    CHECK(room.heard.back() == static_cast<float>(3 * in_queue * block - 1));
 }
 
 TEST_CASE("a device that opens and fails at once is not asked all the time") {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <vector>
@@ -18,6 +19,12 @@
 
 using namespace bolt;
 using namespace bolt::audio;
+
+#if defined(__SANITIZE_THREAD__)
+// OpenAL is built without the sanitizer, which therefore does not see how its threads agree.
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() { return "race:libopenal.so\n"; }
+#endif
 
 namespace {
 
@@ -58,6 +65,48 @@ Fill silence() {
 }
 
 }  // namespace
+
+TEST_CASE("a speaker's thread keeps a sink full, and tells what becomes of it") {
+    // A card that is pulled out when somebody wants that.
+    struct Card final : Sink {
+        explicit Card(std::atomic<bool>& there) : plugged(there) {}
+        [[nodiscard]] std::string name() const override { return "card"; }
+        Result<std::size_t> room() override {
+            if (!plugged) return fail(ErrorCode::no_device, "pulled out");
+            return std::size_t{1};
+        }
+        Status play(std::span<const float, block>) override { return {}; }
+        Status set_volume(double wished) override {
+            volume = wished;
+            return {};
+        }
+        std::atomic<bool>& plugged;
+        double volume = 0.0;
+    };
+    std::atomic<bool> plugged = true;
+    std::uint64_t filled = 0;
+    {
+        auto speaker = Speaker::start([&](std::span<float>) { ++filled; },
+                                      [&]() -> Result<std::unique_ptr<Sink>> {
+                                          if (!plugged) return fail(ErrorCode::no_device, "no card");
+                                          return std::make_unique<Card>(plugged);
+                                      });
+        REQUIRE(speaker);
+        CHECK(test::eventually([&] { return speaker->report().blocks > 20; }));
+        CHECK(speaker->news() == "sound: card");
+        CHECK_FALSE(speaker->news());
+        speaker->set_volume(0.5);
+        plugged = false;
+        CHECK(test::eventually([&] { return speaker->report().losses == 1; }));
+        CHECK(speaker->news() == "no sound: pulled out");
+        CHECK(test::eventually([&] { return speaker->report().trouble == "no card"; }));
+        CHECK_FALSE(speaker->news());  // said already
+        plugged = true;
+        CHECK(test::eventually([&] { return speaker->report().openings == 2; }));
+        CHECK(speaker->news() == "sound: card");
+    }
+    CHECK(filled > 20);  // and nobody fills any more
+}
 
 TEST_CASE("a speaker plays through OpenAL, block after block, and says so once") {
     const Ended ended = in_child("null", "/dev/null", [] {

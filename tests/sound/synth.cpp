@@ -172,6 +172,28 @@ TEST_CASE("sliding is the louder the faster and the harder, and needs both") {
     CHECK(loud(0.0, 4.0) == 0.0);
 }
 
+TEST_CASE("the faster it slides the higher it sounds") {
+    double before = 0.0;
+    for (const double slide : {0.15, 0.3, 0.6}) {
+        Synth synth = make();
+        Heard heard;
+        heard.slide = static_cast<float>(slide);
+        heard.press = 4.0F;
+        test::listen(synth, heard, 0.1);
+        const std::vector<float> samples = test::listen(synth, heard, 1.0);
+        // The middle of its spectrum.
+        double sum = 0.0, weighed = 0.0;
+        for (double f = 100.0; f < 6000.0; f += 20.0) {
+            const double found = square(test::amount(samples, f));
+            sum += found;
+            weighed += f * found;
+        }
+        CAPTURE(slide);
+        CHECK(weighed / sum > 1.4 * before);
+        before = weighed / sum;
+    }
+}
+
 TEST_CASE("a click, a slip and both chimes are there and are not each other") {
     const auto heard = [](auto set) {
         Synth synth = make();
