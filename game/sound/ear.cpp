@@ -91,23 +91,30 @@ void hear_slide(const Ear& ear, const servo::Setup& setup, const servo::Output& 
     heard.press = static_cast<float>(setup.limits.force > 0.0 ? pressed : usual_press);
 }
 
+Met met_of(const Ear& ear, std::int16_t touched) {
+    if (touched >= servo::first_nut) return Met::nut;
+    const auto at = static_cast<std::size_t>(touched);
+    return at < ear.still.size() ? ear.still[at] : Met::casing;
+}
+
 void hear_contact(Ear& ear, const servo::Setup& setup, const servo::Output& output, Heard& heard) {
     remember(ear, setup, ends_of(setup, output.tool));
     if (output.touched >= 0) {
         ear.untouched = 0;
-        ear.on_nut = output.touched >= servo::first_nut;
+        ear.met = met_of(ear, output.touched);
         hear_slide(ear, setup, output, heard);
     } else {
         ++ear.untouched;
     }
-    heard.met = ear.on_nut ? Met::nut : Met::casing;
+    heard.met = ear.met;
     hear_strike(ear, setup, heard);
 }
 
 void hear_nut(Ear& ear, const servo::Setup& setup, const servo::Output& output, Heard& heard) {
     const double load = load_of(setup, output);
     if (output.joint >= 0 && output.joint == ear.joint) {
-        const double turned = std::abs(output.nut_angle - ear.nut_angle) / setup.dt;
+        double turned = std::abs(output.nut_angle - ear.nut_angle) / setup.dt;
+        if (turned > setup.limits.angular_speed) turned = 0.0;  // an undone step, no motion either
         const double under = std::clamp(load / seated, 0.0, 1.0);
         heard.run = static_cast<float>((1.0 - under) * turned);
         heard.creep = static_cast<float>(under * turned);

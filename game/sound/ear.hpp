@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "game/lesson/result.hpp"
 #include "game/sound/heard.hpp"
@@ -23,6 +24,9 @@ struct Cues {
 Cues cues_of(std::span<const lesson::Event> events);
 
 struct Ear {
+    std::vector<Met>
+        still;  // what stands still sounds like, by its number (materials.hpp); not known: castings
+
     // Ends of the wrench, m, in the ticks before, newest first; as far back as a strike is looked for.
     struct Ends {
         Vec3 jaw{0.0}, grip{0.0};
@@ -31,7 +35,7 @@ struct Ear {
     std::array<Ends, most_back + 1> was{};
     std::size_t known = 0;              // of them
     std::size_t untouched = most_back;  // ticks
-    bool on_nut = false;                // what was touched last
+    Met met = Met::casing;              // what was touched last
     double since_strike = 0.0;          // s
     double last_strike = 0.0;           // m/s
     double rising = 0.0;                // m/s, of a strike that is not over

@@ -13,6 +13,7 @@
 
 namespace bolt::sound {
 
+// Outlives the speaker that it fills.
 class Feed {
   public:
     static constexpr double behind = 0.04;    // s

@@ -6,7 +6,8 @@
 
 namespace bolt::sound {
 
-enum class Met : std::uint8_t { casing, nut };  // cast iron and big, or steel and small
+// Cast iron and big, or steel and small: nuts, bolts, washers.
+enum class Met : std::uint8_t { casing, nut };
 
 struct Heard {
     float strike = 0.0F;  // m/s, at which the wrench meets something in this tick; 0: it does not

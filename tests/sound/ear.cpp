@@ -2,6 +2,7 @@
 
 #include "game/sound/ear.hpp"
 
+#include "game/sound/materials.hpp"
 #include "haptics/servo/touch.hpp"
 #include "tests/sound/support.hpp"
 #include "tests/support/forbidden.hpp"
@@ -71,16 +72,24 @@ TEST_CASE("the end of the handle strikes as well, though the jaw hardly moves") 
     CHECK(strikes[0] == doctest::Approx(0.2).epsilon(1e-2));
 }
 
-TEST_CASE("what is met is iron or a nut") {
-    for (const std::int16_t id : {std::int16_t{2}, static_cast<std::int16_t>(servo::first_nut + 1)}) {
+TEST_CASE("what is met is iron or a nut, or as its name says") {
+    const content::Loaded loaded = content::load_assembly("cover-m8");
+    REQUIRE(loaded.ok());
+    const std::vector<record::ObstacleName> names{
+        {0, "housing"}, {1, "B1_bolt"}, {2, "B10_bolt"}, {4, "B4_washer_nut"}, {servo::first_nut, "B1_nut"}};
+    const std::vector<Met> still = materials(loaded.assembly, names);
+    CHECK(still == std::vector<Met>{Met::casing, Met::nut, Met::casing, Met::casing, Met::nut});
+    for (const int id : {0, 1, 2, 3, 4, 5, servo::first_nut + 1}) {
+        CAPTURE(id);
         Script script;
+        script.ear.still = still;
         script.move({0, -0.2, 0}, 50);
-        script.output.touched = id;
+        script.output.touched = static_cast<std::int16_t>(id);
         Heard struck;
         for (int i = 0; i < 20; ++i)
             if (const Heard heard = script.tick(); heard.strike > 0.0F) struck = heard;
         CHECK(struck.strike > 0.1F);
-        CHECK((struck.met == Met::nut) == (id >= servo::first_nut));
+        CHECK((struck.met == Met::nut) == (id == 1 || id == 4 || id >= servo::first_nut));
     }
 }
 
@@ -178,6 +187,11 @@ TEST_CASE("a nut runs while it bears nothing and creeps when it does, either way
     const Heard other = script.tick();
     CHECK(other.run == 0.0F);
     CHECK(other.creep == 0.0F);
+    // Nor is a step that is undone.
+    script.output.nut_angle = 7.0;
+    const Heard undone = script.tick();
+    CHECK(undone.run == 0.0F);
+    CHECK(undone.creep == 0.0F);
 }
 
 TEST_CASE("the published law's load is its torque") {

@@ -2,9 +2,12 @@
 
 #include "game/sound/feed.hpp"
 
+#include <atomic>
 #include <thread>
 
+#include "engine/audio/speaker.hpp"
 #include "tests/sound/support.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/forbidden.hpp"
 
 using namespace bolt;
@@ -100,6 +103,38 @@ TEST_CASE("while nobody listens nothing piles up, and what is old is not heard l
     CHECK(test::loudest(fill(feed, 100)) == 0.0);
     feed.push(click);
     CHECK(test::loudest(fill(feed, 5)) > 0.1);
+}
+
+TEST_CASE("a window pushes the ticks of each picture and the speaker plays them") {
+    // What is heard goes here instead of to a card, as fast as it is made.
+    struct Card final : audio::Sink {
+        explicit Card(std::atomic<double>& most) : loudest(most) {}
+        [[nodiscard]] std::string name() const override { return "card"; }
+        Result<std::size_t> room() override { return std::size_t{1}; }
+        Status play(std::span<const float, audio::block> samples) override {
+            loudest = std::max(loudest.load(), test::loudest(samples));
+            return {};
+        }
+        Status set_volume(double) override { return {}; }
+        std::atomic<double>& loudest;
+    };
+    std::atomic<double> loudest = 0.0;
+    const servo::Setup setup = test::two_joints();
+    Ear ear;
+    Feed feed(make_synth(setup, audio::rate), setup.dt);  // outlives the speaker
+    auto speaker = audio::Speaker::start(
+        [&](std::span<float> samples) { feed.fill(samples); },
+        [&]() -> Result<std::unique_ptr<audio::Sink>> { return std::make_unique<Card>(loudest); });
+    REQUIRE(speaker);
+    servo::Output output;
+    output.joint = 0;
+    CHECK(test::eventually([&] {
+        for (int tick = 0; tick < 17; ++tick) {
+            output.nut_angle += 9.0 * setup.dt;
+            feed.push(hear(ear, setup, output));
+        }
+        return loudest > 0.02;
+    }));
 }
 
 TEST_CASE("filling allocates nothing, and two threads get along") {

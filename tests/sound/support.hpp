@@ -29,7 +29,7 @@ inline double loudest(std::span<const float> samples) {
 
 inline double rms(std::span<const float> samples) {
     double sum = 0.0;
-    for (const float s : samples) sum += square(s);
+    for (const float s : samples) sum += square(static_cast<double>(s));
     return samples.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(samples.size()));
 }
 

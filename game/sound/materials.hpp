@@ -1,0 +1,17 @@
+// What the obstacles of an assembly sound like, by the number that the servo's output has for them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "content/format/assembly.hpp"
+#include "game/record/session.hpp"
+#include "game/sound/heard.hpp"
+
+namespace bolt::sound {
+
+// Bolts and washers sound as nuts do: parts whose names begin with a joint's id, as `B1_washer` does. All
+// others are taken for castings.
+std::vector<Met> materials(const content::Assembly& assembly, std::span<const record::ObstacleName> names);
+
+}  // namespace bolt::sound
