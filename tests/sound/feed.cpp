@@ -5,7 +5,7 @@
 #include <atomic>
 #include <thread>
 
-#include "engine/audio/speaker.hpp"
+#include "game/sound/live.hpp"
 #include "tests/sound/support.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/forbidden.hpp"
@@ -120,20 +120,28 @@ TEST_CASE("a window pushes the ticks of each picture and the speaker plays them"
     };
     std::atomic<double> loudest = 0.0;
     const servo::Setup setup = test::two_joints();
-    Ear ear;
-    Feed feed(make_synth(setup, audio::rate), setup.dt);  // outlives the speaker
-    auto speaker = audio::Speaker::start(
-        [&](std::span<float> samples) { feed.fill(samples); },
-        [&]() -> Result<std::unique_ptr<audio::Sink>> { return std::make_unique<Card>(loudest); });
-    REQUIRE(speaker);
+    auto live = Live::start(
+        setup, {}, [&]() -> Result<std::unique_ptr<audio::Sink>> { return std::make_unique<Card>(loudest); });
+    REQUIRE(live);
     servo::Output output;
     output.joint = 0;
     CHECK(test::eventually([&] {
         for (int tick = 0; tick < 17; ++tick) {
             output.nut_angle += 9.0 * setup.dt;
-            feed.push(hear(ear, setup, output));
+            live->tick(output, {});
         }
         return loudest > 0.02;
+    }));
+    CHECK(live->news() == "sound: card");
+    auto other = Live::start(setup, {}, [] { return fail(ErrorCode::no_device, "no card"); });
+    REQUIRE(other);
+    CHECK(test::eventually([&] { return other->news() == "no sound: no card"; }));
+    *other = std::move(*live);
+    loudest = 0.0;
+    CHECK(test::eventually([&] {
+        output.nut_angle += 9.0 * setup.dt;
+        other->tick(output, {});
+        return loudest > 0.01;
     }));
 }
 
