@@ -61,12 +61,14 @@ void remember(Ear& ear, const servo::Setup& setup, const Ear::Ends& now) {
     ear.known = std::min(ear.known + 1, ear.was.size());
 }
 
-void hear_strike(Ear& ear, const servo::Setup& setup, Heard& heard) {
+void hear_strike(Ear& ear, const servo::Setup& setup, const servo::Output& output, Heard& heard) {
     const std::size_t n = window(setup);
     ear.since_strike += setup.dt;
     if (ear.known <= 2 * n || ear.untouched > n) return;
-    const double hard =
-        std::max(lost(ear, &Ear::Ends::jaw, n, setup.dt), lost(ear, &Ear::Ends::grip, n, setup.dt));
+    double hard = lost(ear, &Ear::Ends::jaw, n, setup.dt);
+    // A wrench that turns a nut stops turning when the hand does: nothing is struck by that.
+    const bool turns = output.joint >= 0 && ear.met == Met::nut;
+    if (!turns) hard = std::max(hard, lost(ear, &Ear::Ends::grip, n, setup.dt));
     // Where it comes to rest over some ticks, the most is what it lost.
     const double masked = louder * ear.last_strike * std::exp(-ear.since_strike / rings_on);
     if (hard > ear.rising && hard > std::max(least_strike, masked)) {
@@ -107,7 +109,7 @@ void hear_contact(Ear& ear, const servo::Setup& setup, const servo::Output& outp
         ++ear.untouched;
     }
     heard.met = ear.met;
-    hear_strike(ear, setup, heard);
+    hear_strike(ear, setup, output, heard);
 }
 
 void hear_nut(Ear& ear, const servo::Setup& setup, const servo::Output& output, Heard& heard) {
