@@ -71,6 +71,8 @@ class Course {
     [[nodiscard]] double time() const { return static_cast<double>(at_.state.tick) * at_.setup.dt; }  // s
     [[nodiscard]] bool over() const { return lesson_.due() == nullptr; }
     [[nodiscard]] bool obstacles() const { return at_.state.touch.has_value(); }
+    // As servo::Output::touched numbers them.
+    [[nodiscard]] std::span<const record::ObstacleName> obstacle_names() const { return at_.obstacle_names; }
 
     // As it stands; and the same written, after which there are no more ticks.
     [[nodiscard]] Played judged() const;
