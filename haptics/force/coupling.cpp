@@ -1,6 +1,7 @@
 #include "haptics/force/coupling.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace bolt::force {
 
@@ -37,7 +38,9 @@ Spring passive(double greatest, double physical, double dt) {
 
 Coupling make_coupling(const CouplingRange& range) {
     Coupling coupling;
-    const double hardest = step_share * range.force / hardest_speed;  // N·s/m: force a millisecond and speed
+    // N·s/m: force a millisecond and speed. Where none is rendered nothing hits hard.
+    const double hardest = range.force > 0.0 ? step_share * range.force / hardest_speed
+                                             : std::numeric_limits<double>::infinity();
     const Spring straight =
         passive(std::min(range.stiffness, 0.75 * hardest / millisecond), range.damping, range.dt);
     coupling.stiffness = straight.stiffness;

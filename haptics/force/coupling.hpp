@@ -30,7 +30,8 @@ struct CouplingRange {
 
 // As stiff as passivity allows, b > K dt / 2 + |B| (Colgate and Schenkel, J. Robotic Systems 14(1), 1997),
 // with a margin; no stiffer than that a collision at 0.5 m/s adds at most a tenth of the greatest force in a
-// millisecond; damped with half of what is left.
+// millisecond; damped with half of what is left. Its springs weigh a tool's motions against each other also
+// where a device renders no force or torque, so they are never 0 for that.
 Coupling make_coupling(const CouplingRange& range);
 
 // Tool against device.

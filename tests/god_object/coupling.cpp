@@ -129,3 +129,16 @@ TEST_CASE("the energy stored is that of the springs, and never more than they gi
         REQUIRE(stored_energy(c, turn) <= turned * (1 + 1e-3) + 1e-9);
     }
 }
+
+TEST_CASE("a coupling that renders no force weighs a tool's motions all the same, and holds no energy") {
+    CouplingRange range;
+    range.force = range.torque = 0.0;
+    const Coupling c = make_coupling(range);
+    CHECK(c.stiffness > 0.0);
+    CHECK(c.torsion > 0.0);
+    const Offset off{Vec3(0.01, 0.0, 0.0), Vec3(0.0, 0.1, 0.0)};
+    const OutputCommand felt = coupling_force(c, off, {}, range.dt);
+    CHECK(felt.force == Vec3(0.0));
+    CHECK(felt.torque == Vec3(0.0));
+    CHECK(stored_energy(c, off) == 0.0);
+}

@@ -123,6 +123,34 @@ TEST_CASE("the wrench stops where the cover is, however far the hand goes, and c
     CHECK(glm::length(back.last.force) < 0.01);
 }
 
+TEST_CASE("the wrench stops there too in the hand of who feels no force, no torque or nothing") {
+    for (const auto& [force, torque] : {std::pair{0.0, 0.0}, {0.0, 2.0}, {20.0, 0.0}}) {
+        CAPTURE(force);
+        CAPTURE(torque);
+        force::OutputLimits limits;
+        limits.force = force;
+        limits.torque = torque;
+        test::Workbench bench("cover-m8", limits);
+        const Pose high = bench.wrench(0, 0.03);
+        Pose through = high;
+        through.position += bench.setup.nuts[0].axis * -0.06 + bench.setup.nuts[0].e1 * 0.03;
+        for (int i = 0; i < 10; ++i) bench.step(high);
+        double deepest = 1.0, felt = 0.0;
+        Output last;
+        test::sweep(bench, high, through, 0.5, [&](const Output& output) {
+            last = output;
+            felt = std::max(felt, glm::length(output.force));
+            if (output.contacts > 0) deepest = std::min(deepest, bench.state.touch->last.nearest);
+        });
+        CHECK(last.contacts > 0);
+        CHECK(deepest > -0.1e-3);
+        CHECK(glm::distance(last.tool.position, through.position) > 5e-3);
+        CHECK(felt <= force);
+        test::sweep(bench, through, high, 0.5, [&](const Output& output) { last = output; });
+        CHECK(glm::distance(last.tool.position, high.position) < 1e-3);
+    }
+}
+
 TEST_CASE("the same hand feels the same bits, and a tick in contact does nothing that it must not") {
     test::Workbench first("cover-m8"), second("cover-m8");
     const Pose high = first.wrench(0, 0.03, to_radians(5.0)), low = first.wrench(0, 0.0, to_radians(5.0));
