@@ -25,6 +25,11 @@ void put(std::array<char, 200>& words, const std::string& text) {
     words[n] = '\0';
 }
 
+// Before the first frame nothing is missed.
+void listen(Report& report, std::uint64_t frames, double time) {
+    if (frames > 0) report.longest_silence = std::max(report.longest_silence, time - report.newest);
+}
+
 }  // namespace
 
 struct Driver::Shared {
@@ -41,8 +46,10 @@ struct Driver::Shared {
         std::vector<std::uint8_t> received;
         while (!stop.stop_requested()) {
             const double time = now();
+            listen(report, number, time);
             const auto said = conversation.go_on(received, time, [&](const Frame& frame) {
                 samples.write({frame, ++number, time});
+                report.newest = time;
             });
             report.state = conversation.state();
             report.identity = conversation.identity();
@@ -76,6 +83,7 @@ struct Driver::Shared {
             }
             report.open = false;
             report.state = State::silent;
+            listen(report, number, now());
             reports.write(report);
             for (double until = now() + pause; now() < until && !stop.stop_requested();)
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));

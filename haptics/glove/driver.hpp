@@ -21,6 +21,8 @@ struct Report {
     Identity identity;
     std::array<char, 200> trouble{};  // words, ended by a zero; empty: none
     std::uint64_t frames = 0, lost_bytes = 0, greetings = 0, openings = 0;
+    // s of the steady clock at which the newest frame came, and the longest that none did, up to now.
+    double newest = 0.0, longest_silence = 0.0;
 };
 
 class Driver {

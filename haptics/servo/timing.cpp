@@ -21,6 +21,7 @@ Verdict judge_host(const Timing& timing, double rate, const HostLimits& limits) 
     if (timing.ticks < limits.ticks || timing.wake_up.count == 0) {
         verdict.reasons.push_back(
             fmt::format("only {} ticks were timed; {} are needed to know", timing.ticks, limits.ticks));
+        verdict.against = 1;
         return verdict;
     }
     const double period = 1.0 / rate;
@@ -48,6 +49,7 @@ Verdict judge_host(const Timing& timing, double rate, const HostLimits& limits) 
          fmt::format("the longest time without a tick was {:.1f} ms; at most {:.0f} ms is wanted",
                      1e3 * stall, 1e3 * limits.stall));
     verdict.good = verdict.reasons.empty();
+    verdict.against = verdict.reasons.size();
     verdict.reasons.insert(verdict.reasons.end(), kept.begin(), kept.end());
     return verdict;
 }

@@ -36,6 +36,7 @@ struct HostLimits {
 struct Verdict {
     bool good = false;
     std::vector<std::string> reasons;  // each a measured value beside its limit, worst news first
+    std::size_t against = 0;           // so many of them, the first, say that it is not
 };
 
 // At `rate` (1/s), which need not be the one at which the timing was taken: what was late by more than a

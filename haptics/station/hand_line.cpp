@@ -70,6 +70,8 @@ const ShownHand& HandLine::shown() {
     return shared_->shown.latest();
 }
 
+const glove::Report& HandLine::report() { return shared_->driver.report(); }
+
 std::vector<std::string> HandLine::troubles() {
     HandTrouble trouble;
     trouble.lost = shared_->lost.load(std::memory_order_acquire);

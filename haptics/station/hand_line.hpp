@@ -22,6 +22,7 @@ class HandLine {
     // For one caller each.
     const ShownHand& shown();
     std::vector<std::string> troubles();
+    const glove::Report& report();  // for the caller of troubles()
 
   private:
     struct Shared;

@@ -24,6 +24,8 @@ struct Station::Shared {
     std::optional<HandLine> hand;
     TripleBuffer<Wishes> wishes;
     TripleBuffer<Ticked> ticked;
+    Passed counted;
+    TripleBuffer<Passed> passed;
     SpscRing<Ticked> ticks{kept_ticks};
     std::atomic<std::uint64_t> lost{0};
     std::optional<servo::Thread> thread;  // the last member: it stops first
@@ -39,6 +41,9 @@ struct Station::Shared {
         const Answer answer = station::tick(layout, setup, mapped, state, heard);
         if (mover) mover->order(answer.mover, true);
         if (wheel) wheel->order(answer.wheel, true);
+        count(counted.mover, mapped.mover, answer.mover);
+        count(counted.wheel, mapped.wheel, answer.wheel);
+        passed.write(counted);
         if (hand) hand->place({mapped.workspace.tool, mapped.output.tool});
         const Ticked now{beat.number, mapped.input, mapped.output};
         ticked.write(now);
@@ -132,6 +137,15 @@ std::vector<std::string> Station::troubles() {
     return words;
 }
 
+const device::Report* Station::mover() { return shared_->mover ? &shared_->mover->report() : nullptr; }
+const device::Report* Station::wheel() { return shared_->wheel ? &shared_->wheel->report() : nullptr; }
+const glove::Report* Station::gloved() {
+    return shared_->hand ? &shared_->hand->report() : shared_->glove ? &shared_->glove->report() : nullptr;
+}
+const Passed& Station::passed() {
+    shared_->passed.update();
+    return shared_->passed.latest();
+}
 const ShownHand* Station::hand() { return shared_->hand ? &shared_->hand->shown() : nullptr; }
 const Layout& Station::layout() const { return shared_->layout; }
 const servo::Setup& Station::setup() const { return shared_->setup; }

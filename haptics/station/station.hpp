@@ -7,7 +7,7 @@
 #include "haptics/glove/driver.hpp"
 #include "haptics/servo/thread.hpp"
 #include "haptics/station/hand.hpp"
-#include "haptics/station/step.hpp"
+#include "haptics/station/traffic.hpp"
 
 namespace bolt::station {
 
@@ -54,6 +54,13 @@ class Station {
 
     // What is wrong, in words, worst first; empty: nothing. As it was at most a tenth of a second ago.
     std::vector<std::string> troubles();
+
+    // How it goes with each device and with the glove, gloved hand or not; null: there is none. Of the
+    // traffic the newest tick's. For the caller of troubles().
+    const device::Report* mover();
+    const device::Report* wheel();
+    const glove::Report* gloved();
+    const Passed& passed();
 
     [[nodiscard]] const Layout& layout() const;
     [[nodiscard]] const servo::Setup& setup() const;
