@@ -11,8 +11,9 @@
 
 #include "content/station/rig_file.hpp"
 #include "engine/base/console.hpp"
-#include "engine/base/nearest.hpp"
 #include "game/cli/commands.hpp"
+#include "game/station/choice.hpp"
+#include "game/station/wearer.hpp"
 #include "haptics/device/line.hpp"
 #include "haptics/device/list.hpp"
 #include "haptics/device/words.hpp"
@@ -24,7 +25,6 @@ namespace bolt::cli {
 
 namespace {
 
-constexpr double glove_patience = 6.0;  // s: a glove is asked each question three times before it is given up
 constexpr double device_patience = 3.0;  // s
 constexpr int quick = 2;                 // ms: what an adapter may gather
 
@@ -79,18 +79,8 @@ std::string ports(const std::vector<std::filesystem::path>& found) {
 
 // Opens it and hears what it says for a while.
 Result<std::string> examine_device(const Options& options) {
-    std::vector<std::string> ids;
-    for (const device::Listed& l : device::list(true)) {
-        ids.push_back(l.id);
-        if (l.id != options.device || !l.trouble) continue;
-        return fail(*l.trouble);
-    }
-    if (std::find(ids.begin(), ids.end(), options.device) == ids.end()) {
-        const auto near = nearest(options.device, ids);
-        return fail(
-            ErrorCode::no_device, fmt::format("there is no device {}", options.device),
-            near.empty() ? "one that `boltwright devices` lists" : fmt::format("did you mean {}?", near));
-    }
+    if (const auto found = station::find(device::list(true), options.device); !found)
+        return fail(found.error());
     device::Rig rig;
     if (!options.rig.empty()) {
         const Result<device::Rig> read = content::load_rig(options.rig);
@@ -121,19 +111,8 @@ Result<std::string> examine_device(const Options& options) {
 Result<std::string> examine_glove(const std::string& port, double seconds) {
     if (Status may = glove::may_use(port); !may) return fail(may.error());
     glove::Driver driver = glove::Driver::start(port);
+    if (const auto found = station::await_glove(driver, port); !found) return fail(found.error());
     const device::Timer timer = device::steady_timer();
-    const double until = timer.now() + glove_patience;
-    while (driver.sample().number == 0) {
-        const glove::Report& report = driver.report();
-        const bool told = report.trouble[0] != '\0';
-        // A port that cannot be opened or a line that is no glove's is said at once; silence is waited for.
-        if ((told && report.state == glove::State::refused) ||
-            (told && !report.open && report.openings == 0) || timer.now() > until)
-            return fail(ErrorCode::no_device,
-                        fmt::format("{}: {}", port, told ? report.trouble.data() : "no answer"),
-                        told ? "" : "a CyberGlove that is switched on");
-        timer.wait(0.01);
-    }
     const std::uint64_t before = driver.sample().number;
     timer.wait(seconds);
     const auto heard = static_cast<double>(driver.sample().number - before);

@@ -1,9 +1,11 @@
 // boltwright doctor: what this machine has, what of it would be used, and whether it keeps the servo's time.
+// With devices or a glove named: whether they and this machine are a station to train with.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "engine/base/console.hpp"
 #include "engine/gpu/device.hpp"
@@ -13,6 +15,7 @@
 #include "game/cli/commands.hpp"
 #include "game/cli/devices.hpp"
 #include "game/cli/servo_host.hpp"
+#include "game/cli/try_station.hpp"
 
 namespace bolt::cli {
 
@@ -72,18 +75,52 @@ Status examine() {
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
-    auto seconds = std::make_shared<double>(2.0);
+    struct Options {
+        StationOptions station;
+        std::optional<double> seconds;
+    };
+    auto options = std::make_shared<Options>();
     CLI::App* doctor = app.add_subcommand(
         "doctor",
-        "Say what this machine has for drawing, what would be used, and how it keeps the servo's time");
-    doctor->add_option("--seconds", *seconds, "how long the servo is timed at each rate; 0: not at all")
-        ->check(CLI::Range(0.0, 3600.0))
+        "Say what this machine has for drawing, what would be used, and how it keeps the servo's time. With "
+        "a "
+        "device or a glove named: run a station with them, say how it goes and whether it is good enough "
+        "(exit code 0) or not (1); needs no display and no GPU");
+    StationOptions& station = options->station;
+    doctor->add_option("assembly", station.assembly, "What is worked on meanwhile: folder, file or name")
         ->capture_default_str();
-    doctor->callback([&exit_code, seconds] {
+    doctor
+        ->add_option(
+            "--device", station.devices,
+            "Try this one, by its id as `boltwright devices` has it; given twice: one that moves the "
+            "tool and one that turns the wrench. No force goes out unless its button is held")
+        ->expected(1)
+        ->take_all();
+    auto* device = doctor->get_option("--device");
+    doctor->add_option("--rig", station.rig, "What this rig file says of the wheel: its motor, its encoder")
+        ->needs(device);
+    auto* glove = doctor->add_option("--glove", station.glove, "Try the glove on this serial port");
+    auto* trainee =
+        doctor->add_option("--trainee", station.trainee,
+                           "Whose hand is in it, by the calibration that `boltwright glove` keeps");
+    trainee->needs(glove);
+    doctor->add_option("--folder", station.calibrations, "Where that is kept; else the user's data folder")
+        ->needs(trainee);
+    doctor
+        ->add_option("--seconds", options->seconds,
+                     "how long the station is tried (5), or the servo timed at each rate (2; 0: not at all)")
+        ->check(CLI::Range(0.0, 3600.0));
+    doctor->callback([&exit_code, options] {
+        if (options->station.any()) {
+            options->station.seconds = options->seconds.value_or(options->station.seconds);
+            exit_code = try_station(options->station);
+            return;
+        }
         const Status drawing = examine();
-        Status servo = say(devices_line());
-        if (servo && *seconds > 0.0) {
-            const Result<std::string> text = examine_servo(*seconds);
+        Status servo = say(devices_line() + what_to_try());
+        const double seconds = options->seconds.value_or(2.0);
+        if (servo && seconds > 0.0) {
+            const Result<std::string> text = examine_servo(seconds, options->station.assembly);
             servo =
                 say("Servo:\n" + (text ? *text : fmt::format("  not timed: {}\n", text.error().message())));
         }

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdlib>
 #include <ctime>
 #include <memory>
 #include <thread>
@@ -14,6 +13,7 @@
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
+#include "game/station/wearer.hpp"
 #include "haptics/glove/cal_file.hpp"
 #include "haptics/glove/calibration_session.hpp"
 #include "haptics/glove/driver.hpp"
@@ -43,16 +43,8 @@ double now() {
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr))); }
 
-// Where calibrations are kept unless somebody says otherwise, by the XDG base directory specification.
 Result<fs::path> kept_in(const Options& options) {
-    if (!options.folder.empty()) return fs::path(options.folder);
-    // NOLINTBEGIN(concurrency-mt-unsafe): nothing sets them
-    if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && fs::path(data).is_absolute())
-        return fs::path(data) / "boltwright" / "gloves";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return fs::path(home) / ".local" / "share" / "boltwright" / "gloves";
-    // NOLINTEND(concurrency-mt-unsafe)
-    return fail(ErrorCode::usage, "there is no home folder to keep the calibration in", "--folder");
+    return options.folder.empty() ? station::calibrations_folder() : fs::path(options.folder);
 }
 
 // Reads every sample of a glove once.

@@ -45,8 +45,8 @@ std::string describe(const servo::Granted& granted) {
 
 }  // namespace
 
-Result<std::string> examine_servo(double seconds) {
-    const content::Loaded loaded = content::load_assembly("zq350");
+Result<std::string> examine_servo(double seconds, const std::string& assembly) {
+    const content::Loaded loaded = content::load_assembly(assembly);
     if (!loaded.ok()) return fail(loaded.errors.front());
     std::string text;
     std::optional<servo::Touch> touch;  // made once: it takes seconds

@@ -9,6 +9,6 @@ namespace bolt::cli {
 
 // Text for a terminal: what the thread was given, histograms at 1 kHz and 4 kHz, and whether that is good
 // enough.
-Result<std::string> examine_servo(double seconds);
+Result<std::string> examine_servo(double seconds, const std::string& assembly);
 
 }  // namespace bolt::cli

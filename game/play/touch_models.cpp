@@ -191,6 +191,16 @@ Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& as
     return std::optional<TouchModels>(std::move(models));
 }
 
+Result<contact::ToolShape> load_wrench(const content::Assembly& assembly) {
+    if (assembly.wrench.model.empty())
+        return fail(bad(assembly.file, "the assembly's wrench has no model, so no hand can close on it"));
+    const Result<std::vector<contact::ContactMesh>> parts = read_wrench(assembly.wrench);
+    if (!parts) return fail(parts.error());
+    Result<contact::ToolShape> tool = contact::make_tool(*parts);
+    if (!tool) return fail(bad(wrench_file(assembly.wrench), tool.error().what));
+    return tool;
+}
+
 Result<std::optional<servo::Touch>> load_touch(const content::Assembly& assembly, const servo::Setup& setup) {
     Result<std::optional<TouchModels>> models = load_touch_models(assembly, setup);
     if (!models) return fail(models.error());

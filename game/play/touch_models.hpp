@@ -27,4 +27,7 @@ Result<Quat> wrench_turn(const content::WrenchDesign& design);
 
 Result<std::optional<servo::Touch>> load_touch(const content::Assembly& assembly, const servo::Setup& setup);
 
+// The assembly's wrench alone, in the tool's frame. An error: it names none, or as above.
+Result<contact::ToolShape> load_wrench(const content::Assembly& assembly);
+
 }  // namespace bolt::play

@@ -1,0 +1,212 @@
+#include "game/station/trial.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "haptics/device/timer.hpp"
+#include "haptics/device/words.hpp"
+#include "haptics/glove/adapter.hpp"
+
+namespace bolt::station {
+
+namespace {
+
+constexpr double look_every = 0.02;   // s
+constexpr double told_itself = 0.25;  // s of silence: the device's line says so (device/keeper.hpp)
+constexpr int quick = 2;              // ms: what a glove's adapter may gather
+
+bool renders(const std::optional<device::Description>& d) {
+    return d && (renders_force(*d) || renders_torque(*d));
+}
+bool renders(const Layout& layout) { return renders(layout.mover) || renders(layout.wheel); }
+
+std::string passed(double count, double seconds, double age, double silence) {
+    return fmt::format(
+        "{:.0f} samples, {:.0f} a second; the newest {:.0f} ms old, the longest silence {:.0f} ms\n", count,
+        seconds > 0.0 ? count / seconds : 0.0, 1e3 * age, 1e3 * silence);
+}
+
+std::string sent(const TriedDevice& tried) {
+    const device::Description& d = tried.description;
+    std::string text;
+    if (renders_force(d))
+        text += fmt::format("    {:.2f} N at most went out, of {:.3g} N that it takes\n", tried.traffic.force,
+                            d.limits.force);
+    if (renders_torque(d))
+        text += fmt::format("    {:.2f} N·m at most went out, of {:.3g} N·m that it takes\n",
+                            tried.traffic.torque, d.limits.torque);
+    return text.empty() ? "    renders no force\n" : text;
+}
+
+std::string report(const TriedDevice& tried, const char* use, double seconds) {
+    std::string text = fmt::format("  {}: {}\n    ", tried.description.name, use);
+    text += passed(static_cast<double>(tried.traffic.samples), seconds, tried.traffic.silent,
+                   tried.traffic.longest_silence);
+    if (tried.malformed > 0) text += fmt::format("    {} of its reports make no sense\n", tried.malformed);
+    return text + sent(tried);
+}
+
+std::string report(const TriedGlove& tried, double seconds) {
+    const glove::Identity& who = tried.report.identity;
+    std::string text = fmt::format("Glove on {}: CyberGlove, {} hand, {} sensors\n    ", tried.port.string(),
+                                   who.hand == glove::Hand::left ? "left" : "right", who.sensors);
+    text += passed(tried.frames, seconds, tried.age, tried.report.longest_silence);
+    if (tried.report.lost_bytes > 0)
+        text += fmt::format("    {} bytes on its line made no sense\n", tried.report.lost_bytes);
+    if (const auto ms = glove::gathers_ms(tried.port); ms && *ms > quick)
+        text += fmt::format(
+            "    its adapter gathers bytes for {} ms: install the udev rule (60-boltwright.rules) and plug "
+            "it in "
+            "again\n",
+            *ms);
+    if (!tried.worn)
+        return text +
+               "    whose hand it is was not said (--trainee NAME): without a calibration it takes nothing\n";
+    text +=
+        fmt::format("    calibrated for {}{}{}\n", tried.worn->trainee,
+                    tried.worn->date.empty() ? "" : " on " + tried.worn->date,
+                    tried.worn->quality > 0.0 ? fmt::format(", quality {:.2f}", tried.worn->quality) : "");
+    return text + (tried.held ? "    the hand holds the wrench\n"
+                              : "    the hand does not hold the wrench: thumb and fingers take it by closing "
+                                "on its handle\n");
+}
+
+std::string report(const servo::Granted& granted) {
+    std::string text;
+    if (granted.priority > 0) text += fmt::format("  real-time priority {} (SCHED_FIFO)\n", granted.priority);
+    if (granted.memory_locked) text += "  memory is locked\n";
+    for (const std::string& refused : granted.refused) text += "  " + refused + "\n";
+    return text;
+}
+
+std::optional<TriedDevice> tried(const std::optional<device::Description>& description,
+                                 const Traffic& traffic, const device::Report* report) {
+    if (!description || report == nullptr) return std::nullopt;
+    return TriedDevice{*description, traffic, report->malformed};
+}
+
+}  // namespace
+
+void note(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
+          FunctionRef<void(const Episode&)> tell) {
+    const auto is_on = [](const Episode& e) { return !e.until; };
+    for (Episode& e : episodes) {
+        if (!is_on(e) || std::find(troubles.begin(), troubles.end(), e.words) != troubles.end()) continue;
+        e.until = time;
+        tell(e);
+    }
+    for (const std::string& words : troubles) {
+        const auto same = [&](const Episode& e) { return is_on(e) && e.words == words; };
+        if (std::any_of(episodes.begin(), episodes.end(), same)) continue;
+        episodes.push_back({words, time, std::nullopt});
+        tell(episodes.back());
+    }
+}
+
+Trial try_station(Station& station, const Planned& planned, double seconds, const std::function<bool()>& stop,
+                  FunctionRef<void(const Episode&)> tell) {
+    const device::Timer timer = device::steady_timer();
+    const double begun = timer.now();
+    Trial trial;
+    Wishes wishes;
+    wishes.grip = servo::Grip::wrench;
+    // Where nothing pulls the servo is given something to do. What pulls does so while its button is held.
+    wishes.held = !renders(station.layout());
+    station.wish(wishes);
+    const double frames = station.gloved() == nullptr ? 0.0 : static_cast<double>(station.gloved()->frames);
+    std::uint64_t enabled = 0;
+    const auto look = [&] {
+        for (Ticked tick; station.next(tick);) enabled += tick.input.enabled ? 1 : 0;
+        note(trial.episodes, station.troubles(), timer.now() - begun, tell);
+    };
+    while (timer.now() - begun < seconds && !stop()) {
+        timer.wait(std::min(look_every, begun + seconds - timer.now()));
+        look();
+    }
+    trial.seconds = timer.now() - begun;
+    if (const glove::Report* glove = station.gloved()) {
+        trial.glove = {planned.glove,
+                       *glove,
+                       static_cast<double>(glove->frames) - frames,
+                       glove->frames > 0 ? timer.now() - glove->newest : trial.seconds,
+                       planned.worn,
+                       station.hand() != nullptr && station.hand()->held};
+    }
+    station.stop();
+    look();
+    if (planned.choice.mover)
+        trial.mover = tried(station.layout().mover, station.passed().mover, station.mover());
+    trial.wheel = tried(station.layout().wheel, station.passed().wheel, station.wheel());
+    trial.timing = station.servo().timing();
+    trial.granted = station.servo().granted();
+    trial.rate = 1.0 / station.setup().dt;
+    trial.enabled = static_cast<double>(enabled) * station.setup().dt;
+    return trial;
+}
+
+std::string introduce(Layout layout, const Choice& choice) {
+    std::string text;
+    if (!choice.mover) {
+        layout.mover.reset();
+        text = "  no device moves the tool: it stands still\n";
+    }
+    std::vector<std::string> with_button;
+    bool forces = false;
+    const auto add = [&](const std::optional<device::Description>& d, Use use, const Buttons& buttons) {
+        if (!d) return;
+        text += fmt::format("  {}  {}: {}\n", d->id, d->name, words(use));
+        for (const std::string& line : device::words(*d)) text += fmt::format("    {}\n", line);
+        forces = forces || renders(d);
+        if (d->buttons > 0 && buttons.held != 0)
+            with_button.push_back(
+                fmt::format("button {} of {}", std::countr_zero(buttons.held) + 1, d->name));
+    };
+    add(layout.mover, Use::mover, layout.mover_buttons);
+    add(layout.wheel, Use::wheel, layout.wheel_buttons);
+    if (!forces) return text + "No force goes out: nothing here renders any.\n";
+    if (with_button.empty())
+        return text + "No force goes out: it would only while a button is held, and there is none.\n";
+    return text + fmt::format("Forces go out only while {} is held.\n", fmt::join(with_button, " or "));
+}
+
+std::string report(const Trial& trial) {
+    std::string text = fmt::format("In {:.1f} s\n", trial.seconds);
+    if (trial.mover) text += report(*trial.mover, words(Use::mover), trial.seconds);
+    if (trial.wheel) text += report(*trial.wheel, words(Use::wheel), trial.seconds);
+    const auto pulls = [](const auto& tried) { return tried && renders(tried->description); };
+    if (pulls(trial.mover) || pulls(trial.wheel))
+        text += trial.enabled > 0.0
+                    ? fmt::format("  the button was held for {:.1f} s\n", trial.enabled)
+                    : "  the button was never held, so the servo had less to do than it will\n";
+    if (trial.glove) text += report(*trial.glove, trial.seconds);
+    text += fmt::format("Servo at {:.0f} ticks a second:\n", trial.rate) + report(trial.granted);
+    return text + servo::describe(trial.timing);
+}
+
+std::vector<std::string> against(const Trial& trial) {
+    std::vector<std::string> reasons;
+    for (const Episode& e : trial.episodes)
+        if (!e.until) reasons.push_back(e.words);
+    for (const Episode& e : trial.episodes)
+        if (e.until)
+            reasons.push_back(fmt::format("{} (from {:.1f} to {:.1f} s)", e.words, e.from, *e.until));
+    for (const auto* tried : {&trial.mover, &trial.wheel}) {
+        if (!tried->has_value()) continue;
+        const device::Description& d = (*tried)->description;
+        const double silence = (*tried)->traffic.longest_silence;
+        // Longer ones its line has said already; what may rest is not silent.
+        if (renders((*tried)->description) && !d.rests && silence > d.limits.silence && silence < told_itself)
+            reasons.push_back(
+                fmt::format("{} was silent for {:.0f} ms; after {:.0f} ms its force is let go of", d.name,
+                            1e3 * silence, 1e3 * d.limits.silence));
+    }
+    const servo::Verdict host = servo::judge_host(trial.timing, trial.rate);
+    reasons.insert(reasons.end(), host.reasons.begin(),
+                   host.reasons.begin() + static_cast<std::ptrdiff_t>(host.against));
+    return reasons;
+}
+
+}  // namespace bolt::station
