@@ -8,7 +8,7 @@
 
 #include "game/play/touch_models.hpp"
 #include "haptics/device/timer.hpp"
-#include "haptics/glove/adapter.hpp"
+#include "haptics/hand/closing.hpp"
 
 namespace bolt::station {
 
@@ -100,15 +100,6 @@ Result<content::GloveCalibration> calibration_of(const std::string& trainee, con
     return kept;
 }
 
-hand::Angles closing_hand(double share) {
-    hand::Angles a;
-    const auto bent = [&](double degrees) { return share * to_radians(degrees); };
-    for (hand::FingerAngles& f : a.fingers) f = {bent(70.0), bent(95.0), bent(60.0), 0.0};
-    a.thumb = {to_radians(70.0), to_radians(60.0) - bent(48.0), bent(50.0), bent(65.0)};
-    a.arch = to_radians(8.0);
-    return a;
-}
-
 Pose wrist_at_handle(const hand::Hand& hand, const contact::ToolShape& tool, double along) {
     Pose best;
     int most = -1;
@@ -117,7 +108,7 @@ Pose wrist_at_handle(const hand::Hand& hand, const contact::ToolShape& tool, dou
         int held = 0;
         for (const double share : closed_so_far) {
             grip::Grip grip;
-            grip::step(grip, {}, tool, hand, {true, closing_hand(share), wrist}, 0.01);
+            grip::step(grip, {}, tool, hand, {true, hand::closing(share), wrist}, 0.01);
             held += grip.grasping ? 1 : 0;
         }
         if (held <= most) continue;

@@ -26,9 +26,6 @@ Result<content::GloveCalibration> calibration_of(const std::string& trainee, con
 // tool's frame.
 Pose wrist_at_handle(const hand::Hand& hand, const contact::ToolShape& tool, double along);
 
-// How fingers and thumb are bent that close so far around a handle: 0 open, 1 a fist if nothing were in it.
-hand::Angles closing_hand(double share);
-
 // The hand that wears it, at the assembly's wrench. An error: that has no model to close on.
 Result<HandPlan> hand_plan(const content::Assembly& assembly, const content::GloveCalibration& calibration);
 

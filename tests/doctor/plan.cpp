@@ -8,6 +8,7 @@
 #include "content/format/load.hpp"
 #include "engine/base/file.hpp"
 #include "haptics/device/puck.hpp"
+#include "haptics/hand/closing.hpp"
 #include "tests/support/eventually.hpp"
 #include "tools/emulate/glove_line.hpp"
 
@@ -175,14 +176,14 @@ TEST_CASE("either hand takes every wrench that is shipped where it lies in it, t
             REQUIRE(plan);
             grip::Grip grip;
             for (int i = 0; i < 8; ++i)
-                step(grip, {}, plan->tool, plan->wearer.hand, {true, closing_hand(1.0), plan->wrist},
+                step(grip, {}, plan->tool, plan->wearer.hand, {true, hand::closing(1.0), plan->wrist},
                      1.0 / 80.0);
             CHECK(grip.held);
             for (int i = 0; i < 40; ++i)
-                step(grip, {}, plan->tool, plan->wearer.hand, {true, closing_hand(0.0), plan->wrist},
+                step(grip, {}, plan->tool, plan->wearer.hand, {true, hand::closing(0.0), plan->wrist},
                      1.0 / 80.0);
             CHECK(!grip.held);
-            const hand::Skeleton joints = hand::joints(plan->wearer.hand, closing_hand(0.0), plan->wrist);
+            const hand::Skeleton joints = hand::joints(plan->wearer.hand, hand::closing(0.0), plan->wrist);
             CHECK(joints.position[hand::thumb_tip].x < joints.position[hand::little_tip].x);
             CHECK(joints.position[hand::palm].z > 0.0);
         }

@@ -22,15 +22,6 @@ Pose across_the_palm() {
     return inverse({Vec3(0.0, -28.0, -98.0) * mm, rotation({0.0, to_radians(-17.5), 0.0})});
 }
 
-hand::Angles closed(double share) {
-    hand::Angles a;
-    const auto bent = [&](double degrees) { return share * to_radians(degrees); };
-    for (hand::FingerAngles& f : a.fingers) f = {bent(70.0), bent(95.0), bent(60.0), 0.0};
-    a.thumb = {to_radians(70.0), to_radians(60.0) - bent(48.0), bent(50.0), bent(65.0)};
-    a.arch = to_radians(8.0);
-    return a;
-}
-
 hand::Angles opened(const hand::Angles& angles) {
     hand::Angles out = angles;
     for (hand::FingerAngles& f : out.fingers)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "haptics/grip/grip.hpp"
+#include "haptics/hand/closing.hpp"
 #include "tests/contact/support.hpp"
 
 namespace grip_test {
@@ -22,7 +23,7 @@ Held of(const std::vector<contact::ContactMesh>& parts);
 // The right hand's wrist in the frame of a bar that lies across its palm, from the thumb's side out.
 Pose across_the_palm();
 // Fingers and thumb so far closed: 0 flat and open, 1 a hand that would be a fist, were nothing in it.
-hand::Angles closed(double share);
+inline hand::Angles closed(double share) { return hand::closing(share); }
 
 // How deep a digit is in the tool (m), at points 1 mm apart along its bones; below 0 it is not.
 double deepest(const Held& held, const hand::Hand& hand, const Pose& wrist, std::size_t digit,

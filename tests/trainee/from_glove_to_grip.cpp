@@ -41,24 +41,10 @@ glove::BySensor<std::uint8_t> raw_of(glove::Posture posture) {
     return raw;
 }
 
-glove::BySensor<std::uint8_t> raw_of(const hand::Angles& a) {
-    glove::BySensor<double> angle{};
-    const auto set = [&](Sensor sensor, double value) { angle[glove::index(sensor)] = value; };
-    set(Sensor::thumb_roll, a.thumb.roll);
-    set(Sensor::thumb_abduction, a.thumb.abduction);
-    set(Sensor::thumb_mpj, a.thumb.mcp);
-    set(Sensor::thumb_ij, a.thumb.ip);
-    constexpr std::array<Sensor, 4> first{Sensor::index_mpj, Sensor::middle_mpj, Sensor::ring_mpj,
-                                          Sensor::little_mpj};
-    for (std::size_t i = 0; i < 4; ++i) {
-        angle[glove::index(first[i])] = a.fingers[i].mcp;
-        angle[glove::index(first[i]) + 1] = a.fingers[i].pip;
-        angle[glove::index(first[i]) + 2] = a.fingers[i].dip;
-    }
-    set(Sensor::palm_arch, a.arch);
-    glove::BySensor<std::uint8_t> raw{};
-    for (std::size_t i = 0; i < glove::all_sensors; ++i) raw[i] = raw_of(i, angle[i]);
-    return raw;
+glove::BySensor<std::uint8_t> raw_of(const hand::Angles& angles) {
+    glove::BySensor<glove::Line> lines;
+    for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = truth(i);
+    return emulate::raw_at(angles, lines);
 }
 
 // Whoever reads the driver: every new sample once.

@@ -16,15 +16,46 @@ void add_value(std::vector<std::uint8_t>& out, char letter, std::size_t value) {
     out.insert(out.end(), {'?', static_cast<std::uint8_t>(letter), static_cast<std::uint8_t>(value), 0});
 }
 
+std::uint8_t raw_value(double angle, const glove::Line& line) {
+    return static_cast<std::uint8_t>(std::clamp(std::lround(angle / line.gain + line.offset), 1L, 255L));
+}
+
 }  // namespace
 
 glove::BySensor<std::uint8_t> raw_in(glove::Posture posture) {
     glove::BySensor<std::uint8_t> raw{};
     for (std::size_t i = 0; i < raw.size(); ++i) {
         const double angle = glove::angle_in(posture, static_cast<glove::Sensor>(i)).value_or(0.0);
-        raw[i] = static_cast<std::uint8_t>(std::lround(50.0 + angle / 0.013));
+        raw[i] = raw_value(angle, sensor_line);
     }
     return raw;
+}
+
+glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::BySensor<glove::Line>& lines) {
+    using glove::Sensor;
+    glove::BySensor<double> angle{};
+    const auto set = [&](Sensor sensor, double value) { angle[glove::index(sensor)] = value; };
+    set(Sensor::thumb_roll, hand.thumb.roll);
+    set(Sensor::thumb_abduction, hand.thumb.abduction);
+    set(Sensor::thumb_mpj, hand.thumb.mcp);
+    set(Sensor::thumb_ij, hand.thumb.ip);
+    constexpr std::array<Sensor, 4> first{Sensor::index_mpj, Sensor::middle_mpj, Sensor::ring_mpj,
+                                          Sensor::little_mpj};
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        angle[glove::index(first[i])] = hand.fingers[i].mcp;
+        angle[glove::index(first[i]) + 1] = hand.fingers[i].pip;
+        angle[glove::index(first[i]) + 2] = hand.fingers[i].dip;
+    }
+    set(Sensor::palm_arch, hand.arch);
+    glove::BySensor<std::uint8_t> raw{};
+    for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = raw_value(angle[i], lines[i]);
+    return raw;
+}
+
+glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::Line& all) {
+    glove::BySensor<glove::Line> lines;
+    lines.fill(all);
+    return raw_at(hand, lines);
 }
 
 Glove::Glove(const GloveDesign& design)

@@ -7,6 +7,7 @@
 #include "engine/base/random.hpp"
 #include "haptics/glove/calibration.hpp"
 #include "haptics/glove/greeting.hpp"
+#include "haptics/hand/angles.hpp"
 
 namespace bolt::emulate {
 
@@ -29,6 +30,11 @@ struct GloveDesign {
 
 // What its sensors give while the hand in it holds a posture: 50 counts flat, and 0.013 rad a count.
 glove::BySensor<std::uint8_t> raw_in(glove::Posture posture);
+constexpr glove::Line sensor_line{0.013, 50.0};
+
+// What sensors give while the hand is bent like this: 1 … 255 each.
+glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::BySensor<glove::Line>& lines);
+glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::Line& all = sensor_line);
 
 class Glove {
   public:

@@ -13,6 +13,7 @@
 
 #include "engine/base/console.hpp"
 #include "game/cli/program.hpp"
+#include "haptics/hand/closing.hpp"
 #include "tools/emulate/glove_line.hpp"
 #include "tools/emulate/plugged.hpp"
 
@@ -22,7 +23,14 @@ namespace {
 
 volatile std::sig_atomic_t ended = 0;
 
-constexpr std::array<const char*, glove::poses> postures{"flat", "fist", "spread", "across"};
+// As glove::Posture has them, and a hand around a handle.
+constexpr std::array<const char*, glove::poses + 1> postures{"flat", "fist", "spread", "across", "grip"};
+constexpr double gripping = 0.9;  // hand::closing's share
+
+glove::BySensor<std::uint8_t> raw_in(std::size_t posture) {
+    return posture < glove::poses ? emulate::raw_in(static_cast<glove::Posture>(posture))
+                                  : emulate::raw_at(hand::closing(gripping));
+}
 
 // Takes the postures that are named on the standard input, a line each, until it ends.
 struct Asked {
@@ -45,7 +53,7 @@ struct Asked {
             if (name == postures.end())
                 return fail(ErrorCode::usage, fmt::format("no posture '{}'", line),
                             fmt::format("one of {}", fmt::join(postures, ", ")));
-            glove.show(emulate::raw_in(static_cast<glove::Posture>(name - postures.begin())));
+            glove.show(raw_in(static_cast<std::size_t>(name - postures.begin())));
             line.clear();
         }
         return {};
@@ -94,7 +102,7 @@ int main(int argc, char** argv) {
     worn->add_flag(
         "--asked", by_name,
         "the hand takes the postures named on the standard input, a line each: flat, fist, spread, "
-        "across");
+        "across, grip");
     worn->add_option("--lost", design.faults.dropped, "share of the bytes that get lost")
         ->check(CLI::Range(0.0, 1.0));
     worn->add_option("--link", link, "a name for the port, as a link to it");
