@@ -17,11 +17,6 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-std::string happened(const station::Episode& e) {
-    return e.until ? fmt::format("  {:5.1f} s  over: {}\n", *e.until, e.words)
-                   : fmt::format("  {:5.1f} s  {}\n", e.from, e.words);
-}
-
 std::string begins(const StationOptions& options, const content::Assembly& assembly,
                    const station::Planned& planned, const station::Station& station) {
     const std::string& joint = assembly.joints.front().design.id;
@@ -30,7 +25,7 @@ std::string begins(const StationOptions& options, const content::Assembly& assem
                         planned.obstacles ? "" : "; nothing can be bumped into");
     if (!options.glove.empty() && planned.worn)
         text += "It is in the hand as soon as the gloved hand closes.\n";
-    return text + fmt::format("For {:.3g} s from now on:\n", options.seconds);
+    return text + fmt::format("For {:g} s from now on:\n", options.seconds);
 }
 
 }  // namespace
@@ -47,6 +42,7 @@ int try_station(const StationOptions& options) {
     wanted.trainee = options.trainee;
     wanted.calibrations = options.calibrations;
     wanted.tight = true;
+
     Result<station::Planned> planned = station::make_plan(loaded.assembly, wanted);
     if (!planned) return complain(planned.error());
     if (!planned->choice.mover) planned->plan.mover_buttons = {0, 0, 0, 0};
@@ -59,8 +55,8 @@ int try_station(const StationOptions& options) {
     Status said;
     const station::Trial trial = station::try_station(
         *station, *planned, options.seconds, [&] { return interrupted != 0 || !said; },
-        [&](const station::Episode& e) {
-            if (said) said = say(happened(e));
+        [&](double time, const std::string& words) {
+            if (said) said = say(fmt::format("  {:5.1f} s  {}\n", time, words));
         });
     const std::vector<std::string> against = station::against(trial);
     if (said)

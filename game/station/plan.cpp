@@ -1,5 +1,6 @@
 #include "game/station/plan.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "content/station/rig_file.hpp"
@@ -15,6 +16,7 @@ namespace bolt::station {
 namespace {
 
 constexpr double stroke = to_radians(30.0);  // that the handle is to have room for
+constexpr double clearance = 1e-3;           // m, under the wrench
 
 // What the servo begins with. Made before there is a device: it takes seconds, in which one would be silent.
 struct Worked {
@@ -76,7 +78,10 @@ Pose wrench_on_nut(const servo::Setup& setup, const servo::Touch* touch, std::si
     const operators::GripAngle grip =
         operators::choose_grip(setup, touch, joint, nut_angle, nut_angle, 1.0, stroke);
     const servo::NutPlace& nut = setup.nuts[joint];
-    return {servo::nut_centre(nut, nut_angle), operators::orientation_of(nut, grip.handle, grip.flipped)};
+    // A head that is thicker than the nut is high does not lie in what the nut lies on.
+    const double above = std::max(0.0, 0.5 * (setup.wrench.jaw.thickness - nut.height) + clearance);
+    return {servo::nut_centre(nut, nut_angle) + above * nut.axis,
+            operators::orientation_of(nut, grip.handle, grip.flipped)};
 }
 
 Result<Planned> make_plan(const content::Assembly& assembly, const Wanted& wanted) {

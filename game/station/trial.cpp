@@ -14,6 +14,8 @@ namespace bolt::station {
 
 namespace {
 
+// s: a line's reports are up to 0.1 s old, and a lost device is said in several words.
+constexpr double moment = 0.3;
 constexpr double look_every = 0.02;   // s
 constexpr double told_itself = 0.25;  // s of silence: the device's line says so (device/keeper.hpp)
 constexpr int quick = 2;              // ms: what a glove's adapter may gather
@@ -51,8 +53,10 @@ std::string report(const TriedDevice& tried, const char* use, double seconds) {
 
 std::string report(const TriedGlove& tried, double seconds) {
     const glove::Identity& who = tried.report.identity;
-    std::string text = fmt::format("Glove on {}: CyberGlove, {} hand, {} sensors\n    ", tried.port.string(),
-                                   who.hand == glove::Hand::left ? "left" : "right", who.sensors);
+    std::string text = fmt::format("Glove on {}: ", tried.port.string());
+    if (tried.report.greetings == 0) return text + "it did not answer\n";
+    text += fmt::format("CyberGlove, {} hand, {} sensors\n    ",
+                        who.hand == glove::Hand::left ? "left" : "right", who.sensors);
     text += passed(tried.frames, seconds, tried.age, tried.report.longest_silence);
     if (tried.report.lost_bytes > 0)
         text += fmt::format("    {} bytes on its line made no sense\n", tried.report.lost_bytes);
@@ -85,29 +89,36 @@ std::string report(const servo::Granted& granted) {
 std::optional<TriedDevice> tried(const std::optional<device::Description>& description,
                                  const Traffic& traffic, const device::Report* report) {
     if (!description || report == nullptr) return std::nullopt;
-    return TriedDevice{*description, traffic, report->malformed};
+    return TriedDevice{*description, traffic, report->malformed, report->losses};
 }
 
 }  // namespace
 
-void note(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
-          FunctionRef<void(const Episode&)> tell) {
-    const auto is_on = [](const Episode& e) { return !e.until; };
+void note(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time, Tell tell) {
+    const auto is_said = [&](const Episode& e) {
+        return std::find(troubles.begin(), troubles.end(), e.words) != troubles.end();
+    };
+    const auto is_new = [&](const std::string& words) {
+        return std::none_of(episodes.begin(), episodes.end(),
+                            [&](const Episode& e) { return !e.until && e.words == words; });
+    };
+    if (std::any_of(troubles.begin(), troubles.end(), is_new))
+        std::erase_if(episodes,
+                      [&](const Episode& e) { return !e.until && time - e.from < moment && !is_said(e); });
     for (Episode& e : episodes) {
-        if (!is_on(e) || std::find(troubles.begin(), troubles.end(), e.words) != troubles.end()) continue;
+        if (e.until || is_said(e)) continue;
         e.until = time;
-        tell(e);
+        tell(time, "over: " + e.words);
     }
     for (const std::string& words : troubles) {
-        const auto same = [&](const Episode& e) { return is_on(e) && e.words == words; };
-        if (std::any_of(episodes.begin(), episodes.end(), same)) continue;
+        if (!is_new(words)) continue;
         episodes.push_back({words, time, std::nullopt});
-        tell(episodes.back());
+        tell(time, words);
     }
 }
 
 Trial try_station(Station& station, const Planned& planned, double seconds, const std::function<bool()>& stop,
-                  FunctionRef<void(const Episode&)> tell) {
+                  Tell tell) {
     const device::Timer timer = device::steady_timer();
     const double begun = timer.now();
     Trial trial;
@@ -118,9 +129,14 @@ Trial try_station(Station& station, const Planned& planned, double seconds, cons
     station.wish(wishes);
     const double frames = station.gloved() == nullptr ? 0.0 : static_cast<double>(station.gloved()->frames);
     std::uint64_t enabled = 0;
+    bool held = false;
     const auto look = [&] {
         for (Ticked tick; station.next(tick);) enabled += tick.input.enabled ? 1 : 0;
-        note(trial.episodes, station.troubles(), timer.now() - begun, tell);
+        const double time = timer.now() - begun;
+        note(trial.episodes, station.troubles(), time, tell);
+        if (station.hand() == nullptr || station.hand()->held == held) return;
+        held = !held;
+        tell(time, held ? "the hand takes the wrench" : "the hand lets go of the wrench");
     };
     while (timer.now() - begun < seconds && !stop()) {
         timer.wait(std::min(look_every, begun + seconds - timer.now()));
@@ -197,8 +213,9 @@ std::vector<std::string> against(const Trial& trial) {
         if (!tried->has_value()) continue;
         const device::Description& d = (*tried)->description;
         const double silence = (*tried)->traffic.longest_silence;
-        // Longer ones its line has said already; what may rest is not silent.
-        if (renders((*tried)->description) && !d.rests && silence > d.limits.silence && silence < told_itself)
+        // Longer ones, and that it was gone, its line has said already; what may rest is not silent.
+        if (renders((*tried)->description) && !d.rests && silence > d.limits.silence &&
+            silence < told_itself && (*tried)->losses == 0)
             reasons.push_back(
                 fmt::format("{} was silent for {:.0f} ms; after {:.0f} ms its force is let go of", d.name,
                             1e3 * silence, 1e3 * d.limits.silence));

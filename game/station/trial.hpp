@@ -14,14 +14,17 @@ struct Episode {
     std::optional<double> until;  // none: it still is
 };
 
-// What Station::troubles() says at this time. `tell` gets each that has begun or ended.
-void note(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
-          FunctionRef<void(const Episode&)> tell);
+// Gets what happened, in words, and when (s).
+using Tell = FunctionRef<void(double time, const std::string& words)>;
+
+// What Station::troubles() says at this time; what has begun or ended is told. What is said in other
+// words a moment later was the beginning of that, and is forgotten.
+void note(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time, Tell tell);
 
 struct TriedDevice {
     device::Description description;
     Traffic traffic;
-    std::uint64_t malformed = 0;
+    std::uint64_t malformed = 0, losses = 0;
 };
 
 struct TriedGlove {
@@ -44,10 +47,10 @@ struct Trial {
     std::vector<Episode> episodes;
 };
 
-// Tries a station for `seconds`, or until `stop`; the station is stopped then. `tell` as above. A hand that
-// wears no glove holds the wrench.
+// Tries a station for `seconds`, or until `stop`; the station is stopped then. Told is what goes wrong, and
+// when a gloved hand takes the wrench and lets it go; a hand without a glove holds it.
 Trial try_station(Station& station, const Planned& planned, double seconds, const std::function<bool()>& stop,
-                  FunctionRef<void(const Episode&)> tell);
+                  Tell tell);
 
 // For a terminal: which devices there are and what for, and how their forces are let out.
 std::string introduce(Layout layout, const Choice& choice);

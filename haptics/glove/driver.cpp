@@ -52,7 +52,8 @@ struct Driver::Shared {
                 report.newest = time;
             });
             report.state = conversation.state();
-            report.identity = conversation.identity();
+            // Of the one before, until it is known again.
+            if (conversation.greetings() > 0) report.identity = conversation.identity();
             report.frames = before.frames + conversation.frames();
             report.lost_bytes = before.lost_bytes + conversation.lost_bytes();
             report.greetings = before.greetings + conversation.greetings();

@@ -162,6 +162,17 @@ expect 0 'at 4000 ticks a second this machine is NOT good enough' bash -c "$(pri
 check "few ticks say nothing, and are said to" grep -qE 'only [0-9]+ ticks were timed' host.txt
 expect 2 '' "${draw[@]}" doctor --seconds -1
 expect 0 '^Devices: [0-9]+ by USB' "${draw[@]}" doctor --seconds 0
+expect 0 'its button is held' "$bin/boltwright" doctor --help
+
+# A station that is tried: what is wrong before it begins.
+expect 4 'no device 256f:0000; one that .boltwright devices. lists' "$bin/boltwright" doctor --device 256f:0000
+expect 4 'no serial port' "$bin/boltwright" doctor cover-m8 --glove /dev/null
+expect 4 'is the glove.s adapter plugged in' "$bin/boltwright" doctor cover-m8 --glove /dev/ttyNONE
+echo '{"format": "boltwright rig 1", "most_torque_Nm": 400}' > rig.json
+expect 3 '^rig.json:1:[0-9]+: ' "$bin/boltwright" doctor --device 256f:0000 --rig rig.json
+expect 3 'there is no such folder, file or assembly' "$bin/boltwright" doctor nowhere --device 256f:0000
+expect 2 'requires --device' "$bin/boltwright" doctor --rig rig.json
+expect 2 'requires --glove' "$bin/boltwright" doctor --trainee Ada
 
 # Devices: with nothing plugged in, with a glove that is emulated, without permission, with something that is no glove.
 expect 0 'CyberGlove may be on' "$bin/boltwright" devices
@@ -181,6 +192,7 @@ if [[ $(id -u) -eq 0 ]] && "${nobody[@]}" "$bin/boltwright" --version > /dev/nul
     tty=$(readlink port)
     chgrp dialout "$tty" && chmod 660 "$tty"
     expect 4 'Permission denied; a user of the group dialout: sudo usermod' "${nobody[@]}" "$bin/boltwright" devices --glove "$tty"
+    expect 4 'Permission denied; a user of the group dialout' "${nobody[@]}" "$bin/boltwright" doctor cover-m8 --glove "$tty"
 fi
 kill $emulated && wait $emulated
 expect 4 'plugged in' "$bin/boltwright" devices --glove port
@@ -265,6 +277,32 @@ check "the quality of the calibration is told" grep -qE '^Quality 0\.[5-9]' cali
 echo fist >&4
 expect 0 'middle  90 100  67' "$bin/boltwright" glove show gloves/_41da.right.glove.json --port worn --seconds 3
 expect 2 'of another glove' "$bin/boltwright" glove show gloves/_41da_20_4c_2e.right.glove.json --port worn
+# The same hand at a station, without a display or a GPU: it closes on the wrench, its glove is pulled, and comes back.
+tried=(env -u DISPLAY VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json
+    "$bin/boltwright" doctor cover-m8 --glove worn)
+expect 3 'no calibration of Bob.s right hand.*boltwright glove calibrate --trainee "Bob"' "${tried[@]}" --trainee Bob --folder gloves
+echo grip >&4
+"${tried[@]}" --trainee Ada --folder gloves --seconds 3600 > tried 2>&1 &
+doctor=$!
+says() { for _ in $(seq 1200); do grep -q "$1" tried && return; sleep 0.1; done; return 1; }
+check "a station begins with a glove alone" says 'For 3600 s'
+check "... whose hand is closed, and takes the wrench" says 'the hand takes the wrench'
+kill $emulated && wait $emulated
+exec 4>&-
+check "... says that its glove is gone, and what to do" says 'worn.*is the glove.s adapter plugged in'
+sleep 0.5  # what lasts for a moment only and is said in other words then is forgotten
+"$bin/bolt-emulate" glove --asked --link "$work/worn" < asked > /dev/null &
+emulated=$!
+exec 4> asked
+echo grip >&4
+check "... that it is back" says 'over: .*adapter plugged in'
+check "... and that the hand is seen again" says 'over: The glove is lost'
+kill -INT $doctor && wait $doctor
+check "... and is not good enough, because of that" test $? -eq 1
+check "what it says of the glove" grep -qE 'Glove on worn: CyberGlove, right hand, 18 sensors' tried
+check "of whose it is" grep -qE 'calibrated for Ada on 20[0-9-]+, quality 0\.' tried
+check "of the verdict" grep -qE 'not good enough, because' tried
+check "of when it was gone" grep -qE 'adapter plugged in\? \(from [0-9.]+ to [0-9.]+ s\)' tried
 kill $emulated && wait $emulated
 exec 4>&-
 expect 1 'cannot be' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee Ada --folder /dev/null/gloves

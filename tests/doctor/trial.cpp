@@ -14,8 +14,8 @@ namespace {
 Trial good() {
     Trial trial;
     trial.seconds = 5.0;
-    trial.wheel = TriedDevice{test::wheel_of(2.0), {5000, 1e-3, 2e-3, 0.0, 1.5}, 0};
-    trial.mover = TriedDevice{test::puck(), {600, 5e-3, 40e-3, 0.0, 0.0}, 0};
+    trial.wheel = TriedDevice{test::wheel_of(2.0), {5000, 1e-3, 2e-3, 0.0, 1.5}, 0, 0};
+    trial.mover = TriedDevice{test::puck(), {600, 5e-3, 40e-3, 0.0, 0.0}, 0, 0};
     for (int i = 0; i < 5000; ++i) {
         servo::add(trial.timing.wake_up, 10'000);
         servo::add(trial.timing.compute, 20'000);
@@ -30,7 +30,7 @@ Trial good() {
 TEST_CASE("what is wrong is noted from when it begins until it ends, once each") {
     std::vector<Episode> episodes;
     std::string told;
-    const auto tell = [&](const Episode& e) { told += (e.until ? "-" : "+") + e.words; };
+    const auto tell = [&](double, const std::string& words) { told += words + "; "; };
     const auto now = [&](double time, const std::vector<std::string>& troubles) {
         note(episodes, troubles, time, tell);
     };
@@ -40,12 +40,20 @@ TEST_CASE("what is wrong is noted from when it begins until it ends, once each")
     now(1.2, {"b", "a"});
     now(2.0, {"b"});
     now(3.0, {"a", "b"});
-    CHECK(told == "+a+b-a+a");
+    CHECK(told == "a; b; over: a; a; ");
     REQUIRE(episodes.size() == 3);
     CHECK(episodes[0].from == 1.0);
     CHECK(episodes[0].until == 2.0);
     CHECK(!episodes[1].until);
     CHECK(episodes[2].from == 3.0);
+    told.clear();
+    now(4.0, {"it says nothing", "b"});
+    now(4.05, {"it is gone", "b"});  // which is what the other words meant
+    now(4.10, {"it is gone", "a glance"});
+    now(4.12, {"it is gone"});
+    CHECK(told == "over: a; it says nothing; it is gone; over: b; a glance; over: a glance; ");
+    REQUIRE(episodes.size() == 5);
+    CHECK(episodes[3].words == "it is gone");
 }
 
 TEST_CASE("a station is good enough unless something was wrong with it, and that is said") {
@@ -59,6 +67,9 @@ TEST_CASE("a station is good enough unless something was wrong with it, and that
     silent.wheel->traffic.longest_silence = 0.030;
     REQUIRE(against(silent).size() == 1);
     CHECK(against(silent)[0].find("30 ms") != std::string::npos);
+    silent.wheel->losses = 1;
+    CHECK(against(silent).empty());
+    silent.wheel->losses = 0;
     silent.wheel->description.rests = true;
     CHECK(against(silent).empty());
     Trial late = good();
@@ -99,6 +110,8 @@ TEST_CASE("a report has what each device told and was sent, and whose hand is in
     trial.glove.emplace();
     trial.glove->frames = 400.0;
     CHECK(report(trial).find("held for 2.0 s") != std::string::npos);
+    CHECK(report(trial).find("it did not answer") != std::string::npos);
+    trial.glove->report.greetings = 1;
     CHECK(report(trial).find("--trainee NAME") != std::string::npos);
     trial.glove->worn.emplace();
     trial.glove->worn->trainee = "Ada";

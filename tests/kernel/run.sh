@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Boots Debian's stock kernel in a software machine with nothing in it but a program of tests, which plugs emulated devices
-# into that kernel and drives them. $1: the program, $2: what tools/fetch-kernel.sh fetched, the rest: programs that it runs.
+# into that kernel and drives them. $1: the program, $2: what tools/fetch-kernel.sh fetched, $3: content, the rest: programs
+# that it runs.
 set -euo pipefail
-program=$1 kernel=$2
-shift 2
+program=$1 kernel=$2 content=$3
+shift 3
 for needed in qemu-system-x86_64 busybox cpio; do
     command -v $needed >/dev/null || { echo "$needed is not there"; exit 77; }
 done
@@ -16,6 +17,11 @@ cp "$(command -v busybox)" "$root/bin/busybox"
 cp "$kernel"/*.ko "$root/modules"
 cp "$program" "$root/bin/guest"
 [[ $# -eq 0 ]] || cp "$@" "$root/bin"
+mkdir -p "$root"/content/{assemblies,tools}
+cp -r "$content/assemblies/cover-m8" "$root/content/assemblies"
+cp "$content"/tools/wrench-13* "$root/content/tools"
+cp -r "$content/schema" "$root/content"
+find "$root/content" -name '*.step' -delete
 # Their libraries, each where it is looked for.
 while read -r library; do
     mkdir -p "$root$(dirname "$library")"
@@ -38,7 +44,7 @@ chmod +x "$root/init"
 # Its clock counts instructions and does not wait while nothing is done: what the guest measures is its own doing, however
 # busy this machine is. A guest that hangs is ended, and has failed.
 status=0
-timeout 110 qemu-system-x86_64 -M pc -m 384 -nographic -no-reboot -nic none -icount shift=1,sleep=off \
+timeout 110 qemu-system-x86_64 -M pc -m 768 -nographic -no-reboot -nic none -icount shift=1,sleep=off \
     -kernel "$kernel/vmlinuz" -initrd "$work/initrd.gz" -append "console=ttyS0 loglevel=1 panic=-1" \
     < /dev/null > "$work/log" 2>&1 || status=$?
 tr -d '\r' < "$work/log" | sed 's/\x1b\[[0-9;?]*[a-zA-Z]//g'

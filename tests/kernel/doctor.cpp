@@ -1,0 +1,153 @@
+// `boltwright doctor` with devices named: a station that is tried, as a user calls it.
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "engine/base/file.hpp"
+#include "engine/base/process.hpp"
+#include "tests/kernel/guest.hpp"
+#include "tools/emulate/puck.hpp"
+#include "tools/emulate/wheel.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+
+namespace {
+
+// The doctor at work, and what it has said so far.
+class Doctor {
+  public:
+    explicit Doctor(const std::vector<std::string>& options) {
+        std::vector<std::string> words{"boltwright", "doctor", "cover-m8"};
+        words.insert(words.end(), options.begin(), options.end());
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        child_ = fork();
+        if (child_ != 0) return;
+        if (std::freopen(file, "w", stdout) == nullptr || dup2(STDOUT_FILENO, STDERR_FILENO) < 0) _exit(126);
+        execvp("boltwright", arguments.data());
+        _exit(127);
+    }
+    Doctor(const Doctor&) = delete;
+    Doctor& operator=(const Doctor&) = delete;
+    ~Doctor() {
+        if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
+    }
+
+    [[nodiscard]] static std::string said() {
+        return read_file(file, 1U << 20U, ErrorCode::failed).value_or(std::string());
+    }
+    [[nodiscard]] bool says(const std::string& words, double seconds = 10.0) const {
+        return becomes([&] { return said().find(words) != std::string::npos; }, seconds);
+    }
+    int ends() {
+        int status = -1;
+        waitpid(child_, &status, 0);
+        child_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    int end() {
+        kill(child_, SIGINT);
+        return ends();
+    }
+
+  private:
+    static constexpr const char* file = "/tmp/said";
+    pid_t child_ = -1;
+};
+
+const char* const pucks = "256f:c62e";
+const char* const boards = "1209:ffb0";
+
+emulate::Uhid plug_board() { return plugged(std::make_unique<emulate::Wheel>()); }
+
+double turned(const emulate::Uhid& board, double hand, std::uint32_t buttons) {
+    double torque = 0.0;
+    with<emulate::Wheel>(board, [&](emulate::Wheel& w) {
+        w.hand = hand;
+        w.hand_stiffness = 10.0;
+        w.buttons = buttons;
+        torque = w.torque();
+    });
+    return torque;
+}
+
+}  // namespace
+
+TEST_CASE("doctor tries a puck and a board: what they are for, what is felt of a tight nut, what is pulled") {
+    auto puck = std::make_unique<emulate::Uhid>(plugged(std::make_unique<emulate::Puck>()));
+    auto board = std::make_unique<emulate::Uhid>(plug_board());
+    listed(pucks);
+    listed(boards);
+    Doctor doctor({"--device", boards, "--device", pucks, "--seconds", "600"});
+    REQUIRE_MESSAGE(doctor.says("For 600 s", 60.0), Doctor::said());
+    for (const char* words :
+         {"Emulated SpaceMouse: moves the tool", "Emulated OpenFFBoard: turns the wrench on its bolt",
+          "only while button 1 of Emulated SpaceMouse or button 1 of Emulated OpenFFBoard"})
+        CHECK_MESSAGE(Doctor::said().find(words) != std::string::npos, words);
+
+    // Rocked without its button, and with it.
+    double free = 0.0, held = 0.0;
+    const auto rock = [&](std::uint32_t buttons, double& most) {
+        for (int i = 0; i < 100; ++i) {
+            most = std::max(most, std::abs(turned(*board, i % 40 < 20 ? 0.1 : -0.1, buttons)));
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    };
+    rock(0, free);
+    CHECK(free == 0.0);
+    rock(1, held);
+    CHECK(held > 0.2);
+    CHECK(held < 2.01);
+    CHECK(becomes([&] { return turned(*board, 0.0, 0) == 0.0; }, 0.05));
+
+    board.reset();
+    CHECK(doctor.says("there is no device 1209:ffb0; a device that is plugged in"));
+    board = std::make_unique<emulate::Uhid>(plug_board());
+    CHECK(doctor.says("over: there is no device 1209:ffb0"));
+    puck.reset();
+    CHECK(doctor.says("there is no device 256f:c62e; a device that is plugged in"));
+    CHECK(doctor.end() == 1);
+    const std::string said = Doctor::said();
+    for (const char* words :
+         {"of 2 N·m that it takes", "the button was held for", "renders no force",
+          "Servo at 1000 ticks a second", "because\n  there is no device 256f:c62e",
+          "there is no device 1209:ffb0; a device that is plugged in; `boltwright devices` "
+          "lists them (from"})
+        CHECK_MESSAGE(said.find(words) != std::string::npos, words);
+    CHECK(said.find("0.00 N·m at most went out") == std::string::npos);
+    MESSAGE(said);
+}
+
+TEST_CASE("doctor says what is wrong before it begins, and what could be tried") {
+    const auto said_to = [](const std::vector<std::string>& options, int code) {
+        Doctor doctor(options);
+        CHECK(doctor.ends() == code);
+        return Doctor::said();
+    };
+    CHECK(said_to({"--device", pucks}, 4).find("no device 256f:c62e") != std::string::npos);
+    const auto board = plug_board();
+    const Listed node = listed(boards);
+    CHECK(said_to({"--device", "1209:ffb1"}, 4).find("did you mean 1209:ffb0?") != std::string::npos);
+    CHECK(said_to({"--seconds", "0"}, 4).find("boltwright doctor --device 1209:ffb0 tries") !=
+          std::string::npos);  // no Vulkan here
+    REQUIRE(write_file("/tmp/rig.json", R"({"format": "boltwright rig 1", "most_torque_Nm": 400})"));
+    CHECK(said_to({"--device", boards, "--rig", "/tmp/rig.json"}, 3).find("/tmp/rig.json:1:") !=
+          std::string::npos);
+    REQUIRE(chmod(node.path.c_str(), 0600) == 0);
+    std::filesystem::remove("/tmp/said");
+    CHECK(holds_for_nobody([] {
+        const auto refused =
+            run_program({"boltwright", "doctor", "cover-m8", "--device", boards}, Hear::output_and_errors);
+        return refused && refused->exit_code == 4 &&
+               refused->said.find("Permission denied") != std::string::npos &&
+               refused->said.find("60-boltwright.rules") != std::string::npos;
+    }));
+}
