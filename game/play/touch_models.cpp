@@ -194,9 +194,9 @@ Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& as
 Result<contact::ToolShape> load_wrench(const content::Assembly& assembly) {
     if (assembly.wrench.model.empty())
         return fail(bad(assembly.file, "the assembly's wrench has no model, so no hand can close on it"));
-    const Result<std::vector<contact::ContactMesh>> parts = read_wrench(assembly.wrench);
+    const Result<WrenchModel> parts = read_wrench(assembly.wrench);
     if (!parts) return fail(parts.error());
-    Result<contact::ToolShape> tool = contact::make_tool(*parts);
+    Result<contact::ToolShape> tool = contact::make_tool(parts->meshes);
     if (!tool) return fail(bad(wrench_file(assembly.wrench), tool.error().what));
     return tool;
 }
