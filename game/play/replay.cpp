@@ -108,12 +108,12 @@ Result<Replayed> replay(const record::Reader& session, Prepared at,
             const servo::Input input = record::input_of(recorded);
             const servo::Output output = servo::tick(at.setup, at.state, input);
             lesson::observe(lesson, at.state, output);
-            lesson.events.clear();
             if (!same(record::make_record(input, output), recorded) && replayed.wrong++ == 0)
                 replayed.first_wrong = replayed.ticks;
             ++replayed.ticks;
             const double time = static_cast<double>(at.state.tick) * at.setup.dt;
             go_on = visit({at.setup, at.state, lesson, input, output, time});
+            lesson.events.clear();
         }
     });
     if (!read) return fail(read.error());

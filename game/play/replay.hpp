@@ -15,7 +15,7 @@ Result<Prepared> prepare_again(const record::Reader& session);
 struct Moment {
     const servo::Setup& setup;
     const servo::State& state;
-    const lesson::Lesson& lesson;
+    const lesson::Lesson& lesson;  // with the events of this tick
     const servo::Input& input;
     const servo::Output& output;
     double time = 0.0;  // s, after the tick
