@@ -1,7 +1,11 @@
 // A whole simulated lesson, listened to.
 
 #include "engine/audio/wav.hpp"
+
+#include <bit>
+
 #include "engine/base/file.hpp"
+#include "game/play/replay.hpp"
 #include "tests/sound/support.hpp"
 
 using namespace bolt;
@@ -26,6 +30,18 @@ struct Level {
     }
 };
 
+struct Session {
+    std::filesystem::path path = std::filesystem::temp_directory_path() / "bolt-test-sound" / "a.boltwright";
+    ~Session() { std::filesystem::remove_all(path.parent_path()); }
+};
+
+struct Sum {
+    std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
+    void add(std::span<const float> samples) {
+        for (const float s : samples) hash = (hash ^ std::bit_cast<std::uint32_t>(s)) * 1099511628211ULL;
+    }
+};
+
 }  // namespace
 
 TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, its wrench clicks") {
@@ -39,8 +55,9 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
     float before = 0.0F;
     bool above = false;
     const double click_at = 18.0;  // N·m
-    const lesson::LessonResult result = test::hear_lesson(
-        "cover-m8", "expert", 300.0, click_at,
+    const Session session;
+    const play::Played played = test::hear_lesson(
+        "cover-m8", "expert", 300.0, click_at, session.path,
         [&](const servo::Output& output, const sound::Heard& heard, std::span<const float> samples) {
             REQUIRE(wav->write(samples));
             ++ticks;
@@ -66,7 +83,7 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
             if (heard.creep > 0.2F && heard.load > 0.6F) full.add(samples);
         });
     REQUIRE(wav->finish());
-    REQUIRE(result.finished);
+    REQUIRE(played.result.finished);
     CHECK(chimes == 16);  // four nuts: run down, half, full, looked at again
     CHECK(mistakes == 0);
     CHECK(pulls >= 4);
@@ -87,17 +104,35 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
     CHECK(bytes->size() == 44 + 2 * count);
 }
 
-TEST_CASE("the same lesson sounds the same, sample for sample") {
-    const auto sum = [](double longest) {
-        std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
-        test::hear_lesson("cover-m8", "clumsy", longest, 0.0,
-                          [&](const servo::Output&, const sound::Heard&, std::span<const float> samples) {
-                              for (const float s : samples)
-                                  hash = (hash ^ std::bit_cast<std::uint32_t>(s)) * 1099511628211ULL;
-                          });
-        return hash;
-    };
-    const std::uint64_t once = sum(60.0);
-    CHECK(once == sum(60.0));
-    CHECK(once != sum(59.0));
+TEST_CASE("a replay sounds as the lesson did, sample for sample") {
+    const Session session;
+    Sum lesson;
+    int strikes = 0, chimes = 0;
+    test::hear_lesson("cover-m8", "expert", 60.0, 8.0, session.path,
+                      [&](const servo::Output&, const sound::Heard& heard, std::span<const float> samples) {
+                          lesson.add(samples);
+                          strikes += heard.strike > 0.0F ? 1 : 0;
+                          chimes += heard.done ? 1 : 0;
+                      });
+    CHECK(strikes > 1);
+    CHECK(chimes > 4);
+    const auto reader = record::Reader::open(session.path);
+    REQUIRE(reader);
+    for (const bool changed : {false, true}) {
+        auto again = play::prepare_again(*reader);
+        REQUIRE(again);
+        sound::Ear ear;
+        ear.still = sound::materials(again->assembly, again->obstacle_names);
+        sound::Track track(sound::make_synth(again->setup, test::rate), again->setup.dt);
+        Sum replay;
+        const auto replayed = play::replay(*reader, std::move(*again), [&](const play::Moment& moment) {
+            sound::Cues cues = sound::cues_of(moment.lesson.events);
+            cues.click_at = changed ? 7.9 : 8.0;
+            replay.add(track.next(sound::hear(ear, moment.setup, moment.output, cues)));
+            return true;
+        });
+        REQUIRE(replayed);
+        CHECK(replayed->wrong == 0);
+        CHECK((replay.hash == lesson.hash) != changed);
+    }
 }

@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
 #include "content/format/load.hpp"
 #include "game/operators/operator.hpp"
-#include "game/play/servo_setup.hpp"
-#include "game/play/touch_models.hpp"
+#include "game/play/course.hpp"
 #include "game/sound/ear.hpp"
+#include "game/sound/materials.hpp"
 #include "game/sound/track.hpp"
 #include "tests/servo/support.hpp"
 
@@ -75,34 +76,33 @@ inline std::vector<float> listen(sound::Synth& synth, const sound::Heard& heard,
     return samples;
 }
 
-// A lesson as boltwright train plays it, listened to; `visit` gets every tick's output and samples.
+// A lesson as boltwright train plays it, listened to and recorded; `visit` gets every tick's output and
+// samples.
 using Visit = std::function<void(const servo::Output&, const sound::Heard&, std::span<const float>)>;
-inline lesson::LessonResult hear_lesson(const char* name, const char* trainee, double longest,
-                                        double click_at, const Visit& visit) {
+inline play::Played hear_lesson(const char* name, const char* trainee, double longest, double click_at,
+                                const std::filesystem::path& session, const Visit& visit) {
     const content::Loaded loaded = content::load_assembly(name);
     REQUIRE(loaded.ok());
-    const content::Assembly& assembly = loaded.assembly;
-    const servo::Setup setup = play::make_setup(assembly, joint::Law::mechanistic, {}, 1, 1e-3);
-    servo::State state = servo::initial_state(setup);
-    auto touch = play::load_touch(assembly, setup);
-    REQUIRE(touch);
-    REQUIRE(touch->has_value());
-    state.touch = std::move(**touch);
-    lesson::Lesson lesson = lesson::begin(assembly, lesson::Mode::guided, lesson::Task::tighten);
-    operators::Operator hand(operators::find_profile(trainee).value(), 1, setup);
+    play::CourseOptions options;
+    options.obstacles = play::Obstacles::required;
+    auto begun = play::Course::begin(loaded.assembly, options, session);
+    REQUIRE(begun);
+    play::Course& course = **begun;
+    operators::Operator hand(operators::find_profile(trainee).value(), options.seed, course.setup());
     sound::Ear ear;
-    sound::Track track(sound::make_synth(setup, rate), setup.dt);
-    while (lesson.due() != nullptr && static_cast<double>(state.tick) * setup.dt < longest) {
-        const servo::Input input = hand.act(setup, state, lesson);
-        const servo::Output output = servo::tick(setup, state, input);
-        lesson::observe(lesson, state, output);
-        sound::Cues cues = sound::cues_of(lesson.events);
-        lesson.events.clear();
+    ear.still = sound::materials(course.assembly(), course.obstacle_names());
+    sound::Track track(sound::make_synth(course.setup(), rate), course.setup().dt);
+    while (!course.over() && course.time() < longest) {
+        const auto output = course.step(hand.act(course.setup(), course.state(), course.lesson()));
+        REQUIRE(output);
+        sound::Cues cues = sound::cues_of(course.events());
         cues.click_at = click_at;
-        const sound::Heard heard = sound::hear(ear, setup, output, cues);
-        visit(output, heard, track.next(heard));
+        const sound::Heard heard = sound::hear(ear, course.setup(), *output, cues);
+        visit(*output, heard, track.next(heard));
     }
-    return lesson::judge(lesson, state, setup.dt);
+    const auto played = course.finish();
+    REQUIRE(played);
+    return *played;
 }
 
 }  // namespace bolt::test
