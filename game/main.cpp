@@ -1,9 +1,13 @@
 // boltwright: the trainer. The commands are in game/cli.
 
+#include <cstdlib>
+
 #include "game/cli/commands.hpp"
 #include "game/cli/program.hpp"
 
 int main(int argc, char** argv) {
+    // What OpenAL prints of devices that are not there is said once, in our words (engine/audio).
+    (void)::setenv("ALSOFT_LOGLEVEL", "0", 0);
     CLI::App app("Boltwright trains people to assemble bolted joints by feel.", "boltwright");
     app.require_subcommand(1);
     app.set_version_flag("--version", "boltwright " BOLTWRIGHT_VERSION);

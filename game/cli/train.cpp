@@ -32,7 +32,8 @@ struct Options {
     std::string glove = "auto";
     bool hmd = false;
     bool headless = false;
-    bool start = false, full_screen = false, validate = false;
+    bool start = false, full_screen = false, validate = false, silent = false;
+    std::string name, language;
     std::string size = "1280x720", gpu;
     bool quiet = false, no_pictures = false, no_guide = false;
     bool obstacles = false, no_obstacles = false;
@@ -189,7 +190,9 @@ Status run_window(const Options& options, const play::TrainOptions& play, platfo
     const std::filesystem::path out(options.out);
     if (Status room = make_room(out); !room) return room;
     trainer::AppOptions app_options;
-    app_options.choice = {options.assembly, options.variant, play.course.mode, play.course.task, "", "en"};
+    app_options.choice = {options.assembly, options.variant, play.course.mode,
+                          play.course.task, options.name,    options.language};
+    app_options.sound = !options.silent;
     app_options.menu = !options.start;
     app_options.course = play.course;
     app_options.course.operator_name = "person";
@@ -279,6 +282,9 @@ void add_train(CLI::App& app, int& exit_code) {
     train->add_flag("--start", options->start, "Begin the lesson at once, without the menu");
     train->add_option("--size", options->size, "WIDTHxHEIGHT of the window")->capture_default_str();
     train->add_flag("--full-screen", options->full_screen, "All of the display");
+    train->add_option("--trainee", options->name, "Who plays; kept in the session");
+    train->add_option("--language", options->language, "en, de, zh; the desktop's if not given");
+    train->add_flag("--silent", options->silent, "Without sound");
     train->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     train->add_flag("--validate", options->validate,
                     "Run under the Vulkan validation layers; any message is an error");

@@ -1,5 +1,8 @@
 #include "game/play/course.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "game/play/servo_setup.hpp"
 #include "game/record/device_text.hpp"
 
@@ -45,6 +48,11 @@ Result<std::optional<TouchModels>> obstacles_of(const content::Assembly& assembl
 }
 
 }  // namespace
+
+void follow(lesson::Lesson& lesson, const servo::State& state, const servo::Output& output) {
+    lesson::observe(lesson, state, output);
+    if (output.undone > 0) (void)lesson::back(lesson, state, output.undone - 1U);
+}
 
 Course::~Course() = default;
 
@@ -93,11 +101,22 @@ Status Course::keep_events() {
     return {};
 }
 
-Result<servo::Output> Course::step(const servo::Input& input, std::vector<lesson::Event> noticed) {
+Result<servo::Output> Course::step(const servo::Input& given, std::vector<lesson::Event> noticed) {
+    servo::Input input = given;
+    const auto back = std::exchange(back_, std::nullopt);
+    const bool may = lesson_.mode != lesson::Mode::assessment && back && *back < servo::most_marks &&
+                     *back <= lesson_.current;
+    input.undo = std::exchange(mark_, false) ? servo::keep_mark
+                 : may                       ? static_cast<std::uint8_t>(*back + 1)
+                                             : std::uint8_t{0};
     const servo::Output output = servo::tick(at_.setup, at_.state, input);
-    lesson::observe(lesson_, at_.state, output);
+    follow(lesson_, at_.state, output);
     events_.clear();
     std::swap(events_, lesson_.events);
+    // What it has gone back to has its mark.
+    mark_ = output.undone == 0 && std::any_of(events_.begin(), events_.end(), [](const lesson::Event& event) {
+                return event.kind == "step_begin";
+            });
     for (lesson::Event& seen : noticed) events_.push_back(std::move(seen));
     if (Status kept = writer_->append(record::make_record(input, output)); !kept) return fail(kept.error());
     if (Status kept = keep_events(); !kept) return fail(kept.error());

@@ -41,6 +41,9 @@ struct Prepared {
 };
 Result<Prepared> prepare(const content::Assembly& given, const CourseOptions& options);
 
+// The lesson after a tick: it sees what happened, and goes back where the nuts did.
+void follow(lesson::Lesson& lesson, const servo::State& state, const servo::Output& output);
+
 // How a lesson came out, and what it was played among.
 struct Played {
     lesson::LessonResult result;
@@ -60,6 +63,11 @@ class Course {
     // One tick. `noticed`: what whoever plays wants to be kept with it. An error is the session file's; what
     // was written before stays readable.
     Result<servo::Output> step(const servo::Input& input, std::vector<lesson::Event> noticed = {});
+
+    // With the next tick the nuts and the lesson go back to the beginning of the due step, or to that of a
+    // step before it. Nothing happens where the lesson allows no way back (an assessment), further back than
+    // marks are kept, and as long as a nut is held or the tool is beside one (servo::Input::undo).
+    void go_back(std::size_t steps) { back_ = steps; }
 
     // What happened in the last tick.
     [[nodiscard]] std::span<const lesson::Event> events() const { return events_; }
@@ -83,6 +91,8 @@ class Course {
     Status keep_events();
 
     Prepared at_;
+    bool mark_ = false;  // a step has begun: its beginning is to be kept
+    std::optional<std::size_t> back_;
     lesson::Lesson lesson_;
     std::vector<lesson::Event> events_;
     std::optional<record::Writer> writer_;

@@ -107,7 +107,7 @@ Result<Replayed> replay(const record::Reader& session, Prepared at,
             if (!go_on) return;
             const servo::Input input = record::input_of(recorded);
             const servo::Output output = servo::tick(at.setup, at.state, input);
-            lesson::observe(lesson, at.state, output);
+            follow(lesson, at.state, output);
             if (!same(record::make_record(input, output), recorded) && replayed.wrong++ == 0)
                 replayed.first_wrong = replayed.ticks;
             ++replayed.ticks;

@@ -52,10 +52,10 @@ struct Outlined {
     glm::vec4 color{0.0F};
 };
 
-// Only an image of what should be there.
+// Only an image of what should be there: the wrench on its nut.
 struct Ghost {
-    float opacity = 0.3F;
-    glm::vec4 tint{0.0F};
+    glm::dmat4 tool_from_mesh{1.0};
+    bool shown = false;
 };
 
 // Fades where it hides what must be seen.

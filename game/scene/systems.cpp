@@ -8,6 +8,9 @@ namespace bolt::scene {
 
 namespace {
 
+constexpr float ghost_opacity = 0.4F;
+constexpr glm::vec4 ghost_tint{0.2F, 0.75F, 1.0F, 0.7F};
+
 glm::dmat4 matrix(const Pose& pose) {
     return glm::translate(glm::dmat4(1.0), pose.position) * glm::mat4_cast(pose.orientation);
 }
@@ -64,6 +67,18 @@ void place_hand(World& world, const Postures& postures, const Held& held) {
     });
 }
 
+void show_ghost(World& world, const Pose& tool) {
+    const glm::dmat4 at = matrix(tool);
+    world.view<Ghost, Placement>().each([&](Ghost& ghost, Placement& placement) {
+        ghost.shown = true;
+        placement.world = glm::mat4(at * ghost.tool_from_mesh);
+    });
+}
+
+void hide_ghost(World& world) {
+    world.view<Ghost>().each([](Ghost& ghost) { ghost.shown = false; });
+}
+
 void outline_joint(World& world, std::size_t joint, const glm::vec4& color) {
     world.view<const OfJoint>().each([&](ecs::Entity entity, const OfJoint& of) {
         if (of.joint == joint) outline(world, entity, color);
@@ -113,8 +128,9 @@ void present(World& world, render::Scene& scene) {
             if (const Outlined* line = world.find<Outlined>(entity)) object.outline = line->color;
             if (const CanFade* fade = world.find<CanFade>(entity)) object.cut = fade->fades;
             if (const Ghost* ghost = world.find<Ghost>(entity)) {
-                object.opacity = ghost->opacity;
-                object.tint = ghost->tint;
+                if (!ghost->shown) return;
+                object.opacity = ghost_opacity;
+                object.tint = ghost_tint;
             }
             scene.objects.push_back(object);
         });

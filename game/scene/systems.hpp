@@ -21,6 +21,10 @@ void place_nuts(World& world, const servo::Setup& setup, std::span<const joint::
 void place_tool(World& world, const Held& held);
 void place_hand(World& world, const Postures& postures, const Held& held);
 
+// The ghost of the wrench, with its jaw there.
+void show_ghost(World& world, const Pose& tool);
+void hide_ghost(World& world);
+
 // Lines around what belongs to a joint; none for a colour without alpha.
 void outline_joint(World& world, std::size_t joint, const glm::vec4& color);
 void outline_tool(World& world, const glm::vec4& color);

@@ -103,7 +103,11 @@ void add_wrench(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
     for (const render::Object& object : rest.objects) {
         const ecs::Entity entity = add(place.world, object);
         place.world.get<Drawn>(entity).moves = true;
-        place.world.add<OnTool>(entity, matrix(shelf.wrench_turn) * glm::dmat4(object.world));
+        const glm::dmat4 tool_from_mesh = matrix(shelf.wrench_turn) * glm::dmat4(object.world);
+        place.world.add<OnTool>(entity, tool_from_mesh);
+        const ecs::Entity ghost = add(place.world, object);
+        place.world.get<Drawn>(ghost).moves = true;
+        place.world.add<Ghost>(ghost, tool_from_mesh, false);
     }
 }
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "content/format/load.hpp"
 #include "game/scene/resting_place.hpp"
+#include "game/sound/materials.hpp"
 #include "game/trainer/hud.hpp"
 #include "game/trainer/ui_input.hpp"
 
@@ -31,11 +33,36 @@ std::vector<Listed> list_assemblies() {
     for (const std::string& name : names) {
         const content::Loaded loaded = content::load_assembly(name);
         if (!loaded.ok() || loaded.assembly.models.model.empty()) continue;
-        const auto title = loaded.assembly.title.find("en");
-        listed.push_back(
-            {name, title == loaded.assembly.title.end() ? name : title->second, loaded.assembly.variants});
+        listed.push_back({name, loaded.assembly.variant, loaded.assembly.title, loaded.assembly.variants});
     }
     return listed;
+}
+
+namespace {
+
+// "de" of "de_DE.UTF-8"; English for all that is not there.
+std::string language_of_desktop(const std::vector<words::Words>& there) {
+    for (const char* variable : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
+        const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): nothing sets it
+        if (value == nullptr || *value == 0) continue;
+        const std::string code = std::string(value).substr(0, 2);
+        for (const words::Words& language : there)
+            if (language.language == code) return code;
+        break;
+    }
+    return "en";
+}
+
+}  // namespace
+
+// Another language from now on.
+Status App::speak(const std::string& language) {
+    words::Loaded loaded = words::load_words(words::words_folder(), language);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    words_ = std::move(loaded.words);
+    options_.choice.language = language;
+    controls_ = hints::mouse_controls(words_, std::string(platform::name(KeyMap{}.of(Action::tool))));
+    return {};
 }
 
 App::App(AppOptions options) : options_(std::move(options)) {
@@ -50,11 +77,30 @@ void App::tell(const std::string& line) const {
 }
 
 Status App::start(view::Painter& painter) {
+    if (languages_.empty()) {
+        for (const std::string& code : words::languages(words::words_folder())) {
+            words::Loaded loaded = words::load_words(words::words_folder(), code);
+            if (!loaded.ok()) return fail(loaded.errors.front());
+            languages_.push_back(std::move(loaded.words));
+        }
+        const std::string& asked = options_.choice.language;
+        if (Status spoken = speak(asked.empty() ? language_of_desktop(languages_) : asked); !spoken)
+            return spoken;
+    }
     on_ = std::make_unique<OnGpu>();
     on_->painter = &painter;
     Result<std::unique_ptr<ui::Ui>> made = ui::Ui::create(*painter.device, {15.0F});
     if (!made) return fail(made.error());
     on_->ui = std::move(*made);
+    for (const words::Words& language : languages_) {
+        on_->ui->need(language.name);
+        for (const std::string& text : language.texts) on_->ui->need(text);
+    }
+    for (const Listed& listed : listed_) {
+        for (const auto& [code, title] : listed.title) on_->ui->need(title);
+        for (const content::Variant& variant : listed.variants)
+            for (const auto& [code, title] : variant.title) on_->ui->need(title);
+    }
     Result<text::Fonts> fonts = text::load_fonts();
     if (!fonts) return fail(fonts.error());
     on_->fonts.emplace(std::move(*fonts));
@@ -113,6 +159,11 @@ Status App::begin_lesson(float aspect) {
     const servo::Setup& setup = p.course->setup();
     const servo::State& state = p.course->state();
     p.hand = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness));
+    Result<sound::Live> live =
+        options_.sound
+            ? sound::Live::start(setup, sound::materials(p.course->assembly(), p.course->obstacle_names()))
+            : tl::unexpected(Error{});
+    if (live) p.sound = std::make_unique<sound::Live>(std::move(*live));
     p.postures =
         scene::make_postures(state.touch ? &state.touch->wrench : nullptr, setup.wrench.handle_length);
     p.shoulder = scene::shoulder_at(p.place.machine);
@@ -162,6 +213,8 @@ void App::tell_events() {
 
 Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, VkExtent2D size, float scale,
                   double seconds) {
+    if (const auto language = std::exchange(language_wished_, std::nullopt))
+        if (Status spoken = speak(*language); !spoken) return spoken;
     if (std::exchange(start_wished_, false)) {
         if (Status begun = begin_lesson(static_cast<float>(size.width) / static_cast<float>(size.height));
             !begun) {
@@ -194,6 +247,8 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
             tell(fmt::format("{:7.2f} s  the wrench is {}", p.course->time(),
                              p.hand.wrench ? "in the hand" : "laid down"));
         tell_events();
+        if (p.sound)
+            if (const auto news = p.sound->news()) tell(*news);
         if (!now.status) return now.status;
         if (p.course->over() && shows_ == Shows::lesson)
             if (Status ended = end_lesson(); !ended) return ended;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/ui/ui.hpp"
+#include "game/hints/controls.hpp"
 #include "game/trainer/systems.hpp"
 #include "game/view/painter.hpp"
 
@@ -18,11 +19,12 @@ struct Choice {
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
     std::string trainee;
-    std::string language = "en";
+    std::string language;  // empty: that of the desktop, if there is one
 };
 
 struct AppOptions {
     Choice choice;
+    bool sound = false;
     bool menu = true;  // false: the lesson begins at once
     play::CourseOptions course;
     std::optional<joint::Law> law;  // instead of the assembly's own
@@ -36,13 +38,14 @@ enum class Shows : std::uint8_t { menu, lesson, result };
 
 // A menu's entry.
 struct Listed {
-    std::string name, title;
+    std::string name, usual;                   // and its usual variant
+    std::map<std::string, std::string> title;  // by language
     std::vector<content::Variant> variants;
 };
 
 // A button as it was drawn last: for whoever presses it without eyes.
 struct ButtonPlace {
-    std::string label;
+    words::Key label;
     glm::vec2 middle{0.0F};  // px
 };
 
@@ -80,7 +83,8 @@ class App {
     void draw_menu(const glm::dvec2& size);
     void draw_result(const glm::dvec2& size);
     void draw_pause(const glm::dvec2& size);
-    bool button(const char* label);
+    bool button(words::Key key);
+    Status speak(const std::string& language);
     void tell(const std::string& line) const;
     void tell_events();
 
@@ -93,6 +97,10 @@ class App {
     std::optional<play::Played> played_;
     play::CourseOptions course_;
     std::optional<Error> trouble_;
+    std::vector<words::Words> languages_;
+    words::Words words_;
+    hints::Controls controls_;
+    std::optional<std::string> language_wished_;
     ui::Input input_;
     std::vector<ButtonPlace> buttons_;
     std::unique_ptr<OnGpu> on_;

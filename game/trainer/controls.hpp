@@ -21,18 +21,22 @@ enum class Action : std::uint8_t {
     pause,
     full_screen,
     quiet,  // sound off and on
+    undo,   // the step before is due again
+    restart_step,
 };
-inline constexpr std::size_t action_count = 8;
+inline constexpr std::size_t action_count = 10;
 constexpr std::string_view name(Action action) {
     constexpr std::array<std::string_view, action_count> names{
-        "tool", "find_view", "whole_view", "hint", "flange_map", "pause", "full_screen", "quiet"};
+        "tool",  "find_view",   "whole_view", "hint", "flange_map",
+        "pause", "full_screen", "quiet",      "undo", "restart_step"};
     return names.at(static_cast<std::size_t>(action));
 }
 
 struct KeyMap {
-    std::array<platform::Key, action_count> keys{platform::Key::t,   platform::Key::v, platform::Key::f,
-                                                 platform::Key::h,   platform::Key::c, platform::Key::escape,
-                                                 platform::Key::f11, platform::Key::m};
+    std::array<platform::Key, action_count> keys{
+        platform::Key::t,         platform::Key::v,      platform::Key::f,   platform::Key::h,
+        platform::Key::c,         platform::Key::escape, platform::Key::f11, platform::Key::m,
+        platform::Key::backspace, platform::Key::r};
     [[nodiscard]] platform::Key of(Action action) const { return keys.at(static_cast<std::size_t>(action)); }
 };
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/hints/terms.hpp"
+
 namespace bolt::trainer {
 
 namespace {
@@ -28,14 +30,14 @@ void plate(const char* name, const ImVec2& at, const ImVec2& pivot) {
 }
 
 // Torque over the nut's angle, with the window that is to be reached.
-void draw_plot(const Playing& p, const glm::dvec2& size, float scale) {
+void draw_plot(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
     if (p.plot.size() < 2) return;
     const auto joint = static_cast<std::size_t>(p.plotted);
     const content::Specification& spec = p.course->assembly().joints[joint].spec;
     const ImVec2 area(260.0F * scale, 150.0F * scale);
     plate("##plot", {static_cast<float>(size.x) - 12.0F * scale, static_cast<float>(size.y) - 12.0F * scale},
           {1.0F, 1.0F});
-    text(fmt::format("{}: torque (N·m) over angle (°)", p.course->assembly().joints[joint].design.id));
+    text(words::say(w, "hud.curve", {{"joint", p.course->assembly().joints[joint].design.id}}));
     const ImVec2 low = ImGui::GetCursorScreenPos();
     ImGui::Dummy(area);
     const auto [least, most] =
@@ -63,7 +65,7 @@ void draw_plot(const Playing& p, const glm::dvec2& size, float scale) {
 }
 
 // How hard the hand pulls: what a device would let it feel.
-void draw_strain(const Playing& p, const glm::dvec2& size, float scale) {
+void draw_strain(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
     if (p.output.joint < 0 || !p.hand.wrench) return;
     const servo::Setup& setup = p.course->setup();
     const double force = std::abs(p.output.wrench_torque) / setup.wrench.handle_length;
@@ -71,7 +73,7 @@ void draw_strain(const Playing& p, const glm::dvec2& size, float scale) {
     const auto share = static_cast<float>(std::clamp(force / greatest, 0.0, 1.0));
     plate("##strain", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 12.0F * scale},
           {0.5F, 1.0F});
-    text(fmt::format("pull at the handle: {:.0f} N", force));
+    text(words::say(w, "hud.pull", {{"force", words::Number{force, 0}}}));
     const ImVec2 low = ImGui::GetCursorScreenPos(), area(260.0F * scale, 12.0F * scale);
     ImGui::Dummy(area);
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -80,34 +82,63 @@ void draw_strain(const Playing& p, const glm::dvec2& size, float scale) {
     ImGui::End();
 }
 
-void draw_step(const Playing& p, float scale) {
+void draw_step(const Playing& p, const words::Words& w, float scale) {
     const lesson::Lesson& lesson = p.course->lesson();
     const lesson::Step* due = lesson.due();
     plate("##step", {12.0F * scale, 12.0F * scale}, {0.0F, 0.0F});
-    text(fmt::format("{} of {}   {:.0f} s", std::min(lesson.current + 1, lesson.steps.size()),
-                     lesson.steps.size(), p.course->time()));
+    const auto whole = [](std::size_t n) { return words::Number{static_cast<double>(n), 0}; };
+    text(words::say(w, "hud.step",
+                    {{"step", whole(std::min(lesson.current + 1, lesson.steps.size()))},
+                     {"of", whole(lesson.steps.size())}}) +
+         fmt::format("   {:.0f} s", p.course->time()));
     if (due != nullptr && lesson.mode != lesson::Mode::assessment) {
-        std::string what =
-            fmt::format("{} {}", p.course->assembly().joints[due->joint].design.id, lesson::name(due->kind));
-        if (due->kind == lesson::StepKind::tighten) what += fmt::format(" to {:.0f} N·m", due->torque);
-        text(what);
+        const std::string& id = p.course->assembly().joints[due->joint].design.id;
+        const std::string& what = w[hints::term(due->kind)];
+        text(due->kind == lesson::StepKind::tighten
+                 ? words::say(w, "hud.due_torque",
+                              {{"joint", id}, {"what", what}, {"torque", words::torque_number(due->torque)}})
+                 : words::say(w, "hud.due", {{"joint", id}, {"what", what}}));
     }
     ImGui::End();
-    if (p.saying.left <= 0.0) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, p.saying.mistake ? ImVec4(1.0F, 0.55F, 0.45F, 1.0F)
-                                                          : ImVec4(0.95F, 0.96F, 0.97F, 1.0F));
-    plate("##saying", {12.0F * scale, 84.0F * scale}, {0.0F, 0.0F});
-    text(p.saying.text);
-    ImGui::End();
+}
+
+void coloured(const std::string& line, const ImVec4& color, float width) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos(width);
+    text(line);
+    ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
+}
+
+// What is to be done, and what went wrong: in the middle above, where it hides the least of the work.
+void draw_hint(const Playing& p, const Said& said, const glm::dvec2& size, float scale) {
+    const words::Words& w = *said.words;
+    const float width = std::min(560.0F * scale, 0.56F * static_cast<float>(size.x));
+    const bool wrong = p.mistakes.shown.has_value();
+    if (!wrong && !p.hints.shown && p.output.fault == force::Fault::none) return;
+    plate("##hint", {static_cast<float>(0.5 * size.x), 12.0F * scale}, {0.5F, 0.0F});
+    const ImVec4 warm(1.0F, 0.6F, 0.5F, 1.0F), white(0.96F, 0.97F, 0.98F, 1.0F),
+        pale(0.75F, 0.85F, 0.95F, 1.0F);
+    if (p.output.fault != force::Fault::none) coloured(w[hints::term(p.output.fault)], warm, width);
+    if (wrong) {
+        coloured(hints::say_why(w, *p.mistakes.shown), warm, width);
+        coloured(hints::say_what_to_do(w, *p.mistakes.shown), white, width);
+    }
+    if (p.hints.shown) {
+        coloured(hints::say(w, *p.hints.shown), white, width);
+        if (const std::string motion = hints::say_motion(w, *p.hints.shown, *said.controls); !motion.empty())
+            coloured(motion, pale, width);
+    }
+    ImGui::End();
 }
 
 }  // namespace
 
-void draw_hud(const Playing& p, const glm::dvec2& size, float scale) {
-    draw_step(p, scale);
-    draw_plot(p, size, scale);
-    draw_strain(p, size, scale);
+void draw_hud(const Playing& p, const Said& said, const glm::dvec2& size, float scale) {
+    draw_step(p, *said.words, scale);
+    draw_hint(p, said, size, scale);
+    draw_plot(p, *said.words, size, scale);
+    draw_strain(p, *said.words, size, scale);
 }
 
 }  // namespace bolt::trainer

@@ -27,6 +27,7 @@ struct Wish {
     std::optional<std::size_t> nut;  // pressed on this one since the last frame
     bool wrench = false;             // pressed on the wrench that lies there, or its key: take it
     bool lay_down = false;
+    bool retreat = false;  // out of the way, with what it holds
     bool held = false;     // the button is down
     bool loosens = false;  // which way the next pull goes: for the side that a handle needs room on
     double turn = 0.0;     // rad that the handle was dragged since the last frame, tightening positive

@@ -7,9 +7,12 @@
 #include <string>
 
 #include "engine/text/fonts.hpp"
+#include "game/hints/hints.hpp"
+#include "game/hints/mistakes.hpp"
 #include "game/operators/sight.hpp"
 #include "game/play/course.hpp"
 #include "game/scene/systems.hpp"
+#include "game/sound/live.hpp"
 #include "game/trainer/controls.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "game/trainer/pointing.hpp"
@@ -21,13 +24,6 @@ namespace bolt::trainer {
 struct PlotPoint {
     float angle = 0.0F;   // deg
     float torque = 0.0F;  // N·m
-};
-
-// Something that is said for a while.
-struct Saying {
-    std::string text;
-    double left = 0.0;  // s
-    bool mistake = false;
 };
 
 struct Playing {
@@ -51,7 +47,12 @@ struct Playing {
     Vec3 shoulder{0.0};           // m, of whoever works
     std::vector<PlotPoint> plot;  // of the joint in hand
     int plotted = -1;
-    Saying saying;
+    hints::Hints hints;
+    hints::Mistakes mistakes;
+    std::optional<std::size_t> undo;  // steps to go back by, as soon as the hand is out of the way
+    double undo_for = 0.0;            // s that this has been wished
+    std::unique_ptr<sound::Live> sound;
+    bool quiet = false;
     std::vector<lesson::Event> said;  // by the lesson, since it was last taken
     operators::Sight sight;
     double unseen = 0.0;  // s that what is due has been out of sight

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "game/hints/coach.hpp"
+#include "game/hints/terms.hpp"
 #include "game/trainer/app.hpp"
 #include "game/trainer/hud.hpp"
 
@@ -26,6 +28,13 @@ void begin_panel(const char* name, const glm::dvec2& size, float width) {
     ImGui::Begin(name, nullptr, panel);
 }
 
+std::string in_language(const std::map<std::string, std::string>& texts, const std::string& language,
+                        const std::string& otherwise) {
+    for (const std::string& code : {language, std::string("en")})
+        if (const auto found = texts.find(code); found != texts.end()) return found->second;
+    return otherwise;
+}
+
 template <class Value>
 void radio(const char* label, Value& value, Value to) {
     if (ImGui::RadioButton(label, value == to)) value = to;
@@ -40,10 +49,10 @@ void text_field(const char* label, std::string& value) {
 
 }  // namespace
 
-bool App::button(const char* label) {
-    const bool pressed = ImGui::Button(label, {-1.0F, 0.0F});
+bool App::button(words::Key key) {
+    const bool pressed = ImGui::Button(words_[key].c_str(), {-1.0F, 0.0F});
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    buttons_.push_back({label, {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}});
+    buttons_.push_back({key, {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}});
     return pressed;
 }
 
@@ -55,42 +64,65 @@ void App::draw_menu(const glm::dvec2& size) {
     ImGui::Separator();
     for (const Listed& listed : listed_) {
         const bool chosen = listed.name == choice.assembly;
-        if (ImGui::Selectable(listed.title.c_str(), chosen) && !chosen) {
+        if (ImGui::Selectable(in_language(listed.title, words_.language, listed.name).c_str(), chosen) &&
+            !chosen) {
             choice.assembly = listed.name;
             choice.variant.clear();
         }
     }
     ImGui::Separator();
-    radio("guided", choice.mode, lesson::Mode::guided);
-    radio("practice", choice.mode, lesson::Mode::practice);
-    radio("assessment", choice.mode, lesson::Mode::assessment);
+    const auto listed = std::find_if(listed_.begin(), listed_.end(),
+                                     [&](const Listed& one) { return one.name == choice.assembly; });
+    if (listed != listed_.end() && listed->variants.size() > 1) {
+        for (const content::Variant& variant : listed->variants)
+            radio(in_language(variant.title, words_.language, variant.name).c_str(), choice.variant,
+                  variant.name == listed->usual ? std::string() : variant.name);
+        ImGui::NewLine();
+    }
+    for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment})
+        radio(words_[hints::term(mode)].c_str(), choice.mode, mode);
     ImGui::NewLine();
-    radio("tighten", choice.task, lesson::Task::tighten);
-    radio("loosen", choice.task, lesson::Task::loosen);
+    for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen})
+        radio(words_[hints::term(task)].c_str(), choice.task, task);
     ImGui::NewLine();
-    text_field("name", choice.trainee);
+    text_field(words_["menu.trainee"].c_str(), choice.trainee);
+    for (const words::Words& language : languages_)
+        if (ImGui::RadioButton(language.name.c_str(), language.language == words_.language))
+            language_wished_ = language.language;
+        else
+            ImGui::SameLine();
+    ImGui::NewLine();
     ImGui::Separator();
     if (trouble_) {
         ImGui::PushStyleColor(ImGuiCol_Text, {1.0F, 0.55F, 0.45F, 1.0F});
         ImGui::TextWrapped("%s", trouble_->message().c_str());
         ImGui::PopStyleColor();
     }
-    if (button("Start")) start_wished_ = true;
+    if (button("menu.start")) start_wished_ = true;
     ImGui::SetItemDefaultFocus();
-    if (button("Quit")) closed_ = true;
+    if (button("menu.quit")) closed_ = true;
     ImGui::End();
 }
 
 void App::draw_pause(const glm::dvec2& size) {
     begin_panel("##pause", size, 300.0F * input_.scale);
-    text("Paused");
+    text(words_["menu.paused"]);
     ImGui::Separator();
-    if (button("Go on")) playing_->paused = false;
-    if (button("End the lesson")) {
+    if (button("menu.go_on")) playing_->paused = false;
+    const bool may_undo = playing_->course->lesson().mode != lesson::Mode::assessment;
+    if (may_undo && button("menu.undo")) {
+        playing_->undo = 1;
+        playing_->paused = false;
+    }
+    if (may_undo && button("menu.restart_step")) {
+        playing_->undo = 0;
+        playing_->paused = false;
+    }
+    if (button("menu.end")) {
         playing_->paused = false;
         end_wished_ = true;
     }
-    if (button("Quit")) closed_ = true;
+    if (button("menu.quit")) closed_ = true;
     ImGui::End();
 }
 
@@ -101,7 +133,8 @@ void App::draw_result(const glm::dvec2& size) {
                             {1.0F, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.9F);
     ImGui::Begin("##result", nullptr, panel);
-    text(fmt::format("{:.0f} of 100   {:.0f} s", result.score, result.duration));
+    text(words::say(words_, "result.score", {{"points", words::Number{result.score, 0}}}) +
+         fmt::format("   {:.0f} s", result.duration));
     ImGui::Separator();
     if (ImGui::BeginTable("joints", 5, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
         for (const char* head : {"", "N·m", "°", "kN", ""}) ImGui::TableSetupColumn(head);
@@ -110,25 +143,30 @@ void App::draw_result(const glm::dvec2& size) {
             for (const std::string& cell :
                  {joint.id, fmt::format("{:.1f}", joint.torque),
                   fmt::format("{:.0f}", to_degrees(joint.angle)), fmt::format("{:.1f}", joint.clamp / 1e3),
-                  std::string(lesson::name(joint.overall))}) {
+                  words_[hints::term(joint.overall)]}) {
                 ImGui::TableNextColumn();
                 text(cell);
             }
         }
         ImGui::EndTable();
     }
-    for (const lesson::ScoreReason& reason : result.reasons)
-        text(fmt::format("{:+.0f}  {}", reason.points, reason.text));
+    const hints::Review review = hints::review(assembly_, result);
+    ImGui::PushTextWrapPos(340.0F * scale);
+    for (const hints::Remark& reason : review.reasons)
+        text(fmt::format("{:+.0f}  {}", reason.points, hints::say(words_, reason)));
     ImGui::Separator();
-    if (button("Again")) start_wished_ = true;
-    if (options_.menu && button("Menu")) shows_ = Shows::menu;
-    if (button("Quit")) closed_ = true;
+    for (const words::Key advice : review.advice) text(words_[advice]);
+    ImGui::PopTextWrapPos();
+    ImGui::Separator();
+    if (button("menu.again")) start_wished_ = true;
+    if (options_.menu && button("menu.menu")) shows_ = Shows::menu;
+    if (button("menu.quit")) closed_ = true;
     ImGui::End();
 }
 
 void App::draw_interface(const glm::dvec2& size) {
     buttons_.clear();
-    if (shows_ == Shows::lesson) draw_hud(*playing_, size, input_.scale);
+    if (shows_ == Shows::lesson) draw_hud(*playing_, {&words_, &controls_}, size, input_.scale);
     if (shows_ == Shows::lesson && playing_->paused) draw_pause(size);
     if (shows_ == Shows::menu) draw_menu(size);
     if (shows_ == Shows::result) draw_result(size);

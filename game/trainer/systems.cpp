@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/operators/around.hpp"
+#include "game/operators/mind.hpp"
 #include "game/scene/find_view.hpp"
 #include "game/scene/labels.hpp"
 #include "game/view/label_places.hpp"
@@ -14,9 +16,10 @@ namespace {
 
 constexpr double twist_shown = 0.3;                    // of the fingers' twist, at the wrist
 constexpr double longest_step = 0.25;                  // s of lesson that one frame catches up with
+constexpr double undo_patience = 6.0;                  // s
 constexpr double spin_reach = 120.0;                   // px of drag for the fastest twist
 constexpr double wrench_reach = 22.0;                  // px beside a wrench that still count
-constexpr double lost_below = 0.15, lost_after = 1.5;  // of nut and jaw; s
+constexpr double lost_below = 0.15, lost_after = 3.0;  // of nut and jaw; s
 constexpr std::size_t most_plotted = 4000;
 
 constexpr glm::vec4 under_color{0.9F, 0.95F, 1.0F, 0.8F}, nothing{0.0F};
@@ -71,9 +74,38 @@ void plot(Playing& p, const servo::Output& output) {
 
 void say(Playing& p, std::span<const lesson::Event> events) {
     for (const lesson::Event& event : events) {
-        if (event.kind == "mistake") p.saying = {event.text, 4.0, true};
+        hints::note(p.mistakes, p.course->lesson(), event);
         p.said.push_back(event);
     }
+}
+
+// What hints are made of.
+hints::Scene hint_scene(const Playing& p) {
+    const play::Course& course = *p.course;
+    hints::Scene scene{course.lesson(), course.setup(), course.state().joints, p.output,
+                       course.state().rounded};
+    scene.wrench_in_hand = p.hand.wrench;
+    if (p.hand.wrench && p.hand.doing == Doing::holding)
+        scene.room = p.hand.room - std::abs(p.hand.handle - p.hand.begun_at);
+    return scene;
+}
+
+// The wrench on the due nut, or the hand there, as an image of what is to be done.
+void show_ghost(scene::World& world, const Playing& p, hints::Ghost ghost) {
+    const lesson::Step* due = p.course->lesson().due();
+    if (due == nullptr || ghost != hints::Ghost::hand_and_wrench) {
+        scene::hide_ghost(world);
+        return;
+    }
+    const servo::Setup& setup = p.course->setup();
+    const servo::State& state = p.course->state();
+    const double nut_angle = state.joints[due->joint].nut.angle;
+    const double sign = due->kind == lesson::StepKind::loosen ? -1.0 : 1.0;
+    const auto grip = operators::choose_grip(setup, state.touch ? &*state.touch : nullptr, due->joint,
+                                             nut_angle, 0.5 * pi - 0.5 * sign, sign, to_radians(60.0));
+    const servo::NutPlace& nut = setup.nuts[due->joint];
+    scene::show_ghost(world, {servo::nut_centre(nut, nut_angle),
+                              operators::orientation_of(nut, grip.handle, grip.flipped)});
 }
 
 // The joint that is worked at, or is due.
@@ -137,11 +169,14 @@ void pointing_system(scene::World&, Frame& frame) {
         press(p, wish);
         wish.held = wanted.left && p.hand_drag;
     }
+    if (wanted.wants(Action::restart_step)) p.undo = 0;
+    if (wanted.wants(Action::undo)) p.undo = 1;
     if (wanted.wants(Action::tool)) (p.hand.wrench ? wish.lay_down : wish.wrench) = true;
     if (wish.held) {
         wish.turn = drag_of(p, screen, wanted.dragged);
         wish.spin = (wanted.pointer.x - p.press.x) / spin_reach;
     }
+    if (p.undo && p.hand.nut) wish.retreat = true;
     if (p.finished || p.paused) wish = {};
     trainer::wish(p.hand, wish, p.course->setup(), p.course->state());
     move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
@@ -158,6 +193,7 @@ void haptic_system(scene::World& world, Frame& frame) {
         servo::Input input = move(p.hand, setup, course.state());
         if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
+        if (p.undo && p.hand.doing == Doing::resting && !p.hand.nut) course.go_back(*p.undo);
         const Result<servo::Output> output = course.step(input);
         if (!output) {
             frame.status = fail(output.error());
@@ -166,6 +202,8 @@ void haptic_system(scene::World& world, Frame& frame) {
         p.output = *output;
         plot(p, *output);
         say(p, course.events());
+        if (p.sound) p.sound->tick(*output, sound::cues_of(course.events()));
+        if (output->undone > 0) p.undo.reset();
     }
     p.finished = p.finished || course.over();
     const bool pinches = !p.hand.wrench && p.hand.nut && p.hand.doing == Doing::holding;
@@ -187,20 +225,27 @@ void haptic_system(scene::World& world, Frame& frame) {
 void lesson_system(scene::World& world, Frame& frame) {
     Playing& p = frame.playing;
     const lesson::Lesson& lesson = p.course->lesson();
-    p.saying.left = std::max(0.0, p.saying.left - frame.seconds);
-    const lesson::Step* due = lesson.due();
-    const bool help = lesson.mode == lesson::Mode::guided;
+    // A wish that cannot be granted is forgotten: nothing leaps when nobody expects it any more.
+    p.undo_for = p.undo ? p.undo_for + frame.seconds : 0.0;
+    if (p.undo_for > undo_patience) p.undo.reset();
+    if (frame.wanted.wants(Action::quiet)) p.quiet = !p.quiet;
+    if (p.sound) p.sound->set_volume(p.quiet || p.paused ? 0.0 : 1.0);
+    if (!p.paused) {
+        hints::update(p.hints, hint_scene(p), frame.seconds, frame.wanted.wants(Action::hint));
+        hints::update(p.mistakes, frame.seconds);
+    }
+    const hints::Hint* hint = p.hints.shown && !p.finished ? &*p.hints.shown : nullptr;
+    const int outlined = hint != nullptr ? hint->outlined() : -1;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         glm::vec4 color = nothing;
-        if (help && due != nullptr && due->joint == i) color = scene::due_color;
+        if (outlined == static_cast<int>(i)) color = scene::due_color;
         if (p.under == i && !p.finished) color = under_color;
         if (p.finished) color = view::verdict_color(lesson.joints[i].result);
         scene::outline_joint(world, i, color);
     }
-    const bool wants_wrench = help && due != nullptr && due->kind != lesson::StepKind::run_down;
-    scene::outline_tool(world, p.over_wrench                    ? under_color
-                               : wants_wrench && !p.hand.wrench ? scene::due_color
-                                                                : nothing);
+    const bool wants_wrench = hint != nullptr && hint->arrow() == hints::Motion::take;
+    scene::outline_tool(world, p.over_wrench ? under_color : wants_wrench ? scene::due_color : nothing);
+    show_ghost(world, p, hint != nullptr ? hint->ghost() : hints::Ghost::none);
 }
 
 void view_system(scene::World& world, Frame& frame) {

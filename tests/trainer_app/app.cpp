@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "game/play/replay.hpp"
 #include "game/record/session.hpp"
 #include "game/trainer/pointing.hpp"
 #include "tests/support/sanitized.hpp"
@@ -73,7 +74,7 @@ class Desk {
         frame({platform::KeyEvent{key, false, false, {}}});
     }
     // False: there is no such button. New panels have found their size after two frames.
-    bool push(const std::string& label) {
+    bool push(words::Key label) {
         frame();
         frame();
         for (const ButtonPlace& button : app_->buttons()) {
@@ -204,7 +205,7 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     Desk desk(options("cover-m8", true));
     desk.frame();
     CHECK(desk.app().shows() == Shows::menu);
-    REQUIRE(desk.push("Start"));
+    REQUIRE(desk.push("menu.start"));
     desk.frame();
     REQUIRE(desk.app().shows() == Shows::lesson);
     Person person(desk);
@@ -228,10 +229,10 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     CHECK(reader->complete());
     CHECK(reader->header().operator_name == "person");
     // And again, or back to the menu.
-    REQUIRE(desk.push("Menu"));
+    REQUIRE(desk.push("menu.menu"));
     CHECK(desk.app().shows() == Shows::menu);
     desk.frame();
-    REQUIRE(desk.push("Quit"));
+    REQUIRE(desk.push("menu.quit"));
     CHECK(desk.app().closed());
 }
 
@@ -246,12 +247,12 @@ TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
     const double paused = desk.playing().course->time();
     for (int i = 0; i < 5; ++i) desk.frame();
     CHECK(desk.playing().course->time() == paused);
-    REQUIRE(desk.push("Go on"));
+    REQUIRE(desk.push("menu.go_on"));
     desk.frame();
     CHECK(desk.playing().course->time() > paused);
     desk.key(platform::Key::escape);
     desk.frame();
-    REQUIRE(desk.push("End the lesson"));
+    REQUIRE(desk.push("menu.end"));
     desk.frame();
     REQUIRE(desk.played());
     CHECK_FALSE(desk.played()->result.finished);
@@ -261,10 +262,57 @@ TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
     CHECK(reader->complete());
 }
 
+TEST_CASE("a step is taken back: the nut is where it was, the step due again, and the session replays so") {
+    Desk desk(options("cover-m8", false));
+    desk.frame();
+    Person person(desk);
+    person.play(100.0, 1);
+    const play::Course& course = *desk.playing().course;
+    REQUIRE(course.lesson().current == 1);
+    const std::size_t first = course.lesson().steps[0].joint;
+    REQUIRE(course.state().joints[first].nut.angle > 6.0);
+    desk.key(platform::Key::backspace);
+    for (int i = 0; i < 100 && course.lesson().current == 1; ++i) desk.frame();
+    CHECK(course.lesson().current == 0);
+    CHECK(course.state().joints[first].nut.angle == 0.0);
+    // And it is done once more.
+    person.play(200.0, 1);
+    CHECK(course.lesson().current == 1);
+    // To where this one began, which is where it is.
+    desk.key(platform::Key::r);
+    for (int i = 0; i < 40; ++i) desk.frame();
+    CHECK(course.lesson().current == 1);
+    desk.key(platform::Key::escape);
+    REQUIRE(desk.push("menu.end"));
+    const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
+    REQUIRE(reader);
+    auto at = play::prepare_again(*reader);
+    REQUIRE(at);
+    std::size_t back = 0;
+    const auto replayed = play::replay(*reader, std::move(*at), [&](const play::Moment& moment) {
+        for (const lesson::Event& event : moment.lesson.events) back += event.kind == "back" ? 1U : 0U;
+        return true;
+    });
+    REQUIRE(replayed);
+    CHECK(replayed->wrong == 0);
+    CHECK(back == 2);
+}
+
+TEST_CASE("something is said in every language, and nothing in an assessment") {
+    for (const char* language : {"de", "zh", "en"}) {
+        AppOptions o = options("cover-m8", false);
+        o.choice.language = language;
+        o.choice.mode = std::string(language) == "en" ? lesson::Mode::assessment : lesson::Mode::guided;
+        Desk desk(std::move(o));
+        for (int i = 0; i < 5; ++i) desk.frame();
+        CHECK(desk.playing().hints.shown.has_value() == (std::string(language) != "en"));
+    }
+}
+
 TEST_CASE("an assembly that is not there: the menu says so and stays") {
     Desk desk(options("no-such-thing", true));
     desk.frame();
-    REQUIRE(desk.push("Start"));
+    REQUIRE(desk.push("menu.start"));
     desk.frame();
     CHECK(desk.app().shows() == Shows::menu);
     REQUIRE(desk.app().trouble());
