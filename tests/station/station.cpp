@@ -120,6 +120,9 @@ TEST_CASE("a cable pulled at work is said, lets the tool stand, and all goes on 
     cable->plugged = false;
     REQUIRE(eventually([&] { return station->newest().output.fault == force::Fault::silent; }));
     REQUIRE(eventually([&] { return words(station->troubles()).find("plug it in") != std::string::npos; }));
+    REQUIRE(eventually([&] { return station->passed().mover.longest_silence > 0.3; }));
+    CHECK(station->passed().mover.samples > 0);
+    CHECK(station->mover()->losses == 1);
     const float stands = height();
     for (int i = 0; i < 20; ++i) CHECK(height() == stands);
     cable->plugged = true;
@@ -151,9 +154,12 @@ TEST_CASE("a station has a glove on a line of its own, and says what is wrong wi
     REQUIRE(station);
     REQUIRE(station->glove() != nullptr);
     CHECK(station->hand() == nullptr);
+    CHECK(station->wheel() == nullptr);
     REQUIRE(eventually([&] { return station->glove()->sample().number > 5; }));
     line->stall(true);
     REQUIRE(eventually([&] { return words(station->troubles()).find("glove") != std::string::npos; }));
+    REQUIRE(eventually([&] { return station->gloved()->longest_silence > 0.5; }));
+    CHECK(station->gloved()->frames > 5);
     line->stall(false);
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
 }
