@@ -26,7 +26,6 @@ namespace bolt::cli {
 namespace {
 
 constexpr double device_patience = 3.0;  // s
-constexpr int quick = 2;                 // ms: what an adapter may gather
 
 struct Options {
     std::string device, glove, rig;
@@ -125,12 +124,8 @@ Result<std::string> examine_glove(const std::string& port, double seconds) {
     if (report.lost_bytes > 0)
         text += fmt::format("  {} bytes on the line made no sense\n", report.lost_bytes);
     if (report.trouble[0] != '\0') text += fmt::format("  {}\n", report.trouble.data());
-    if (const auto ms = glove::gathers_ms(port); ms && *ms > quick)
-        text += fmt::format(
-            "  its adapter gathers bytes for {} ms: install the udev rule (60-boltwright.rules) and plug it "
-            "in "
-            "again\n",
-            *ms);
+    if (const std::string about = station::about_adapter(port); !about.empty())
+        text += fmt::format("  {}\n", about);
     return text;
 }
 

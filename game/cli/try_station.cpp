@@ -10,6 +10,7 @@
 #include "game/station/trial.hpp"
 #include "haptics/device/puck.hpp"
 #include "haptics/device/timer.hpp"
+#include "haptics/glove/serial_line.hpp"
 
 namespace bolt::cli {
 
@@ -70,10 +71,14 @@ int try_station(const StationOptions& options) {
 
 std::string what_to_try() {
     const std::vector<std::string> ids = station::ids_of(station::choose_any(device::list()));
-    if (ids.empty()) return {};
-    std::string text = "  boltwright doctor";
-    for (const std::string& id : ids) text += " --device " + id;
-    return text + " tries them\n";
+    std::string text;
+    if (!ids.empty())
+        text = fmt::format("  boltwright doctor --device {} tries {}\n", fmt::join(ids, " --device "),
+                           ids.size() == 1 ? "it" : "them");
+    if (const auto ports = glove::serial_ports(); !ports.empty())
+        text += fmt::format("  boltwright doctor --glove {} --trainee NAME tries a glove there\n",
+                            ports.front().string());
+    return text;
 }
 
 }  // namespace bolt::cli

@@ -8,7 +8,6 @@
 
 #include "haptics/device/timer.hpp"
 #include "haptics/device/words.hpp"
-#include "haptics/glove/adapter.hpp"
 
 namespace bolt::station {
 
@@ -18,7 +17,6 @@ namespace {
 constexpr double moment = 0.3;
 constexpr double look_every = 0.02;   // s
 constexpr double told_itself = 0.25;  // s of silence: the device's line says so (device/keeper.hpp)
-constexpr int quick = 2;              // ms: what a glove's adapter may gather
 
 bool renders(const std::optional<device::Description>& d) {
     return d && (renders_force(*d) || renders_torque(*d));
@@ -60,12 +58,8 @@ std::string report(const TriedGlove& tried, double seconds) {
     text += passed(tried.frames, seconds, tried.age, tried.report.longest_silence);
     if (tried.report.lost_bytes > 0)
         text += fmt::format("    {} bytes on its line made no sense\n", tried.report.lost_bytes);
-    if (const auto ms = glove::gathers_ms(tried.port); ms && *ms > quick)
-        text += fmt::format(
-            "    its adapter gathers bytes for {} ms: install the udev rule (60-boltwright.rules) and plug "
-            "it in "
-            "again\n",
-            *ms);
+    if (const std::string about = about_adapter(tried.port); !about.empty())
+        text += fmt::format("    {}\n", about);
     if (!tried.worn)
         return text +
                "    whose hand it is was not said (--trainee NAME): without a calibration it takes nothing\n";

@@ -8,6 +8,7 @@
 
 #include "game/play/touch_models.hpp"
 #include "haptics/device/timer.hpp"
+#include "haptics/glove/adapter.hpp"
 #include "haptics/hand/closing.hpp"
 
 namespace bolt::station {
@@ -16,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int quick = 2;          // ms: what an adapter may gather
 constexpr double patience = 6.0;  // s: a glove is asked each question three times before it is given up
 
 // Of a right hand of the usual size: a flat bar along x, as a wrench's handle is, lies so far below and ahead
@@ -77,6 +79,15 @@ Result<glove::Identity> await_glove(glove::Driver& driver, const fs::path& port)
         timer.wait(0.01);
     }
     return driver.report().identity;
+}
+
+std::string about_adapter(const fs::path& port) {
+    const auto ms = glove::gathers_ms(port);
+    if (!ms || *ms <= quick) return {};
+    return fmt::format(
+        "its adapter gathers bytes for {} ms: install the udev rule (60-boltwright.rules) and plug it in "
+        "again",
+        *ms);
 }
 
 Result<content::GloveCalibration> calibration_of(const std::string& trainee, const glove::Identity& glove,

@@ -17,6 +17,9 @@ Result<std::filesystem::path> calibrations_folder();
 // to do.
 Result<glove::Identity> await_glove(glove::Driver& driver, const std::filesystem::path& port);
 
+// What to do about an adapter that keeps a glove's bytes back, in words; empty: it does not.
+std::string about_adapter(const std::filesystem::path& port);
+
 // The trainee's calibration of that glove. `folder` empty: where they are kept.
 Result<content::GloveCalibration> calibration_of(const std::string& trainee, const glove::Identity& glove,
                                                  const std::filesystem::path& folder = {});
