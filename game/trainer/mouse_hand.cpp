@@ -15,7 +15,7 @@ using operators::along;
 using operators::minimum_jerk;
 
 constexpr double hover = 0.045;                     // m above a nut, where a bolt's end is below the wrench
-constexpr double retreat_height = 0.15;             // m above where the wrench lies
+constexpr double retreat = 0.15;                    // m, from where the wrench lies, up and to the front
 constexpr double hand_speed = 0.45;                 // m/s, of a reach, at most somewhat more than twice that
 constexpr double shortest = 0.25;                   // s
 constexpr double lowering = 0.35, lifting = 0.25;   // s
@@ -213,7 +213,8 @@ void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
     if (w.retreat) {
         hand.nut.reset();
-        const Pose above{hand.rest.position + retreat_height * up, hand.rest.orientation};
+        const Vec3 nearer = hand.rest * Vec3(0.0, -retreat, 0.0);  // to whoever works
+        const Pose above{nearer + retreat * up, hand.rest.orientation};
         reach(hand, above, MouseHand::Then::rest, setup, state, up);
     } else if (w.wrench && !hand.wrench) {
         hand.nut.reset();
