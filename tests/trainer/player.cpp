@@ -47,9 +47,11 @@ trainer::Wish wish_of(Player& p, const play::Course& course, double seconds) {
         enough = joint.stage != joint::Stage::navigation;
     } else if (on) {
         const bool yields = course.state().joints[due->joint].stage == joint::Stage::yield;
-        enough = loosens ? joint.stage == joint::Stage::navigation
-                         : p.peak >= due->torque || (due->fraction > 0.999 && yields);
-        const double missing = loosens ? 1.0 : std::max(0.1, 1.0 - p.peak / due->torque);
+        const bool until_yield = lesson::into_yield(course.lesson(), *due);
+        enough = loosens       ? joint.stage == joint::Stage::navigation
+                 : until_yield ? yields && p.peak >= lesson::window(course.lesson(), *due).low
+                               : p.peak >= due->torque;
+        const double missing = loosens ? 1.0 : std::max(0.15, 1.0 - p.peak / due->torque);
         wish.turn = (loosens ? -1.0 : 1.0) * 1.2 * missing * seconds;
         const double swung = std::abs(p.hand.handle - p.hand.begun_at);
         enough = enough || swung > 0.97 * p.hand.room;

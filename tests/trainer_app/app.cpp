@@ -178,7 +178,7 @@ class Person {
         const lesson::Step& step_due = *due();
         const double torque = course.state().joints[joint].torque;
         const bool yields = course.state().joints[joint].stage == joint::Stage::yield;
-        if (torque >= step_due.torque || (yields && step_due.fraction > 0.999)) return true;
+        if (lesson::into_yield(course.lesson(), step_due) ? yields : torque >= step_due.torque) return true;
         if (std::abs(p().hand.handle - p().hand.begun_at) > 0.97 * p().hand.room) return true;
         const glm::dvec2 lever = lever_on_screen(desk_.screen(), p().output.tool, setup.nuts[joint].axis,
                                                  setup.wrench.handle_length);
