@@ -10,7 +10,7 @@ namespace {
 
 constexpr int sides = 24;                                    // every 15° about the bolt
 constexpr std::array pitches{35.0, 50.0, 22.0, 65.0, 80.0};  // degrees
-constexpr double reach = 2.2;                                // of the handle's length: how far off
+constexpr double reach = 1.8;                                // of the handle's length: how far off
 constexpr double dearer_pitch = 0.7;                         // a head is raised more easily than moved
 
 Vec3 eye_of(const view::Orbit& orbit) { return Vec3(view::viewpoint_of(orbit).eye); }

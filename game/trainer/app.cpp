@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 
 #include "content/format/load.hpp"
@@ -195,8 +196,21 @@ Status App::end_lesson() {
     shows_ = Shows::result;
     tell(fmt::format("lesson ended: {}, score {:.0f}", played_->result.finished ? "finished" : "broken off",
                      played_->result.score));
+    tell_cost();
     if (options_.ended) return options_.ended(playing_->course->assembly(), course_, *played_);
     return {};
+}
+
+// What the frames of the lesson have cost beside rendering.
+void App::tell_cost() {
+    std::string line = "a frame's systems, median and p99 (ms):";
+    for (auto& [system, times] : cost_) {
+        std::sort(times.begin(), times.end());
+        line +=
+            fmt::format(" {} {:.2f} {:.2f}", system, times[times.size() / 2], times[times.size() * 99 / 100]);
+    }
+    tell(line);
+    cost_.clear();
 }
 
 void App::tell_events() {
@@ -242,7 +256,12 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.paused = !p.paused;
         full_screen_ = full_screen_ || now.wanted.wants(Action::full_screen);
         const bool had_wrench = p.hand.wrench;
-        ecs::run(frame_systems, p.place.world, now);
+        ecs::run(frame_systems, p.place.world, now, [&](std::string_view system, const auto& run) {
+            const auto begin = std::chrono::steady_clock::now();
+            run();
+            cost_[system].push_back(
+                std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - begin).count());
+        });
         if (p.hand.wrench != had_wrench)
             tell(fmt::format("{:7.2f} s  the wrench is {}", p.course->time(),
                              p.hand.wrench ? "in the hand" : "laid down"));

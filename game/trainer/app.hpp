@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include "engine/ui/ui.hpp"
@@ -87,6 +88,7 @@ class App {
     Status speak(const std::string& language);
     void tell(const std::string& line) const;
     void tell_events();
+    void tell_cost();
 
     AppOptions options_;
     Shows shows_ = Shows::menu;
@@ -97,6 +99,7 @@ class App {
     std::optional<play::Played> played_;
     play::CourseOptions course_;
     std::optional<Error> trouble_;
+    std::map<std::string_view, std::vector<float>> cost_;  // ms, by system and frame of this lesson
     std::vector<words::Words> languages_;
     words::Words words_;
     hints::Controls controls_;

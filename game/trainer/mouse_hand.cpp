@@ -78,9 +78,12 @@ void reach(MouseHand& hand, const Pose& to, MouseHand::Then then, const servo::S
 // From which side the handle goes on the nut.
 void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     const double sign = hand.loosens ? -1.0 : 1.0;
-    const auto grip =
-        operators::choose_grip(setup, state.touch ? &*state.touch : nullptr, *hand.nut,
-                               state.joints[*hand.nut].nut.angle, 0.5 * pi - 0.5 * sign, sign, stroke);
+    const servo::NutPlace& nut = nut_of(hand, setup);
+    // Towards whoever works, in the middle of the pull.
+    const Vec3 out = hand.rest.position - nut.seat;
+    const double wanted = -std::atan2(glm::dot(out, nut.e2), glm::dot(out, nut.e1)) - 0.5 * sign * stroke;
+    const auto grip = operators::choose_grip(setup, state.touch ? &*state.touch : nullptr, *hand.nut,
+                                             state.joints[*hand.nut].nut.angle, wanted, sign, stroke);
     hand.handle = grip.handle;
     hand.flipped = grip.flipped;
     hand.room = grip.room;
@@ -227,6 +230,15 @@ void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo
         hand.loosens = w.loosens;
         go_to_nut(hand, setup, state);
     }
+}
+
+Pose wrench_on(const MouseHand& hand, const servo::Setup& setup, const servo::State& state, std::size_t joint,
+               bool loosens) {
+    MouseHand other = make_hand(hand.rest);
+    other.nut = joint;
+    other.loosens = loosens;
+    choose_side(other, setup, state);
+    return at_nut(other, setup, state, 0.0);
 }
 
 servo::Input move(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {

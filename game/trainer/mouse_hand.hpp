@@ -61,6 +61,10 @@ MouseHand make_hand(const Pose& rest);
 
 void wish(MouseHand& hand, const Wish& wish, const servo::Setup& setup, const servo::State& state);
 
+// Where this hand would put the wrench on a nut now.
+Pose wrench_on(const MouseHand& hand, const servo::Setup& setup, const servo::State& state, std::size_t joint,
+               bool loosens);
+
 // One tick. Without the guiding force: `guide` is the lesson's to fill in.
 servo::Input move(MouseHand& hand, const servo::Setup& setup, const servo::State& state);
 

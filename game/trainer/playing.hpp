@@ -48,6 +48,7 @@ struct Playing {
     std::vector<PlotPoint> plot;  // of the joint in hand
     int plotted = -1;
     hints::Hints hints;
+    std::optional<std::pair<std::size_t, Pose>> ghost;  // of the wrench: for which step, and where
     hints::Mistakes mistakes;
     std::optional<std::size_t> undo;  // steps to go back by, as soon as the hand is out of the way
     double undo_for = 0.0;            // s that this has been wished

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "game/operators/around.hpp"
-#include "game/operators/mind.hpp"
 #include "game/scene/find_view.hpp"
 #include "game/scene/labels.hpp"
 #include "game/view/label_places.hpp"
@@ -91,21 +89,18 @@ hints::Scene hint_scene(const Playing& p) {
 }
 
 // The wrench on the due nut, or the hand there, as an image of what is to be done.
-void show_ghost(scene::World& world, const Playing& p, hints::Ghost ghost) {
-    const lesson::Step* due = p.course->lesson().due();
+void show_ghost(scene::World& world, Playing& p, hints::Ghost ghost) {
+    const lesson::Lesson& lesson = p.course->lesson();
+    const lesson::Step* due = lesson.due();
     if (due == nullptr || ghost != hints::Ghost::hand_and_wrench) {
+        p.ghost.reset();
         scene::hide_ghost(world);
         return;
     }
-    const servo::Setup& setup = p.course->setup();
-    const servo::State& state = p.course->state();
-    const double nut_angle = state.joints[due->joint].nut.angle;
-    const double sign = due->kind == lesson::StepKind::loosen ? -1.0 : 1.0;
-    const auto grip = operators::choose_grip(setup, state.touch ? &*state.touch : nullptr, due->joint,
-                                             nut_angle, 0.5 * pi - 0.5 * sign, sign, to_radians(60.0));
-    const servo::NutPlace& nut = setup.nuts[due->joint];
-    scene::show_ghost(world, {servo::nut_centre(nut, nut_angle),
-                              operators::orientation_of(nut, grip.handle, grip.flipped)});
+    if (!p.ghost || p.ghost->first != lesson.current)
+        p.ghost = {lesson.current, wrench_on(p.hand, p.course->setup(), p.course->state(), due->joint,
+                                             due->kind == lesson::StepKind::loosen)};
+    scene::show_ghost(world, p.ghost->second);
 }
 
 // The joint that is worked at, or is due.

@@ -209,9 +209,9 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     desk.frame();
     REQUIRE(desk.app().shows() == Shows::lesson);
     Person person(desk);
-    if (test::sanitized) {  // ten times slower: the nuts are run down, and one is tightened
-        person.play(400.0, 5);
-        CHECK(desk.playing().course->lesson().current == 5);
+    if (test::sanitized) {  // ten times slower: a nut is run down
+        person.play(400.0, 1);
+        CHECK(desk.playing().course->lesson().current == 1);
         return;
     }
     person.play(400.0);
@@ -223,6 +223,7 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     MESSAGE("score " << result.score << " in " << result.duration << " s, " << person.presses
                      << " presses, looked " << person.looks << " times for a nut");
     for (const lesson::JointResult& joint : result.joints) CHECK(joint.order_errors == 0);
+    MESSAGE(desk.told().back());
     desk.frame();
     const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
     REQUIRE(reader);
@@ -276,12 +277,12 @@ TEST_CASE("a step is taken back: the nut is where it was, the step due again, an
     CHECK(course.lesson().current == 0);
     CHECK(course.state().joints[first].nut.angle == 0.0);
     // And it is done once more.
-    person.play(200.0, 1);
-    CHECK(course.lesson().current == 1);
+    if (!test::sanitized) person.play(200.0, 1);
+    CHECK(course.lesson().current == (test::sanitized ? 0 : 1));
     // To where this one began, which is where it is.
     desk.key(platform::Key::r);
     for (int i = 0; i < 40; ++i) desk.frame();
-    CHECK(course.lesson().current == 1);
+    CHECK(course.lesson().current == (test::sanitized ? 0 : 1));
     desk.key(platform::Key::escape);
     REQUIRE(desk.push("menu.end"));
     const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
