@@ -13,6 +13,9 @@ namespace {
 
 constexpr double still = 1e-7;  // m: less motion than this is none
 constexpr double fine = 50e-6;  // m: what is left after so short a motion can wait for the next tick
+// m: so short a motion can wait itself, once there was another; of the greatest force it is less than half a
+// per cent.
+constexpr double finest = 25e-6;
 // Of the energy of the coupling, which is twice the share of the force.
 constexpr double unfelt = 1e-3;
 constexpr double least_share = 0.2;  // of the skin: nearer than this is a penetration to be
@@ -67,7 +70,7 @@ class Stepper {
           recovery_left_(parameters.recovery * dt) {}
 
     GodObjectStep run() {
-        const double way = travel(twist_between(before_.device, device_), p_.radius);
+        const double way = travelled(twist_between(before_.device, device_));
         here_ = ask(pose_, std::min(way, before_.free));
         recovering_ = here_.nearest < 0.0;
         set_budgets();
@@ -93,6 +96,14 @@ class Stepper {
 
   private:
     enum class Advance { moved, held, nowhere, spent };
+
+    // How far a motion from here takes any point of the tool.
+    [[nodiscard]] double travelled(const Twist& motion) const {
+        return p_.box ? travel(motion, p_.radius, pose_.orientation, *p_.box) : travel(motion, p_.radius);
+    }
+    [[nodiscard]] bool is_less(const Twist& part, const Twist& motion) const {
+        return travel(part, p_.radius) < travel(motion, p_.radius) * (1.0 - 1e-12);
+    }
 
     // Wide bands are dear: one wider than a stride is asked only where it may be free, as far as the device
     // came in this tick. Then one query does.
@@ -267,9 +278,14 @@ class Stepper {
     [[nodiscard]] bool rocks(const Twist& motion) const {
         const double back = p_.coupling.stiffness * glm::dot(motion.linear, came_by_.linear) +
                             p_.coupling.torsion * glm::dot(motion.angular, came_by_.angular);
-        if (back >= 0.0 || recovering_) return false;
+        if (back >= 0.0) return false;
         const double energy = energy_at(pose_);
         return std::abs(energy_at(moved(pose_, motion)) - energy) < unfelt * energy;
+    }
+
+    // Whether so little is left that another query is not worth it.
+    [[nodiscard]] bool can_wait(const Twist& motion, double length) const {
+        return !recovering_ && ((has_moved_ && length < finest) || rocks(motion));
     }
 
     void arrive(const Pose& there, const Twist& by) {
@@ -287,14 +303,14 @@ class Stepper {
         double longest = std::max(p_.stride, certified);
         for (int attempt = 0; attempt < attempts; ++attempt) {
             const Twist motion = solve(wanted, rows);
-            const double length = travel(motion, p_.radius);
-            if (length < still || (attempt == 0 && rocks(motion))) return Advance::nowhere;
+            const double length = travelled(motion);
+            if (length < still || (attempt == 0 && can_wait(motion, length))) return Advance::nowhere;
             const double share = std::min(1.0, longest / length);
             const Twist part = quiet_part(motion, share, rows);
-            const double way = travel(part, p_.radius);
-            const bool held = way < share * length * (1.0 - 1e-12);
+            const double way = travelled(part);
+            const bool held = is_less(part, share * motion);
             const Pose there = moved(pose_, part);
-            const bool with_device = travel(twist_between(there, device_), p_.radius) < still;
+            const bool with_device = travelled(twist_between(there, device_)) < still;
             if (way <= certified) {
                 arrive(there, part);
                 here_.nearest -= way;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "engine/base/function_ref.hpp"
 #include "haptics/contact/contact.hpp"
@@ -36,12 +37,13 @@ struct Quiet {
 struct GodObjectParameters {
     force::Coupling coupling;
     Quiet quiet;
-    double radius = 0.3;     // m: no point of the tool is farther from its origin
-    double friction = 0.15;  // coefficient
-    double skin = 50e-6;     // m kept between tool and obstacles
-    double stride = 0.5e-3;  // m that a point may move between two queries where nothing certifies more
-    double reach = 5e-3;     // m, the widest band asked for
-    double recovery = 0.25;  // m/s, at which it is pushed out when an obstacle moves into it
+    double radius = 0.3;        // m: no point of the tool is farther from its origin
+    std::optional<Extent> box;  // in the tool's frame, and none is outside of it either
+    double friction = 0.15;     // coefficient
+    double skin = 50e-6;        // m kept between tool and obstacles
+    double stride = 0.5e-3;     // m that a point may move between two queries where nothing certifies more
+    double reach = 5e-3;        // m, the widest band asked for
+    double recovery = 0.25;     // m/s, at which it is pushed out when an obstacle moves into it
     // Of the finder, a tick, and what they may have cost (Found::work) for there to be another one once the
     // god-object has moved. When they are spent it stays behind, and goes on in the next tick.
     int queries = 5;

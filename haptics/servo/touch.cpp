@@ -178,6 +178,7 @@ Result<Touch> make_touch(const Setup& setup, const TouchDescription& d) {
 
     set_coupling(setup, touch);
     touch.parameters.radius = touch.wrench.reach();
+    touch.parameters.box = {touch.wrench.solid.box.low, touch.wrench.solid.box.high};
     touch.parameters.friction = d.friction;
     return touch;
 }
