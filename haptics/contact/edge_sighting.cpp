@@ -6,7 +6,7 @@
 namespace bolt::contact {
 namespace {
 
-constexpr double edge_lookahead = 5e-3;
+constexpr double edge_lookahead = 3e-3;
 // What has to be left (m, rad) of what is known of edges for it to be used again.
 constexpr double worth_asking = 0.1e-3, worth_asking_turn = 2e-3;
 // More than the rounding of positions and distances in float.
