@@ -108,8 +108,10 @@ class Stepper {
     // Wide bands are dear: one wider than a stride is asked only where it may be free, as far as the device
     // came in this tick. Then one query does.
     Look ask(const Pose& pose, double free = 0.0) {
-        const Look found = look(finder_, pose, std::clamp(free, p_.stride, p_.reach) + 2.0 * p_.skin);
-        ++step_.queries;
+        const double band = std::clamp(free, p_.stride, p_.reach);
+        const Look found = look(finder_, pose, band + 2.0 * p_.skin);
+        // Where the tick before ended is known to who remembers, and costs those who do not no motion.
+        if (++step_.queries > 1 || band > p_.stride) charged_ += found.work;
         step_.work += found.work;
         return found;
     }
@@ -117,7 +119,7 @@ class Stepper {
     // Before it has moved in this tick it may cost what it may: what is in the way is learnt by trying, and
     // forgotten by the next tick.
     [[nodiscard]] bool may_ask() const {
-        return step_.queries < p_.queries && (step_.work < p_.work || !has_moved_);
+        return step_.queries < p_.queries && (charged_ < p_.work || !has_moved_);
     }
 
     Twist solve(const Twist& wanted, const Rows& rows) {
@@ -345,6 +347,7 @@ class Stepper {
     bool recovering_ = false;
     Twist came_by_;  // the last motion of this tick
     bool has_moved_ = false;
+    std::uint32_t charged_ = 0;   // of the work in this tick
     double recovery_left_ = 0.0;  // m in this tick
     GodObjectStep step_;
 };

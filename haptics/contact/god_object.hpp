@@ -41,13 +41,14 @@ struct GodObjectParameters {
     std::optional<Extent> box;  // in the tool's frame, and none is outside of it either
     double friction = 0.15;     // coefficient
     double skin = 50e-6;        // m kept between tool and obstacles
-    double stride = 0.5e-3;     // m that a point may move between two queries where nothing certifies more
+    double stride = 0.4e-3;     // m that a point may move between two queries where nothing certifies more
     double reach = 5e-3;        // m, the widest band asked for
     double recovery = 0.25;     // m/s, at which it is pushed out when an obstacle moves into it
-    // Of the finder, a tick, and what they may have cost (Found::work) for there to be another one once the
-    // god-object has moved. When they are spent it stays behind, and goes on in the next tick.
+    // Of the finder, a tick, and what they may have cost (Found::work, without the first where the tick
+    // before ended) for there to be another one once the god-object has moved. When they are spent it stays
+    // behind, and goes on in the next tick.
     int queries = 5;
-    std::uint32_t work = 1500;
+    std::uint32_t work = 800;
 };
 
 struct GodObjectState {
