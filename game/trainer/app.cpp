@@ -34,7 +34,8 @@ std::vector<Listed> list_assemblies() {
     for (const std::string& name : names) {
         const content::Loaded loaded = content::load_assembly(name);
         if (!loaded.ok() || loaded.assembly.models.model.empty()) continue;
-        listed.push_back({name, loaded.assembly.variant, loaded.assembly.title, loaded.assembly.variants});
+        listed.push_back({name, loaded.assembly.variant, loaded.assembly.title, loaded.assembly.lesson,
+                          loaded.assembly.variants});
     }
     return listed;
 }
@@ -99,6 +100,7 @@ Status App::start(view::Painter& painter) {
     }
     for (const Listed& listed : listed_) {
         for (const auto& [code, title] : listed.title) on_->ui->need(title);
+        for (const auto& [code, text] : listed.lesson) on_->ui->need(text);
         for (const content::Variant& variant : listed.variants)
             for (const auto& [code, title] : variant.title) on_->ui->need(title);
     }

@@ -39,8 +39,8 @@ enum class Shows : std::uint8_t { menu, lesson, result };
 
 // A menu's entry.
 struct Listed {
-    std::string name, usual;                   // and its usual variant
-    std::map<std::string, std::string> title;  // by language
+    std::string name, usual;                           // and its usual variant
+    std::map<std::string, std::string> title, lesson;  // by language
     std::vector<content::Variant> variants;
 };
 

@@ -59,7 +59,7 @@ bool App::button(words::Key key) {
 void App::draw_menu(const glm::dvec2& size) {
     Choice& choice = options_.choice;
     const float scale = input_.scale;
-    begin_panel("##menu", size, 460.0F * scale);
+    begin_panel("##menu", size, 560.0F * scale);
     text("Boltwright");
     ImGui::Separator();
     for (const Listed& listed : listed_) {
@@ -78,6 +78,15 @@ void App::draw_menu(const glm::dvec2& size) {
             radio(in_language(variant.title, words_.language, variant.name).c_str(), choice.variant,
                   variant.name == listed->usual ? std::string() : variant.name);
         ImGui::NewLine();
+    }
+    if (listed != listed_.end()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, {0.75F, 0.8F, 0.85F, 1.0F});
+        ImGui::BeginChild("##lesson", {0.0F, 150.0F * scale});
+        ImGui::PushTextWrapPos(0.0F);
+        text(in_language(listed->lesson, words_.language, ""));
+        ImGui::PopTextWrapPos();
+        ImGui::EndChild();
+        ImGui::PopStyleColor();
     }
     for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment})
         radio(words_[hints::term(mode)].c_str(), choice.mode, mode);

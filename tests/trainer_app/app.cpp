@@ -60,7 +60,7 @@ class Desk {
     void frame(std::vector<platform::Event> events = {}) {
         auto frame = painter_.frames->begin();
         if (!frame) FAIL(frame.error().message());
-        need(app_->frame(**frame, events, size, 0.5F, step));  // small letters: all of a panel fits
+        need(app_->frame(**frame, events, size, 0.3F, step));  // small letters: all of a panel fits
         need(painter_.frames->submit(**frame));
     }
     void move(const glm::dvec2& to) { frame({platform::CursorEvent{to}}); }
