@@ -112,9 +112,10 @@ expect 0 '"guide": true' cat a/summary.json
 
 # Played again: to the same bits, as a picture, as a film; what has changed since is noticed.
 expect 0 'all as they were recorded' "$bin/boltwright" replay solid/session.boltwright
-expect 0 'now.png' "$bin/boltwright" replay solid/session.boltwright --at 8 --png now.png --size 160x90 --validate
+film=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright" replay)  # Vulkan drivers keep memory for good
+expect 0 'now.png' "${film[@]}" solid/session.boltwright --at 8 --png now.png --size 160x90 --validate
 check "the picture is there" test -s now.png
-expect 0 'film.mp4: 3 pictures' "$bin/boltwright" replay solid/session.boltwright --from 2 --until 2.25 --rate 10 --video film.mp4 --size 64x36
+expect 0 'film.mp4: 3 pictures' "${film[@]}" solid/session.boltwright --from 2 --until 2.25 --rate 10 --video film.mp4 --size 64x36
 check "the film is there" test -s film.mp4
 expect 2 'no view' "$bin/boltwright" replay solid/session.boltwright --at 8 --png now.png --view nowhere
 expect 1 'FFmpeg' env PATH=/nonexistent "$bin/boltwright" replay solid/session.boltwright --video no.mp4 --size 64x36
