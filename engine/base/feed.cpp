@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -11,31 +9,22 @@
 #include <cstring>
 #include <utility>
 
-extern char** environ;
+#include "engine/base/spawn.hpp"
 
 namespace bolt {
 
 Result<Feed> Feed::start(const std::vector<std::string>& command) {
-    std::vector<char*> arguments;
-    for (const std::string& word : command)
-        arguments.push_back(const_cast<char*>(word.c_str()));  // NOLINT: posix_spawn changes none of them
-    arguments.push_back(nullptr);
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
         return fail(ErrorCode::failed, fmt::format("no pipe for {}: {}", command[0], std::strerror(errno)));
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    pid_t child = 0;
-    const int problem = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-    ::posix_spawn_file_actions_destroy(&actions);
+    const Redirect input{ends[0], STDIN_FILENO};
+    const Result<int> child = spawn(command, {&input, 1});
     ::close(ends[0]);
-    if (problem != 0) {
+    if (!child) {
         ::close(ends[1]);
-        return fail(ErrorCode::failed,
-                    fmt::format("{} cannot be started: {}", command[0], std::strerror(problem)));
+        return fail(child.error());
     }
-    return Feed(ends[1], child, command[0]);
+    return Feed(ends[1], *child, command[0]);
 }
 
 Feed::Feed(Feed&& other) noexcept
@@ -66,11 +55,7 @@ Status Feed::write(std::span<const std::uint8_t> bytes) {
 int Feed::finish() {
     if (pipe_ >= 0) ::close(std::exchange(pipe_, -1));
     if (child_ < 0) return -1;
-    int status = 0;
-    while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
-    }
-    child_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return wait_for(std::exchange(child_, -1));
 }
 
 }  // namespace bolt
