@@ -103,8 +103,9 @@ void show_ghost(scene::World& world, Playing& p, hints::Ghost ghost) {
     scene::show_ghost(world, p.ghost->second);
 }
 
-// The joint that is worked at, or is due.
+// The joint that is worked at, or is due; which one is due an assessment does not tell.
 std::optional<std::size_t> at_work(const Playing& p) {
+    if (p.course->lesson().mode == lesson::Mode::assessment) return p.hand.nut;
     if (p.hand.nut && p.hand.doing != Doing::resting) return p.hand.nut;
     const lesson::Step* due = p.course->lesson().due();
     return due != nullptr ? std::optional(due->joint) : std::nullopt;

@@ -306,7 +306,11 @@ TEST_CASE("something is said in every language, and nothing in an assessment") {
         o.choice.mode = std::string(language) == "en" ? lesson::Mode::assessment : lesson::Mode::guided;
         Desk desk(std::move(o));
         for (int i = 0; i < 5; ++i) desk.frame();
-        CHECK(desk.playing().hints.shown.has_value() == (std::string(language) != "en"));
+        const bool helped = std::string(language) != "en";
+        CHECK(desk.playing().hints.shown.has_value() == helped);
+        const Vec3 before = desk.playing().camera.goal.target;
+        desk.key(platform::Key::v);
+        CHECK((desk.playing().camera.goal.target != before) == helped);
     }
 }
 
