@@ -148,7 +148,6 @@ Status leave(const content::Assembly& assembly, const play::CourseOptions& cours
     return {};
 }
 
-// The page and the summary of an earlier lesson would speak of another session.
 Status make_room(const std::filesystem::path& out) {
     std::error_code made;
     std::filesystem::create_directories(out, made);
@@ -158,8 +157,17 @@ Status make_room(const std::filesystem::path& out) {
         error.what = "this folder cannot be made: " + made.message();
         return fail(error);
     }
-    for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(out / stale, made);
     return {};
+}
+
+// The page and the summary of an earlier lesson would speak of another session.
+void remove_stale(const std::filesystem::path& out) {
+    std::error_code gone;
+    for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(out / stale, gone);
+}
+
+void end_orderly() {
+    for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, [](int) { interrupted = 1; });
 }
 
 int run_headless(const Options& options, const content::Assembly& assembly, const play::TrainOptions& play) {
@@ -171,7 +179,8 @@ int run_headless(const Options& options, const content::Assembly& assembly, cons
                         joint::name(play.course.law), options.mode, options.trainee, options.seed)
                 .c_str(),
             stderr);
-    for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, [](int) { interrupted = 1; });
+    remove_stale(out);
+    end_orderly();
     ProgressLine line(options.quiet);
     const Result<play::Played> played =
         play::train(assembly, play, out / "session.boltwright",
@@ -198,6 +207,7 @@ Status run_window(const Options& options, const play::TrainOptions& play, platfo
     app_options.course.operator_name = "person";
     if (!options.law.empty()) app_options.law = play.course.law;
     app_options.out = out;
+    app_options.begins = [out] { remove_stale(out); };
     app_options.ended = [&](const content::Assembly& assembly, const play::CourseOptions& course,
                             const play::Played& played) {
         return leave(assembly, course, played, out, false);
@@ -217,12 +227,14 @@ Status run_window(const Options& options, const play::TrainOptions& play, platfo
     const Result<gpu::Instance> instance = gpu::Instance::create(instance_options);
     if (!instance) return fail(instance.error());
     trainer::App app(std::move(app_options));
-    if (Status run = trainer::run_in_window(app, *window, *instance, {options.gpu}); !run) return run;
+    end_orderly();
+    const trainer::WindowChoice choice{options.gpu, [] { return interrupted != 0; }};
+    if (Status run = trainer::run_in_window(app, *window, *instance, choice); !run) return run;
     if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
     return {};
 }
 
-int run(Options options) {
+int run(const Options& options) {
     if (Status hardware = check_hardware(options); !hardware) return complain(hardware.error());
     const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
     if (!loaded.ok()) return complain(loaded.errors);

@@ -1,10 +1,7 @@
 #include "game/film/film.hpp"
 
-#include <cmath>
-
 #include "game/scene/labels.hpp"
 #include "game/scene/resting_place.hpp"
-#include "game/view/label_places.hpp"
 
 namespace bolt::film {
 
@@ -24,7 +21,6 @@ struct Film::OnGpu {
     std::optional<gpu::Instance> instance;
     view::Painter painter;
     std::unique_ptr<scene::GpuShelf> shelf;
-    std::optional<text::Fonts> fonts;
     ~OnGpu() {
         if (painter.device) (void)painter.device->idle();
     }
@@ -61,9 +57,6 @@ Result<std::unique_ptr<Film>> Film::create(const play::Prepared& at, const FilmO
     Result<std::unique_ptr<scene::GpuShelf>> up = scene::upload(*on.painter.device, *shelf);
     if (!up) return fail(up.error());
     on.shelf = std::move(*up);
-    Result<text::Fonts> fonts = text::load_fonts();
-    if (!fonts) return fail(fonts.error());
-    on.fonts.emplace(std::move(*fonts));
     Result<scene::Workplace> place = scene::make_workplace(*shelf, *on.shelf, at.assembly, at.setup);
     if (!place) return fail(place.error());
     film->place_ = std::move(*place);
@@ -79,27 +72,24 @@ Result<std::unique_ptr<Film>> Film::create(const play::Prepared& at, const FilmO
     return film;
 }
 
-// To another joint the camera goes when work there begins; and when it is hidden.
+// When another joint has its turn the camera goes there.
 void Film::follow(const play::Moment& moment) {
     const auto joint = at_work(moment);
-    if (!options_.view.empty() || !joint) return;
+    if (!options_.view.empty() || !joint || followed_ == joint) return;
     const scene::ViewOf of{
         moment.setup, moment.state.touch ? &*moment.state.touch : nullptr, *joint,
         servo::nut_centre(moment.setup.nuts[*joint], moment.state.joints[*joint].nut.angle), std::nullopt};
-    if (followed_ == joint) return;
     camera_.go(scene::find_view(of, sight_, camera_.goal));
     followed_ = joint;
 }
 
 Result<render::Picture> Film::draw(const play::Moment& moment, double seconds) {
     const bool wrench = moment.input.grip == servo::Grip::wrench;
-    const bool pinches = moment.input.grip == servo::Grip::fingers;
-    pinch_ += ((pinches ? 1.0 : 0.0) - pinch_) * (1.0 - std::exp(-seconds / 0.06));
     scene::Held held;
     held.tool = moment.output.tool;
     held.wrench = wrench;
     held.rest = rest_;
-    held.pinch = pinch_;
+    held.pinches = moment.input.grip == servo::Grip::fingers;
     const Vec3 shoulder = scene::shoulder_at(place_.machine);
     held.fingers = scene::towards(held.tool, shoulder, 0.0);
     held.grip = scene::natural_grip(postures_, held.tool, Vec3(0, 1, 0), shoulder);

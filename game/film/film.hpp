@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/render/picture.hpp"
-#include "engine/text/fonts.hpp"
+
 #include "game/play/replay.hpp"
 #include "game/scene/find_view.hpp"
 #include "game/scene/systems.hpp"
@@ -47,7 +47,6 @@ class Film {
     operators::Sight sight_;
     std::optional<std::size_t> followed_;
     Pose rest_;
-    double pinch_ = 0.0;
 };
 
 }  // namespace bolt::film

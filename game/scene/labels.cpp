@@ -48,7 +48,7 @@ std::optional<render::Label> work_label(const lesson::Lesson& lesson, const serv
                                                      joint::name(output.stage))
                                        : fmt::format("{:.1f} turns", output.nut_angle / (2.0 * pi)),
                                 above_nut(setup, state, joint), 22.0F);
-    if (wrench)
+    if (wrench && lesson.mode != lesson::Mode::assessment)
         label.color =
             torque_color(lesson.assembly->joints[joint].spec.torque, torque, fits ? due->fraction : 1.0);
     label.moved_px = {0.0F, 34.0F};

@@ -48,8 +48,9 @@ void place_tool(World& world, const Held& held) {
 
 void place_hand(World& world, const Postures& postures, const Held& held) {
     constexpr double change = 0.07;  // s in which most of it is done
-    const hand::Skeleton goal =
-        held.wrench ? postures.on_handle.at(held.grip) : between(postures.open, postures.on_nut, held.pinch);
+    const hand::Skeleton goal = held.wrench    ? postures.on_handle.at(held.grip)
+                                : held.pinches ? postures.on_nut
+                                               : postures.open;
     world.view<Fingers, Placement>().each([&](Fingers& fingers, Placement& placement) {
         placement.world = glm::mat4(matrix(held.wrench ? held.tool : held.fingers));
         const bool first = !fingers.deformation;

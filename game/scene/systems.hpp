@@ -12,7 +12,7 @@ struct Held {
     Pose tool;
     bool wrench = false;  // in the hand
     Pose rest;
-    double pinch = 0.0;    // 0 … 1 of fingers closed on a nut, without a wrench
+    bool pinches = false;  // fingers are closed on a nut, without a wrench
     Pose fingers;          // what they are shown in, without a wrench
     std::size_t grip = 0;  // of Postures::on_handle
     double seconds = 0.0;  // since the last frame: a hand changes its posture in no time, but not at once

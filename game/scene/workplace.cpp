@@ -120,7 +120,6 @@ void add_hand(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
         place.world.get<Drawn>(entity).moves = true;
         place.world.add<CanFade>(entity, true);
         place.world.add<Fingers>(entity, hand::Skeleton{}, shelf.hand.skins.front().inverse_bind, nullptr);
-        place.hand = entity;
     }
 }
 

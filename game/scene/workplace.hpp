@@ -9,7 +9,7 @@ namespace bolt::scene {
 
 struct Workplace {
     World world;
-    ecs::Entity hand;
+
     render::Box machine;  // m, of what is assembled
     glm::dmat4 workshop{1.0};
 };

@@ -107,7 +107,7 @@ Status App::start(view::Painter& painter) {
     Result<text::Fonts> fonts = text::load_fonts();
     if (!fonts) return fail(fonts.error());
     on_->fonts.emplace(std::move(*fonts));
-    return shelf_ ? place_on_gpu() : Status{};
+    return playing_ ? place_on_gpu() : Status{};
 }
 
 void App::drop() {
@@ -154,6 +154,7 @@ Status App::begin_lesson(float aspect) {
         if (Status idle = on_->painter->device->idle(); !idle) return idle;
         playing_.reset();
     }
+    if (options_.begins) options_.begins();
     shelf_ = std::move(*shelf);
     playing_.emplace();
     Playing& p = *playing_;
@@ -162,11 +163,14 @@ Status App::begin_lesson(float aspect) {
     const servo::Setup& setup = p.course->setup();
     const servo::State& state = p.course->state();
     p.hand = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness));
-    Result<sound::Live> live =
-        options_.sound
-            ? sound::Live::start(setup, sound::materials(p.course->assembly(), p.course->obstacle_names()))
-            : tl::unexpected(Error{});
-    if (live) p.sound = std::make_unique<sound::Live>(std::move(*live));
+    if (options_.sound) {
+        auto live =
+            sound::Live::start(setup, sound::materials(p.course->assembly(), p.course->obstacle_names()));
+        if (live)
+            p.sound = std::make_unique<sound::Live>(std::move(*live));
+        else
+            tell(live.error().message());
+    }
     p.postures =
         scene::make_postures(state.touch ? &state.touch->wrench : nullptr, setup.wrench.handle_length);
     p.shoulder = scene::shoulder_at(p.place.machine);
@@ -194,7 +198,6 @@ Status App::end_lesson() {
     if (!played) return fail(played.error());
     played_ = std::move(*played);
     playing_->finished = true;
-    any_finished_ = any_finished_ || played_->result.finished;
     shows_ = Shows::result;
     tell(fmt::format("lesson ended: {}, score {:.0f}", played_->result.finished ? "finished" : "broken off",
                      played_->result.score));
@@ -212,6 +215,9 @@ void App::tell_cost() {
             fmt::format(" {} {:.2f} {:.2f}", system, times[times.size() / 2], times[times.size() * 99 / 100]);
     }
     tell(line);
+    if (playing_->lagged > 1.0)
+        tell(fmt::format("pictures took so long that the lesson went {:.0f} s slower than the clock",
+                         playing_->lagged));
     cost_.clear();
 }
 
@@ -236,6 +242,8 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
             !begun) {
             if (begun.error().lost || !options_.menu) return begun;
             trouble_ = begun.error();
+            shows_ = Shows::menu;
+            playing_.reset();
             tell(begun.error().message());
         } else {
             trouble_.reset();

@@ -30,6 +30,7 @@ struct AppOptions {
     play::CourseOptions course;
     std::optional<joint::Law> law;  // instead of the assembly's own
     std::filesystem::path out;      // where sessions go
+    std::function<void()> begins;   // a lesson: what an earlier one left would speak of another
     // After a lesson, whole or broken off: what is left of it beside the session.
     std::function<Status(const content::Assembly&, const play::CourseOptions&, const play::Played&)> ended;
     std::function<void(const std::string&)> tell;  // a line of what happens, for a log
@@ -70,9 +71,9 @@ class App {
     [[nodiscard]] bool wants_full_screen() { return std::exchange(full_screen_, false); }
     [[nodiscard]] const Playing* playing() const { return playing_ ? &*playing_ : nullptr; }
     [[nodiscard]] std::span<const ButtonPlace> buttons() const { return buttons_; }
-    // What went wrong on a menu's start, and whether any lesson was finished.
+    // What went wrong when a lesson was to begin.
     [[nodiscard]] const std::optional<Error>& trouble() const { return trouble_; }
-    [[nodiscard]] bool any_finished() const { return any_finished_; }
+
     // Ends a lesson under way as it stands: its session and what is left of it are kept.
     Status end_lesson();
 
@@ -107,7 +108,7 @@ class App {
     ui::Input input_;
     std::vector<ButtonPlace> buttons_;
     std::unique_ptr<OnGpu> on_;
-    bool closed_ = false, full_screen_ = false, any_finished_ = false;
+    bool closed_ = false, full_screen_ = false;
     bool start_wished_ = false, end_wished_ = false;
 };
 

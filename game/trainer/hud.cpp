@@ -54,8 +54,9 @@ void draw_plot(const Playing& p, const words::Words& w, const glm::dvec2& size, 
                       low.y + area.y * (highest - torque) / (highest - lowest));
     };
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(place(begin, static_cast<float>(spec.torque.high)),
-                       place(begin + across, static_cast<float>(spec.torque.low)), window_color);
+    if (p.course->lesson().mode != lesson::Mode::assessment)
+        list.AddRectFilled(place(begin, static_cast<float>(spec.torque.high)),
+                           place(begin + across, static_cast<float>(spec.torque.low)), window_color);
     list.AddLine(place(begin, 0.0F), place(begin + across, 0.0F), grid);
     list.AddRect(low, {low.x + area.x, low.y + area.y}, frame_color);
     for (std::size_t i = 1; i < p.plot.size(); ++i)

@@ -2,7 +2,6 @@
 // (systems.hpp) work on this, and a window or a file only shows it.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
 
@@ -42,7 +41,7 @@ struct Playing {
 
     double owed = 0.0;     // s of ticks that are due
     servo::Output output;  // of the last tick
-    double pinch = 0.0;
+
     std::size_t grip = 0;         // how the handle is held (scene::Postures)
     Vec3 shoulder{0.0};           // m, of whoever works
     std::vector<PlotPoint> plot;  // of the joint in hand

@@ -172,6 +172,7 @@ void pointing_system(scene::World&, Frame& frame) {
         wish.turn = drag_of(p, screen, wanted.dragged);
         wish.spin = (wanted.pointer.x - p.press.x) / spin_reach;
     }
+    if (p.course->lesson().mode == lesson::Mode::assessment) p.undo.reset();
     if (p.undo && p.hand.nut) wish.retreat = true;
     if (p.finished || p.paused) wish = {};
     trainer::wish(p.hand, wish, p.course->setup(), p.course->state());
@@ -203,7 +204,6 @@ void haptic_system(scene::World& world, Frame& frame) {
     }
     p.finished = p.finished || course.over();
     const bool pinches = !p.hand.wrench && p.hand.nut && p.hand.doing == Doing::holding;
-    p.pinch += ((pinches ? 1.0 : 0.0) - p.pinch) * (1.0 - std::exp(-frame.seconds / 0.06));
     if (p.hand.doing == Doing::reaching)
         p.grip =
             scene::natural_grip(p.postures, p.hand.stations.empty() ? p.hand.to : p.hand.stations.front(),
@@ -211,7 +211,7 @@ void haptic_system(scene::World& world, Frame& frame) {
     const bool returning = p.hand.doing == Doing::returning || p.hand.doing == Doing::holding;
     const double twisted = returning ? -twist_shown * (p.hand.handle - p.hand.begun_at) : 0.0;
     const scene::Held held{
-        p.hand.wrench ? p.output.tool : p.hand.pose,      p.hand.wrench, p.hand.rest,  p.pinch,
+        p.hand.wrench ? p.output.tool : p.hand.pose,      p.hand.wrench, p.hand.rest,  pinches,
         scene::towards(p.hand.pose, p.shoulder, twisted), p.grip,        frame.seconds};
     scene::place_nuts(world, setup, course.state().joints);
     scene::place_tool(world, held);
@@ -264,7 +264,9 @@ void label_system(scene::World&, Frame& frame) {
     const servo::State& state = course.state();
     const lesson::Step* due = course.lesson().due();
     p.scene.labels.clear();
-    if (frame.wanted.wants(Action::flange_map)) p.clamp_map = !p.clamp_map;
+    // What a trainee at a real machine would not see is no part of an assessment.
+    const bool helps = course.lesson().mode != lesson::Mode::assessment;
+    if (frame.wanted.wants(Action::flange_map)) p.clamp_map = !p.clamp_map && helps;
     if (!p.finished)
         if (auto figure = scene::work_label(course.lesson(), setup, state, p.output, p.hand.wrench))
             p.scene.labels.push_back(*figure);

@@ -69,11 +69,10 @@ Status draw(App& app, Canvas& canvas, platform::Window& window, std::span<const 
     return {};
 }
 
-Status until_closed(App& app, Canvas& canvas, platform::Window& window, const WindowChoice& choice,
-                    std::uint64_t& drawn) {
+Status until_closed(App& app, Canvas& canvas, platform::Window& window, const WindowChoice& choice) {
     platform::Pace pace{platform::Clock::now(), platform::period_of(window.refresh()), 0};
     double last = seconds();
-    while (!app.closed() && (choice.frames == 0 || drawn < choice.frames)) {
+    while (!app.closed() && !(choice.stop && choice.stop())) {
         const bool nothing_to_see = canvas.swapchain->plan().extent.width == 0;
         const std::vector<platform::Event> events =
             nothing_to_see ? window.wait_for_events(0.1) : window.events();
@@ -82,7 +81,6 @@ Status until_closed(App& app, Canvas& canvas, platform::Window& window, const Wi
         const double now = seconds(), passed = std::min(now - last, longest_frame);
         last = now;
         if (Status done = draw(app, canvas, window, events, passed); !done) return done;
-        ++drawn;
         if (app.wants_full_screen()) window.set_full_screen(!window.full_screen());
         (void)platform::wait_for_due(pace);
     }
@@ -94,7 +92,6 @@ Status until_closed(App& app, Canvas& canvas, platform::Window& window, const Wi
 Status run_in_window(App& app, platform::Window& window, const gpu::Instance& instance,
                      const WindowChoice& choice) {
     gpu::Restarts restarts;
-    std::uint64_t drawn = 0;
     for (;;) {
         Status done;
         {
@@ -103,7 +100,7 @@ Status run_in_window(App& app, platform::Window& window, const gpu::Instance& in
                 done = fail(canvas.error());
             } else {
                 done = app.start(canvas->painter);
-                if (done) done = until_closed(app, *canvas, window, choice, drawn);
+                if (done) done = until_closed(app, *canvas, window, choice);
                 app.drop();
                 (void)canvas->painter.renderer->save_pipelines();  // without them the next start is slower
             }

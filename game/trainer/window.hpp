@@ -7,8 +7,8 @@
 namespace bolt::trainer {
 
 struct WindowChoice {
-    std::string gpu;           // part of the name of the GPU to use; empty: the best
-    std::uint64_t frames = 0;  // after so many it is closed; 0: by whoever uses it
+    std::string gpu;             // part of the name of the GPU to use; empty: the best
+    std::function<bool()> stop;  // asked every frame: somebody wants the program to end
 };
 
 // Until it is closed; a lesson under way is then ended as it stands. A GPU that is lost is started again,

@@ -41,6 +41,8 @@ Outcome play_through(const char* name, play::CourseOptions options, double longe
     const auto played = course.finish();
     REQUIRE(played);
     out.result = played->result;
+    begun->reset();
+    std::filesystem::remove(file);
     out.time = course.time();
     out.presses = player.presses;
     return out;

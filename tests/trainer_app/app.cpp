@@ -40,11 +40,23 @@ class Desk {
         auto instance = gpu::Instance::create(validated);
         if (!instance) FAIL(instance.error().message());
         instance_.emplace(std::move(*instance));
+        app_ = std::make_unique<App>(std::move(options));
+        make_gpu();
+    }
+    void make_gpu() {
         auto painter = view::make_painter(*instance_, {}, {});
         if (!painter) FAIL(painter.error().message());
         painter_ = std::move(*painter);
-        app_ = std::make_unique<App>(std::move(options));
         need(app_->start(painter_));
+    }
+    // As the window does when a GPU is lost.
+    void another_gpu() {
+        app_->drop();
+        (void)painter_.device->idle();
+        painter_.renderer.reset();
+        painter_.frames.reset();
+        painter_.device.reset();
+        make_gpu();
     }
     ~Desk() {
         app_->drop();
@@ -230,6 +242,13 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     CHECK(reader->complete());
     CHECK(reader->header().operator_name == "person");
     // And again, or back to the menu.
+    REQUIRE(desk.push("menu.again"));
+    CHECK(desk.app().shows() == Shows::lesson);
+    CHECK(desk.playing().course->time() < 1.0);
+    desk.frame();
+    desk.key(platform::Key::escape);
+    REQUIRE(desk.push("menu.end"));
+    desk.frame();
     REQUIRE(desk.push("menu.menu"));
     CHECK(desk.app().shows() == Shows::menu);
     desk.frame();
@@ -247,6 +266,8 @@ TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
     desk.key(platform::Key::escape);
     const double paused = desk.playing().course->time();
     for (int i = 0; i < 5; ++i) desk.frame();
+    CHECK(desk.playing().course->time() == paused);
+    desk.another_gpu();
     CHECK(desk.playing().course->time() == paused);
     REQUIRE(desk.push("menu.go_on"));
     desk.frame();
