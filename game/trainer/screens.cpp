@@ -140,10 +140,17 @@ void App::draw_result(const glm::dvec2& size) {
     const float scale = input_.scale;
     ImGui::SetNextWindowPos({static_cast<float>(size.x) - 12.0F * scale, 12.0F * scale}, ImGuiCond_Always,
                             {1.0F, 0.0F});
+    ImGui::SetNextWindowSizeConstraints({380.0F * scale, 0.0F},
+                                        {380.0F * scale, static_cast<float>(size.y) - 24.0F * scale});
     ImGui::SetNextWindowBgAlpha(0.9F);
     ImGui::Begin("##result", nullptr, panel);
     text(words::say(words_, "result.score", {{"points", words::Number{result.score, 0}}}) +
          fmt::format("   {:.0f} s", result.duration));
+    ImGui::Separator();
+    // Above what may be long: they are always there to be pressed.
+    if (button("menu.again")) start_wished_ = true;
+    if (options_.menu && button("menu.menu")) shows_ = Shows::menu;
+    if (button("menu.quit")) closed_ = true;
     ImGui::Separator();
     if (ImGui::BeginTable("joints", 5, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
         for (const char* head : {"", "N·m", "°", "kN", ""}) ImGui::TableSetupColumn(head);
@@ -162,14 +169,11 @@ void App::draw_result(const glm::dvec2& size) {
     const hints::Review review = hints::review(assembly_, result);
     ImGui::PushTextWrapPos(340.0F * scale);
     for (const hints::Remark& reason : review.reasons)
-        text(fmt::format("{:+.0f}  {}", reason.points, hints::say(words_, reason)));
+        text((reason.points != 0.0 ? fmt::format("{:+.0f}  ", reason.points) : std::string()) +
+             hints::say(words_, reason));
     ImGui::Separator();
     for (const words::Key advice : review.advice) text(words_[advice]);
     ImGui::PopTextWrapPos();
-    ImGui::Separator();
-    if (button("menu.again")) start_wished_ = true;
-    if (options_.menu && button("menu.menu")) shows_ = Shows::menu;
-    if (button("menu.quit")) closed_ = true;
     ImGui::End();
 }
 
