@@ -41,10 +41,10 @@ Outcome play_through(const char* name, play::CourseOptions options, double longe
     const auto played = course.finish();
     REQUIRE(played);
     out.result = played->result;
-    begun->reset();
-    std::filesystem::remove(file);
     out.time = course.time();
     out.presses = player.presses;
+    begun->reset();  // the session is closed, and can go
+    std::filesystem::remove(file);
     return out;
 }
 
