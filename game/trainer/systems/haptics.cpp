@@ -1,0 +1,73 @@
+#include "game/trainer/systems.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double twist_shown = 0.3;    // of the fingers' twist, at the wrist
+constexpr double longest_step = 0.25;  // s of lesson that one frame catches up with
+constexpr std::size_t most_plotted = 4000;
+
+void plot(Playing& p, const servo::Output& output) {
+    if (output.joint < 0 || !p.hand.wrench) return;
+    if (output.joint != p.plotted) p.plot.clear();
+    p.plotted = output.joint;
+    const PlotPoint now{static_cast<float>(to_degrees(output.nut_angle)),
+                        static_cast<float>(output.wrench_torque)};
+    const bool same = !p.plot.empty() && std::abs(p.plot.back().angle - now.angle) < 0.02F &&
+                      std::abs(p.plot.back().torque - now.torque) < 0.2F;
+    if (!same && p.plot.size() < most_plotted) p.plot.push_back(now);
+}
+
+void say(Playing& p, std::span<const lesson::Event> events) {
+    for (const lesson::Event& event : events) {
+        hints::note(p.mistakes, p.course->lesson(), event);
+        p.said.push_back(event);
+    }
+}
+
+}  // namespace
+
+void haptic_system(scene::World& world, Frame& frame) {
+    Playing& p = frame.playing;
+    play::Course& course = *p.course;
+    if (!p.paused && !p.finished) p.owed += frame.seconds;
+    p.lagged += std::max(0.0, p.owed - longest_step);
+    p.owed = std::min(p.owed, longest_step);
+    const servo::Setup& setup = course.setup();
+    for (; p.owed >= setup.dt && !course.over() && frame.status; p.owed -= setup.dt) {
+        servo::Input input = move(p.hand, setup, course.state());
+        if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)
+            input.guide = static_cast<std::int16_t>(due->joint);
+        if (p.undo && p.hand.doing == Doing::resting && !p.hand.nut) course.go_back(*p.undo);
+        const Result<servo::Output> output = course.step(input);
+        if (!output) {
+            frame.status = fail(output.error());
+            break;
+        }
+        p.output = *output;
+        plot(p, *output);
+        say(p, course.events());
+        if (p.sound) p.sound->tick(*output, sound::cues_of(course.events()));
+        if (output->undone > 0) p.undo.reset();
+    }
+    p.finished = p.finished || course.over();
+    const bool pinches = !p.hand.wrench && p.hand.nut && p.hand.doing == Doing::holding;
+    if (p.hand.doing == Doing::reaching)
+        p.grip =
+            scene::natural_grip(p.postures, p.hand.stations.empty() ? p.hand.to : p.hand.stations.front(),
+                                Vec3(0, 1, 0), p.shoulder);
+    const bool returning = p.hand.doing == Doing::returning || p.hand.doing == Doing::holding;
+    const double twisted = returning ? -twist_shown * (p.hand.handle - p.hand.begun_at) : 0.0;
+    const scene::Held held{
+        p.hand.wrench ? p.output.tool : p.hand.pose,      p.hand.wrench, p.hand.rest,  pinches,
+        scene::towards(p.hand.pose, p.shoulder, twisted), p.grip,        frame.seconds};
+    scene::place_nuts(world, setup, course.state().joints);
+    scene::place_tool(world, held);
+    scene::place_hand(world, p.postures, held);
+}
+
+}  // namespace bolt::trainer

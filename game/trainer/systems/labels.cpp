@@ -1,0 +1,43 @@
+#include "game/trainer/systems.hpp"
+
+#include "game/scene/labels.hpp"
+#include "game/view/label_places.hpp"
+
+namespace bolt::trainer {
+
+void label_system(scene::World&, Frame& frame) {
+    Playing& p = frame.playing;
+    const play::Course& course = *p.course;
+    const servo::Setup& setup = course.setup();
+    const servo::State& state = course.state();
+    const lesson::Step* due = course.lesson().due();
+    p.scene.labels.clear();
+    // What a trainee at a real machine would not see is no part of an assessment.
+    const bool helps = course.lesson().mode != lesson::Mode::assessment;
+    if (frame.wanted.wants(Action::flange_map)) p.clamp_map = !p.clamp_map && helps;
+    if (!p.finished)
+        if (auto figure = scene::work_label(course.lesson(), setup, state, p.output, p.hand.wrench))
+            p.scene.labels.push_back(*figure);
+    const auto named = [&](std::size_t joint, const glm::vec4& color) {
+        render::Label label = scene::plate(course.assembly().joints[joint].design.id,
+                                           scene::above_nut(setup, state, joint), 16.0F);
+        label.color = color;
+        label.moved_px = {0.0F, 8.0F};
+        p.scene.labels.push_back(label);
+    };
+    const bool guided = course.lesson().mode == lesson::Mode::guided;
+    const std::size_t marked = due != nullptr && guided ? due->joint : SIZE_MAX;
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
+        if (p.clamp_map || p.finished)
+            p.scene.labels.push_back(scene::clamp_label(course.assembly(), setup, state, i));
+        else if (i == marked || p.under == i)
+            named(i, i == marked ? scene::due_color : scene::label_color);
+    }
+    const Screen screen = screen_of(p, frame.size);
+    if (frame.fonts != nullptr)
+        view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size));
+}
+
+void present_system(scene::World& world, Frame& frame) { scene::present(world, frame.playing.scene); }
+
+}  // namespace bolt::trainer

@@ -1,0 +1,67 @@
+#include "game/trainer/systems.hpp"
+
+#include "game/scene/labels.hpp"
+#include "game/view/result_pictures.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double undo_patience = 6.0;  // s
+constexpr glm::vec4 under_color{0.9F, 0.95F, 1.0F, 0.8F}, nothing{0.0F};
+
+// What hints are made of.
+hints::Scene hint_scene(const Playing& p) {
+    const play::Course& course = *p.course;
+    hints::Scene scene{course.lesson(), course.setup(), course.state().joints, p.output,
+                       course.state().rounded};
+    scene.wrench_in_hand = p.hand.wrench;
+    if (p.hand.wrench && p.hand.doing == Doing::holding)
+        scene.room = p.hand.room - std::abs(p.hand.handle - p.hand.begun_at);
+    return scene;
+}
+
+// The wrench on the due nut, or the hand there, as an image of what is to be done.
+void show_ghost(scene::World& world, Playing& p, hints::Ghost ghost) {
+    const lesson::Lesson& lesson = p.course->lesson();
+    const lesson::Step* due = lesson.due();
+    if (due == nullptr || ghost != hints::Ghost::hand_and_wrench) {
+        p.ghost.reset();
+        scene::hide_ghost(world);
+        return;
+    }
+    if (!p.ghost || p.ghost->first != lesson.current)
+        p.ghost = {lesson.current, wrench_on(p.hand, p.course->setup(), p.course->state(), due->joint,
+                                             due->kind == lesson::StepKind::loosen)};
+    scene::show_ghost(world, p.ghost->second);
+}
+
+}  // namespace
+
+void lesson_system(scene::World& world, Frame& frame) {
+    Playing& p = frame.playing;
+    const lesson::Lesson& lesson = p.course->lesson();
+    // A wish that cannot be granted is forgotten: nothing leaps when nobody expects it any more.
+    p.undo_for = p.undo ? p.undo_for + frame.seconds : 0.0;
+    if (p.undo_for > undo_patience) p.undo.reset();
+    if (frame.wanted.wants(Action::quiet)) p.quiet = !p.quiet;
+    if (p.sound) p.sound->set_volume(p.quiet || p.paused ? 0.0 : 1.0);
+    if (!p.paused) {
+        hints::update(p.hints, hint_scene(p), frame.seconds, frame.wanted.wants(Action::hint));
+        hints::update(p.mistakes, frame.seconds);
+    }
+    const hints::Hint* hint = p.hints.shown && !p.finished ? &*p.hints.shown : nullptr;
+    const int outlined = hint != nullptr ? hint->outlined() : -1;
+    for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
+        glm::vec4 color = nothing;
+        if (outlined == static_cast<int>(i)) color = scene::due_color;
+        if (p.under == i && !p.finished) color = under_color;
+        if (p.finished) color = view::verdict_color(lesson.joints[i].result);
+        scene::outline_joint(world, i, color);
+    }
+    const bool wants_wrench = hint != nullptr && hint->arrow() == hints::Motion::take;
+    scene::outline_tool(world, p.over_wrench ? under_color : wants_wrench ? scene::due_color : nothing);
+    show_ghost(world, p, hint != nullptr ? hint->ghost() : hints::Ghost::none);
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,69 @@
+#include "game/trainer/systems.hpp"
+
+#include "game/scene/find_view.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double lost_below = 0.15, lost_after = 3.0;  // of nut and jaw; s
+
+// The joint that is worked at, or is due; which one is due an assessment does not tell.
+std::optional<std::size_t> at_work(const Playing& p) {
+    if (p.course->lesson().mode == lesson::Mode::assessment) return p.hand.nut;
+    if (p.hand.nut && p.hand.doing != Doing::resting) return p.hand.nut;
+    const lesson::Step* due = p.course->lesson().due();
+    return due != nullptr ? std::optional(due->joint) : std::nullopt;
+}
+
+scene::ViewOf view_of(const Playing& p, std::size_t joint) {
+    const servo::Setup& setup = p.course->setup();
+    const servo::State& state = p.course->state();
+    scene::ViewOf of{setup, state.touch ? &*state.touch : nullptr, joint,
+                     servo::nut_centre(setup.nuts[joint], state.joints[joint].nut.angle), std::nullopt};
+    if (p.hand.wrench && p.hand.nut == joint) of.wrench = p.output.tool;
+    return of;
+}
+
+void look_at_work(Playing& p) {
+    const auto joint = at_work(p);
+    if (!joint) return;
+    p.camera.go(scene::find_view(view_of(p, *joint), p.sight, p.camera.goal));
+    p.unseen = 0.0;
+}
+
+// What is due has been out of the picture or hidden for a while. Not in an assessment: nobody helps there.
+bool lost(Playing& p, const Frame& frame) {
+    const auto joint = at_work(p);
+    if (!joint || p.course->lesson().mode == lesson::Mode::assessment || p.finished || p.paused) return false;
+    const scene::ViewOf of = view_of(p, *joint);
+    const Screen screen = screen_of(p, frame.size);
+    const auto at = project(screen, of.nut);
+    const glm::dvec2 edge = 0.04 * frame.size;
+    const bool inside = at && at->x > edge.x && at->y > edge.y && at->x < frame.size.x - edge.x &&
+                        at->y < frame.size.y - edge.y;
+    const bool seen = inside && scene::seen_from(of, p.sight, Vec3(screen.eye.position)) > lost_below;
+    p.unseen = seen ? 0.0 : p.unseen + frame.seconds;
+    return p.unseen > lost_after;
+}
+
+}  // namespace
+
+Screen screen_of(const Playing& p, const glm::dvec2& size) {
+    return {view::eye_of(p.camera.shown, render::bounds(p.scene), static_cast<float>(size.x / size.y)), size};
+}
+
+void view_system(scene::World& world, Frame& frame) {
+    Playing& p = frame.playing;
+    if (frame.wanted.wants(Action::whole_view))
+        p.camera.go(
+            view::framing(p.camera.goal, p.place.machine, static_cast<float>(frame.size.x / frame.size.y)));
+    if (frame.wanted.wants(Action::find_view) || lost(p, frame)) look_at_work(p);
+    (void)p.camera.advance(frame.seconds);
+    const bool helps = p.course->lesson().mode != lesson::Mode::assessment;
+    p.scene.cut_away.strength = 0.0F;
+    if (p.hand.nut && p.hand.doing != Doing::resting && helps)
+        scene::keep_in_sight(world, p.scene, p.course->setup(), p.course->state(), *p.hand.nut);
+}
+
+}  // namespace bolt::trainer
