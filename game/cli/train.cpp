@@ -14,9 +14,12 @@
 #include "game/play/summary.hpp"
 #include "game/play/train.hpp"
 #include "game/report/report.hpp"
+#include "game/station/choice.hpp"
 #include "game/trainer/window.hpp"
 #include "game/view/result_pictures.hpp"
 #include "game/view/size.hpp"
+#include "haptics/glove/adapter.hpp"
+#include "haptics/glove/serial_line.hpp"
 
 namespace bolt::cli {
 
@@ -28,8 +31,8 @@ struct Options {
     std::string mode = "guided";
     std::string task = "tighten";
     std::string law;
-    std::string device = "auto";
-    std::string glove = "auto";
+    std::vector<std::string> devices;
+    std::string glove = "none", rig;
     bool hmd = false;
     bool headless = false;
     bool start = false, full_screen = false, validate = false, silent = false;
@@ -86,18 +89,36 @@ class ProgressLine {
     std::string pass_, doing_;
 };
 
-// What a lesson cannot take yet, asked for by name, is an error and not a silent fallback.
-Status check_hardware(const Options& options) {
+bool is_word(const std::string& device) {
+    return device == "auto" || device == "mouse" || device == "simulated";
+}
+
+// What was asked for and is not there is an error and not a silent fallback.
+Result<trainer::Equipment> equipment_of(const Options& options) {
     if (options.hmd) return fail(ErrorCode::no_device, "this build has no headset output", "leave out --hmd");
-    if (options.device != "auto" && options.device != "simulated")
-        return fail(ErrorCode::no_device,
-                    fmt::format("a lesson takes no device such as \"{}\" yet", options.device),
-                    "--device auto or --device simulated; boltwright devices tries devices");
-    if (options.glove != "auto" && options.glove != "none")
-        return fail(ErrorCode::no_device,
-                    fmt::format("a lesson takes no glove such as the one at \"{}\" yet", options.glove),
-                    "--glove auto or --glove none; boltwright devices and boltwright glove try gloves");
-    return {};
+    trainer::Equipment with;
+    const std::string first = options.devices.empty() ? "auto" : options.devices.front();
+    if (options.devices.size() > 1 && std::any_of(options.devices.begin(), options.devices.end(), is_word))
+        return fail(ErrorCode::usage, "--device auto, mouse and simulated stand alone", "ids of devices");
+    if (first == "auto")
+        with = options.headless ? trainer::Equipment{} : trainer::usual_equipment();
+    else if (first == "simulated")
+        with.keyboard = true;
+    else if (first != "mouse")
+        with.devices = options.devices;
+    with.rig = options.rig;
+    if (options.glove == "auto") {
+        const auto ports = glove::serial_ports();
+        if (!ports.empty()) with.glove = ports.front();
+    } else if (options.glove != "none") {
+        with.glove = options.glove;
+    }
+    // Before a window opens: what is not there will not be there then.
+    const auto chosen = station::choose(device::list(true), with.devices);
+    if (!chosen) return fail(chosen.error());
+    if (!with.glove.empty())
+        if (Status may = glove::may_use(with.glove); !may) return fail(may.error());
+    return with;
 }
 
 Result<play::TrainOptions> play_options(const Options& options, const content::Assembly& assembly) {
@@ -194,13 +215,15 @@ int run_headless(const Options& options, const content::Assembly& assembly, cons
     return interrupted != 0 || !played->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
 }
 
-// With mouse and keyboard, in a window.
-Status run_window(const Options& options, const play::TrainOptions& play, platform::Desktop& desktop) {
+// In a window, with whatever the hand has.
+Status run_window(const Options& options, const play::TrainOptions& play, const trainer::Equipment& with,
+                  platform::Desktop& desktop) {
     const std::filesystem::path out(options.out);
     if (Status room = make_room(out); !room) return room;
     trainer::AppOptions app_options;
     app_options.choice = {options.assembly, options.variant, play.course.mode,
                           play.course.task, options.name,    options.language};
+    app_options.choice.with = with;
     app_options.sound = !options.silent;
     app_options.menu = !options.start;
     app_options.course = play.course;
@@ -235,7 +258,16 @@ Status run_window(const Options& options, const play::TrainOptions& play, platfo
 }
 
 int run(const Options& options) {
-    if (Status hardware = check_hardware(options); !hardware) return complain(hardware.error());
+    const Result<trainer::Equipment> with = equipment_of(options);
+    if (!with) return complain(with.error());
+    if (options.headless && (!with->glove.empty() || !with->devices.empty())) {
+        Error error;
+        error.code = ErrorCode::usage;
+        error.what = "a simulated trainee has no use for devices";
+        error.expected = "--headless without --device ID and --glove PORT";
+        return complain(error);
+    }
+
     const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
     if (!loaded.ok()) return complain(loaded.errors);
     Result<play::TrainOptions> play = play_options(options, loaded.assembly);
@@ -247,7 +279,7 @@ int run(const Options& options) {
             (void)std::fputs((desktop.error().what + ": a simulated trainee plays.\n").c_str(), stderr);
         return run_headless(options, loaded.assembly, *play);
     }
-    const Status done = run_window(options, *play, *desktop);
+    const Status done = run_window(options, *play, *with, *desktop);
     return done ? 0 : complain(done.error());
 }
 
@@ -287,8 +319,15 @@ void add_train(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     train->add_option("--law", options->law, "Torque law; the assembly's own if not given")
         ->check(CLI::IsMember({"published", "mechanistic"}));
-    train->add_option("--device", options->device, "Haptic device")->capture_default_str();
-    train->add_option("--glove", options->glove, "Data glove")->capture_default_str();
+    train->add_option("--device", options->devices,
+                      "auto (what is plugged in, else the mouse), mouse, simulated (keys move the tool of a "
+                      "station without a device), or the id of one that boltwright devices shows; one that "
+                      "moves the tool and a wheel can be asked for together");
+    train->add_option("--rig", options->rig, "What is known of the wheel: its rig file");
+    train
+        ->add_option("--glove", options->glove,
+                     "The port of a CyberGlove that --trainee has calibrated, auto, or none")
+        ->capture_default_str();
     train->add_flag("--hmd", options->hmd, "Show in a headset");
     train->add_flag("--headless", options->headless, "No window: a simulated trainee in virtual time");
     train->add_flag("--start", options->start, "Begin the lesson at once, without the menu");

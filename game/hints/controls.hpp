@@ -9,7 +9,10 @@ namespace bolt::hints {
 // With a mouse: press on a nut and hold, drag, let go. `tool_key` takes the wrench and lays it down.
 Controls mouse_controls(const words::Words& words, const std::string& tool_key);
 
-// With a device in the hand: `button` closes the hand.
-Controls device_controls(const words::Words& words, const std::string& button);
+// With a device in the hand: `button` closes the hand, `tool_key` lays the wrench down.
+Controls device_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+
+// With a hand in a glove.
+Controls glove_controls(const words::Words& words);
 
 }  // namespace bolt::hints

@@ -1,6 +1,7 @@
 #include "game/play/course.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "game/play/servo_setup.hpp"
@@ -17,7 +18,7 @@ record::Header header_of(const Prepared& at, const CourseOptions& options) {
     header.obstacles = at.obstacles;
     header.obstacle_names = at.obstacle_names;
     header.device = record::text_of(options.device);
-    header.servo = "virtual time";
+    header.servo = options.servo;
     header.assembly = assembly.name;
     header.assembly_file = assembly.file;
     header.assembly_text = assembly.text;
@@ -49,9 +50,14 @@ Result<std::optional<TouchModels>> obstacles_of(const content::Assembly& assembl
 
 }  // namespace
 
-void follow(lesson::Lesson& lesson, const servo::State& state, const servo::Output& output) {
+void follow(Following& following, const servo::State& state, const servo::Output& output) {
+    lesson::Lesson& lesson = following.lesson;
     lesson::observe(lesson, state, output);
-    if (output.undone > 0) (void)lesson::back(lesson, state, output.undone - 1U);
+    for (const lesson::Event& event : lesson.events) following.begun += event.kind == "step_begin" ? 1U : 0U;
+    if (output.undone == 0) return;
+    const std::uint32_t unmarked = following.begun - (state.marked + output.undone - 1U);
+    (void)lesson::back(lesson, state, output.undone - 1U + unmarked);
+    following.begun = state.marked;  // what it has gone back to has its mark
 }
 
 Course::~Course() = default;
@@ -72,21 +78,32 @@ Result<Prepared> prepare(const content::Assembly& given, const CourseOptions& op
     return at;
 }
 
+void use_device(const CourseOptions& options, Prepared& at) {
+    at.setup = make_setup(at.assembly, options.law, options.device, options.seed, options.dt);
+    if (at.state.touch) servo::set_coupling(at.setup, *at.state.touch);
+}
+
 Result<std::unique_ptr<Course>> Course::begin(const content::Assembly& given, const CourseOptions& options,
+                                              const std::filesystem::path& file) {
+    Result<Prepared> prepared = prepare(given, options);
+    if (!prepared) return fail(prepared.error());
+    return begin(std::move(*prepared), options, file);
+}
+
+Result<std::unique_ptr<Course>> Course::begin(Prepared prepared, const CourseOptions& options,
                                               const std::filesystem::path& file) {
     std::unique_ptr<Course> course(new Course);
     Course& c = *course;
-    Result<Prepared> prepared = prepare(given, options);
-    if (!prepared) return fail(prepared.error());
-    c.at_ = std::move(*prepared);
+    c.at_ = std::move(prepared);
     Result<record::Writer> created = record::Writer::create(file, header_of(c.at_, options));
     if (!created) return fail(created.error());
     c.writer_.emplace(std::move(*created));
 
-    c.lesson_ = lesson::begin(c.at_.assembly, options.mode, options.task);
-    c.lesson_.guides = c.lesson_.guides && options.guide;
-    for (std::size_t i = 0; i < c.lesson_.joints.size(); ++i)
-        if (Status kept = c.writer_->update(lesson::judge_joint(c.lesson_, i, c.at_.state)); !kept)
+    lesson::Lesson& lesson = c.following_.lesson;
+    lesson = lesson::begin(c.at_.assembly, options.mode, options.task);
+    lesson.guides = lesson.guides && options.guide;
+    for (std::size_t i = 0; i < lesson.joints.size(); ++i)
+        if (Status kept = c.writer_->update(lesson::judge_joint(lesson, i, c.at_.state)); !kept)
             return fail(kept.error());
     return course;
 }
@@ -96,7 +113,8 @@ Status Course::keep_events() {
         if (Status added = writer_->add(event); !added) return added;
         if (event.kind != "step_end" && event.kind != "release") continue;
         const auto joint = static_cast<std::size_t>(event.joint);
-        if (Status kept = writer_->update(lesson::judge_joint(lesson_, joint, at_.state)); !kept) return kept;
+        if (Status kept = writer_->update(lesson::judge_joint(lesson(), joint, at_.state)); !kept)
+            return kept;
     }
     return {};
 }
@@ -104,19 +122,34 @@ Status Course::keep_events() {
 Result<servo::Output> Course::step(const servo::Input& given, std::vector<lesson::Event> noticed) {
     servo::Input input = given;
     const auto back = std::exchange(back_, std::nullopt);
-    const bool may = lesson_.mode != lesson::Mode::assessment && back && *back < servo::most_marks &&
-                     *back <= lesson_.current;
-    input.undo = std::exchange(mark_, false) ? servo::keep_mark
-                 : may                       ? static_cast<std::uint8_t>(*back + 1)
-                                             : std::uint8_t{0};
+    input.undo = marks() != kept_ ? servo::keep_mark : back ? undo_by(*back) : std::uint8_t{0};
+    return tick(input, std::move(noticed));
+}
+
+std::uint8_t Course::undo_by(std::size_t steps) const {
+    const lesson::Lesson& l = lesson();
+    const bool may = l.mode != lesson::Mode::assessment && steps < servo::most_marks && steps <= l.current;
+    return may ? static_cast<std::uint8_t>(steps + 1) : std::uint8_t{0};
+}
+
+Status Course::take(const servo::Input& input, const servo::Output& output,
+                    std::vector<lesson::Event> noticed) {
+    const Result<servo::Output> again = tick(input, std::move(noticed));
+    if (!again) return fail(again.error());
+    if (record::same(record::make_record(input, *again), record::make_record(input, output))) return {};
+    return fail(ErrorCode::failed,
+                fmt::format("at {:.3f} s the servo came to something else than the lesson did with the same "
+                            "inputs",
+                            time()),
+                "the same to the bit; what was recorded until then is kept");
+}
+
+Result<servo::Output> Course::tick(const servo::Input& input, std::vector<lesson::Event>&& noticed) {
     const servo::Output output = servo::tick(at_.setup, at_.state, input);
-    follow(lesson_, at_.state, output);
+    kept_ += input.undo == servo::keep_mark ? 1U : 0U;
+    follow(following_, at_.state, output);
     events_.clear();
-    std::swap(events_, lesson_.events);
-    // What it has gone back to has its mark.
-    mark_ = output.undone == 0 && std::any_of(events_.begin(), events_.end(), [](const lesson::Event& event) {
-                return event.kind == "step_begin";
-            });
+    std::swap(events_, following_.lesson.events);
     for (lesson::Event& seen : noticed) events_.push_back(std::move(seen));
     if (Status kept = writer_->append(record::make_record(input, output)); !kept) return fail(kept.error());
     if (Status kept = keep_events(); !kept) return fail(kept.error());
@@ -124,7 +157,7 @@ Result<servo::Output> Course::step(const servo::Input& given, std::vector<lesson
 }
 
 Played Course::judged() const {
-    return {lesson::judge(lesson_, at_.state, at_.setup.dt), at_.state.touch.has_value()};
+    return {lesson::judge(lesson(), at_.state, at_.setup.dt), at_.state.touch.has_value()};
 }
 
 Result<Played> Course::finish() {

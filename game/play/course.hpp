@@ -26,8 +26,9 @@ struct CourseOptions {
     double dt = 0.001;
     // Whether the wrench meets casing, bolts and nuts (touch_models.hpp); `if_any`: where they are modelled.
     Obstacles obstacles = Obstacles::none;
-    bool guide = true;           // a guided lesson leads the hand to the nut
-    std::string operator_name;   // "expert", …, or "person"
+    bool guide = true;                   // a guided lesson leads the hand to the nut
+    std::string operator_name;           // "expert", …, or "person"
+    std::string servo = "virtual time";  // who has the ticks, for the session (record::Header)
     force::OutputLimits device;  // what a 6-DoF arm of the Virtuose class renders, unless said otherwise
 };
 
@@ -41,8 +42,19 @@ struct Prepared {
 };
 Result<Prepared> prepare(const content::Assembly& given, const CourseOptions& options);
 
+// The same for `options.device`; everything else in the options is as it was.
+void use_device(const CourseOptions& options, Prepared& prepared);
+
+// A lesson beside its ticks, wherever those are made.
+struct Following {
+    lesson::Lesson lesson;
+    // How many marks the nuts are to have (servo::State::marked): one for the beginning of every step. Ticks
+    // that are made elsewhere hear of that late; until then a step back is one of the lesson's more.
+    std::uint32_t begun = 0;
+};
+
 // The lesson after a tick: it sees what happened, and goes back where the nuts did.
-void follow(lesson::Lesson& lesson, const servo::State& state, const servo::Output& output);
+void follow(Following& following, const servo::State& state, const servo::Output& output);
 
 // How a lesson came out, and what it was played among.
 struct Played {
@@ -56,6 +68,9 @@ class Course {
     // Writes the session to `file` as it goes (record::Writer says what becomes of a file that is there).
     static Result<std::unique_ptr<Course>> begin(const content::Assembly& given, const CourseOptions& options,
                                                  const std::filesystem::path& file);
+    static Result<std::unique_ptr<Course>> begin(Prepared prepared, const CourseOptions& options,
+                                                 const std::filesystem::path& file);
+
     Course(const Course&) = delete;
     Course& operator=(const Course&) = delete;
     ~Course();  // without finish() the session is kept as one that was cut short
@@ -63,6 +78,16 @@ class Course {
     // One tick. `noticed`: what whoever plays wants to be kept with it. An error is the session file's; what
     // was written before stays readable.
     Result<servo::Output> step(const servo::Input& input, std::vector<lesson::Event> noticed = {});
+
+    // A tick that a servo elsewhere has made, from the same beginning: this one makes it again. Also an
+    // error:
+    // it does not come to the same, so one of the two was not told everything.
+    Status take(const servo::Input& input, const servo::Output& output,
+                std::vector<lesson::Event> noticed = {});
+    // For that servo: how many marks it is to have kept since the beginning, and what undo may ask for (0:
+    // nothing; servo::Input::undo).
+    [[nodiscard]] std::uint32_t marks() const { return kept_ + following_.begun - at_.state.marked; }
+    [[nodiscard]] std::uint8_t undo_by(std::size_t steps) const;
 
     // With the next tick the nuts and the lesson go back to the beginning of the due step, or to that of a
     // step before it. Nothing happens where the lesson allows no way back (an assessment), further back than
@@ -75,12 +100,15 @@ class Course {
     [[nodiscard]] const content::Assembly& assembly() const { return at_.assembly; }
     [[nodiscard]] const servo::Setup& setup() const { return at_.setup; }
     [[nodiscard]] const servo::State& state() const { return at_.state; }
-    [[nodiscard]] const lesson::Lesson& lesson() const { return lesson_; }
+    [[nodiscard]] const lesson::Lesson& lesson() const { return following_.lesson; }
     [[nodiscard]] double time() const { return static_cast<double>(at_.state.tick) * at_.setup.dt; }  // s
-    [[nodiscard]] bool over() const { return lesson_.due() == nullptr; }
+    [[nodiscard]] bool over() const { return lesson().due() == nullptr; }
     [[nodiscard]] bool obstacles() const { return at_.state.touch.has_value(); }
     // As servo::Output::touched numbers them.
     [[nodiscard]] std::span<const record::ObstacleName> obstacle_names() const { return at_.obstacle_names; }
+
+    // How the thread of another servo kept its time.
+    Status keep(const servo::Timing& timing) { return writer_->keep(timing); }
 
     // As it stands; and the same written, after which there are no more ticks.
     [[nodiscard]] Played judged() const;
@@ -89,11 +117,12 @@ class Course {
   private:
     Course() = default;
     Status keep_events();
+    Result<servo::Output> tick(const servo::Input& input, std::vector<lesson::Event>&& noticed);
 
     Prepared at_;
-    bool mark_ = false;  // a step has begun: its beginning is to be kept
+    Following following_;
+    std::uint32_t kept_ = 0;  // marks, since the beginning
     std::optional<std::size_t> back_;
-    lesson::Lesson lesson_;
     std::vector<lesson::Event> events_;
     std::optional<record::Writer> writer_;
 };

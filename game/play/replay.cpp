@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "content/format/load.hpp"
 #include "game/record/device_text.hpp"
@@ -57,15 +56,6 @@ lesson::Lesson begin_again(const record::Reader& session, const Prepared& at) {
     return lesson;
 }
 
-// Bit by bit: what is not a number is the same as itself.
-bool same(const record::TickRecord& a, const record::TickRecord& b) {
-    const auto equal = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
-    return equal(a.force, b.force) && equal(a.torque, b.torque) && a.joint == b.joint && a.stage == b.stage &&
-           equal(a.wrench_torque, b.wrench_torque) && equal(a.nut_angle, b.nut_angle) &&
-           equal(a.clamp, b.clamp) && a.contacts == b.contacts && a.touched == b.touched &&
-           a.fault == b.fault;
-}
-
 }  // namespace
 
 Result<Prepared> prepare_again(const record::Reader& session) {
@@ -99,7 +89,8 @@ Result<Prepared> prepare_again(const record::Reader& session) {
 
 Result<Replayed> replay(const record::Reader& session, Prepared at,
                         const std::function<bool(const Moment&)>& visit) {
-    lesson::Lesson lesson = begin_again(session, at);
+    Following following{begin_again(session, at)};
+    lesson::Lesson& lesson = following.lesson;
     Replayed replayed;
     bool go_on = true;
     const Status read = session.for_each_chunk([&](std::uint64_t, std::span<const record::TickRecord> chunk) {
@@ -107,8 +98,8 @@ Result<Replayed> replay(const record::Reader& session, Prepared at,
             if (!go_on) return;
             const servo::Input input = record::input_of(recorded);
             const servo::Output output = servo::tick(at.setup, at.state, input);
-            follow(lesson, at.state, output);
-            if (!same(record::make_record(input, output), recorded) && replayed.wrong++ == 0)
+            follow(following, at.state, output);
+            if (!record::same(record::make_record(input, output), recorded) && replayed.wrong++ == 0)
                 replayed.first_wrong = replayed.ticks;
             ++replayed.ticks;
             const double time = static_cast<double>(at.state.tick) * at.setup.dt;

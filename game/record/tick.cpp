@@ -1,6 +1,7 @@
 #include "game/record/tick.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace bolt::record {
 
@@ -40,6 +41,14 @@ servo::Input input_of(const TickRecord& record) {
     input.guide = record.guide;
     input.undo = record.undo;
     return input;
+}
+
+bool same(const TickRecord& a, const TickRecord& b) {
+    const auto equal = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
+    return equal(a.force, b.force) && equal(a.torque, b.torque) && a.joint == b.joint && a.stage == b.stage &&
+           equal(a.wrench_torque, b.wrench_torque) && equal(a.nut_angle, b.nut_angle) &&
+           equal(a.clamp, b.clamp) && a.contacts == b.contacts && a.touched == b.touched &&
+           a.fault == b.fault;
 }
 
 bool is_valid(const TickRecord& record) {

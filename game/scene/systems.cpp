@@ -48,15 +48,16 @@ void place_tool(World& world, const Held& held) {
 
 void place_hand(World& world, const Postures& postures, const Held& held) {
     constexpr double change = 0.07;  // s in which most of it is done
-    const hand::Skeleton goal = held.wrench    ? postures.on_handle.at(held.grip)
-                                : held.pinches ? postures.on_nut
-                                               : postures.open;
+    const hand::Skeleton goal = held.gloved != nullptr ? *held.gloved
+                                : held.wrench          ? postures.on_handle.at(held.grip)
+                                : held.pinches         ? postures.on_nut
+                                                       : postures.open;
     world.view<Fingers, Placement>().each([&](Fingers& fingers, Placement& placement) {
         placement.world = glm::mat4(matrix(held.wrench ? held.tool : held.fingers));
         const bool first = !fingers.deformation;
         const double far = first ? 1.0 : furthest(fingers.shown, goal);
         if (far == 0.0) return;
-        const bool there = first || far < 2e-4;
+        const bool there = first || far < 2e-4 || held.gloved != nullptr;
         const hand::Skeleton shown =
             there ? goal : between(fingers.shown, goal, 1.0 - std::exp(-held.seconds / change));
         fingers.shown = shown;

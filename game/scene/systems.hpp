@@ -16,6 +16,8 @@ struct Held {
     Pose fingers;          // what they are shown in, without a wrench
     std::size_t grip = 0;  // of Postures::on_handle
     double seconds = 0.0;  // since the last frame: a hand changes its posture in no time, but not at once
+    // Of a hand in a glove, in the frame of the wrench, in the hand or where it lies.
+    const hand::Skeleton* gloved = nullptr;
 };
 void place_nuts(World& world, const servo::Setup& setup, std::span<const joint::JointState> joints);
 void place_tool(World& world, const Held& held);

@@ -115,4 +115,30 @@ Result<Planned> make_plan(const content::Assembly& assembly, const Wanted& wante
     return planned;
 }
 
+Result<Planned> plan_lesson(const content::Assembly& assembly, const play::CourseOptions& course,
+                            const Wanted& wanted, const Pose& home) {
+    struct Begins {
+        play::CourseOptions options;
+        play::Prepared at;
+    };
+    Planned planned;
+    if (Status chosen = choose_devices(wanted, planned); !chosen) return fail(chosen.error());
+    if (Status worn = open_glove(assembly, wanted, planned); !worn) return fail(worn.error());
+    Result<play::Prepared> prepared = play::prepare(assembly, course);
+    if (!prepared) return fail(prepared.error());
+    const auto begins = std::make_shared<Begins>(Begins{course, std::move(*prepared)});
+    planned.obstacles = begins->at.state.touch.has_value();
+    planned.plan.home = home;
+    planned.plan.servo.rate = 1.0 / course.dt;
+    planned.plan.setup = [begins](const force::OutputLimits& limits, double) {
+        begins->options.device = limits;
+        play::use_device(begins->options, begins->at);
+        return begins->at.setup;
+    };
+    planned.plan.state = [begins](const servo::Setup&) -> Result<servo::State> {
+        return std::move(begins->at.state);
+    };
+    return planned;
+}
+
 }  // namespace bolt::station

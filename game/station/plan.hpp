@@ -4,6 +4,7 @@
 #pragma once
 
 #include "content/format/assembly.hpp"
+#include "game/play/course.hpp"
 #include "game/station/choice.hpp"
 #include "game/station/wearer.hpp"
 #include "haptics/station/station.hpp"
@@ -35,6 +36,12 @@ struct Planned {
 
 // `assembly` is copied.
 Result<Planned> make_plan(const content::Assembly& assembly, const Wanted& wanted);
+
+// For a lesson, of which obstacles, task and seed are in `course`, not in `wanted`. `home`: where the tool is
+// when it begins. Whoever follows the lesson prepares it once more and gives that the devices that the
+// station has (play::use_device): then both come to the same.
+Result<Planned> plan_lesson(const content::Assembly& assembly, const play::CourseOptions& course,
+                            const Wanted& wanted, const Pose& home);
 
 // A wrench on a joint's nut, its handle where there is room to turn it. Without obstacles it is anywhere.
 Pose wrench_on_nut(const servo::Setup& setup, const servo::Touch* touch, std::size_t joint, double nut_angle);

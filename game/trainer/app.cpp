@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstdlib>
 
@@ -63,12 +64,15 @@ Status App::speak(const std::string& language) {
     if (!loaded.ok()) return fail(loaded.errors.front());
     words_ = std::move(loaded.words);
     options_.choice.language = language;
-    controls_ = hints::mouse_controls(words_, std::string(platform::name(KeyMap{}.of(Action::tool))));
+    name_controls();
     return {};
 }
 
 App::App(AppOptions options) : options_(std::move(options)) {
-    if (options_.menu) listed_ = list_assemblies();
+    if (options_.menu) {
+        listed_ = list_assemblies();
+        seats_ = seats();
+    }
     start_wished_ = !options_.menu;
 }
 
@@ -147,22 +151,21 @@ Status App::begin_lesson(float aspect) {
     Result<scene::Shelf> shelf = scene::load_shelf(assembly_);
     if (!shelf) return fail(shelf.error());
     for (const std::string& missing : shelf->missing) tell("left out: " + missing);
-    Result<std::unique_ptr<play::Course>> course =
-        play::Course::begin(assembly_, course_, options_.out / "session.boltwright");
-    if (!course) return fail(course.error());
+    Playing next;
+    if (Status begun = begin_course(next); !begun) return begun;
     if (playing_) {
         if (Status idle = on_->painter->device->idle(); !idle) return idle;
         playing_.reset();
     }
     if (options_.begins) options_.begins();
     shelf_ = std::move(*shelf);
-    playing_.emplace();
+    playing_.emplace(std::move(next));
     Playing& p = *playing_;
-    p.course = std::move(*course);
     if (Status placed = place_on_gpu(); !placed) return placed;
     const servo::Setup& setup = p.course->setup();
     const servo::State& state = p.course->state();
-    p.hand = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness));
+    take_place();
+    name_controls();
     if (options_.sound) {
         auto live =
             sound::Live::start(setup, sound::materials(p.course->assembly(), p.course->obstacle_names()));
@@ -192,8 +195,70 @@ Status App::begin_lesson(float aspect) {
     return {};
 }
 
+// The lesson, and the station that it is played at: each with a servo of its own that begins as the other's.
+Status App::begin_course(Playing& p) {
+    const std::filesystem::path file = options_.out / "session.boltwright";
+    Result<play::Prepared> prepared = play::prepare(assembly_, course_);
+    if (!prepared) return fail(prepared.error());
+    if (!options_.choice.with.none()) {
+        if (playing_) playing_->station.reset();  // that has the devices
+        auto bench = options_.station(assembly_, course_, options_.choice.with, options_.choice.trainee);
+        if (!bench) return fail(bench.error());
+        p.station.emplace();
+        p.station->bench = std::move(*bench);
+        course_.device = p.station->bench->setup().limits;
+        course_.servo = fmt::format("{:.0f} Hz", 1.0 / course_.dt);
+        play::use_device(course_, *prepared);
+    }
+    Result<std::unique_ptr<play::Course>> course = play::Course::begin(std::move(*prepared), course_, file);
+    if (!course) return fail(course.error());
+    p.course = std::move(*course);
+    return {};
+}
+
+// Hand and wrench before the machine.
+void App::take_place() {
+    Playing& p = *playing_;
+    p.hand = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness));
+    if (!p.station) return;
+    AtStation& at = *p.station;
+    at.rest = p.hand.rest;
+    at.home = p.hand.pose;
+    at.wishes.put = at.home;
+    at.wishes.put_number = 1;
+}
+
+// What is pressed or moved for what.
+void App::name_controls() {
+    const std::string tool(platform::name(KeyMap{}.of(Action::tool)));
+    const AtStation* at = playing_ && playing_->station ? &*playing_->station : nullptr;
+    if (at == nullptr) {
+        controls_ = hints::mouse_controls(words_, tool);
+        return;
+    }
+    const std::uint32_t held = at->bench->layout().mover_buttons.held;
+    const bool keys = options_.choice.with.devices.empty() || held == 0;
+    const std::string closes =
+        keys ? std::string(platform::name(platform::Key::space))
+             : words::say(words_, "control.device.button",
+                          {{"number", words::Number{static_cast<double>(std::countr_zero(held) + 1), 0}}});
+    controls_ = at->bench->hand() != nullptr ? hints::glove_controls(words_)
+                                             : hints::device_controls(words_, closes, tool);
+}
+
+Status App::unseen() {
+    if (!playing_ || !playing_->station) return {};
+    playing_->station->wishes.pause = true;
+    playing_->station->bench->wish(playing_->station->wishes);
+    return {};
+}
+
 Status App::end_lesson() {
     if (!playing_ || shows_ != Shows::lesson) return {};
+    if (playing_->station)
+        if (const servo::Timing* timing = playing_->station->bench->stop())
+            if (Status kept = playing_->course->keep(*timing); !kept) return kept;
+
     Result<play::Played> played = playing_->course->finish();
     if (!played) return fail(played.error());
     played_ = std::move(*played);
@@ -262,6 +327,8 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
     const render::Scene* scene = &no_scene;
     if (playing_) {
         Playing& p = *playing_;
+        if (p.station)
+            p.station->keys.take(shows_ == Shows::lesson ? events : std::span<const platform::Event>());
         Frame now{p, seconds, extent, apply(p.controls, events, mine), &*on_->fonts, {}};
         if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.paused = !p.paused;
         full_screen_ = full_screen_ || now.wanted.wants(Action::full_screen);

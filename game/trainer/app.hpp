@@ -9,6 +9,7 @@
 
 #include "engine/ui/ui.hpp"
 #include "game/hints/controls.hpp"
+#include "game/trainer/equipment.hpp"
 #include "game/trainer/systems.hpp"
 #include "game/view/painter.hpp"
 
@@ -21,6 +22,7 @@ struct Choice {
     lesson::Task task = lesson::Task::tighten;
     std::string trainee;
     std::string language;  // empty: that of the desktop, if there is one
+    Equipment with;        // none: mouse and keyboard
 };
 
 struct AppOptions {
@@ -34,6 +36,10 @@ struct AppOptions {
     // After a lesson, whole or broken off: what is left of it beside the session.
     std::function<Status(const content::Assembly&, const play::CourseOptions&, const play::Played&)> ended;
     std::function<void(const std::string&)> tell;  // a line of what happens, for a log
+    // Where somebody plays who has chosen devices.
+    std::function<Result<std::unique_ptr<station::Bench>>(
+        const content::Assembly&, const play::CourseOptions&, const Equipment&, const std::string& trainee)>
+        station = start_station;
 };
 
 enum class Shows : std::uint8_t { menu, lesson, result };
@@ -77,12 +83,19 @@ class App {
     // Ends a lesson under way as it stands: its session and what is left of it are kept.
     Status end_lesson();
 
+    // Instead of a picture, while there is nothing to see: nobody works then.
+    Status unseen();
+
   private:
     struct OnGpu;
     Status begin_lesson(float aspect);
+    Status begin_course(Playing& playing);
+    void take_place();
+    void name_controls();
     Status place_on_gpu();
     void draw_interface(const glm::dvec2& size);
     void draw_menu(const glm::dvec2& size);
+    void draw_seats();
     void draw_result(const glm::dvec2& size);
     void draw_pause(const glm::dvec2& size);
     bool button(words::Key key);
@@ -94,6 +107,7 @@ class App {
     AppOptions options_;
     Shows shows_ = Shows::menu;
     std::vector<Listed> listed_;
+    std::vector<Seat> seats_;
     content::Assembly assembly_;
     std::optional<scene::Shelf> shelf_;
     std::optional<Playing> playing_;

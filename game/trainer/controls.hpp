@@ -23,12 +23,13 @@ enum class Action : std::uint8_t {
     quiet,  // sound off and on
     undo,   // the step before is due again
     restart_step,
+    recentre,  // at a station: the tool goes back to where it was at the beginning
 };
-inline constexpr std::size_t action_count = 10;
+inline constexpr std::size_t action_count = 11;
 constexpr std::string_view name(Action action) {
     constexpr std::array<std::string_view, action_count> names{
-        "tool",  "find_view",   "whole_view", "hint", "flange_map",
-        "pause", "full_screen", "quiet",      "undo", "restart_step"};
+        "tool",        "find_view", "whole_view", "hint",         "flange_map", "pause",
+        "full_screen", "quiet",     "undo",       "restart_step", "recentre"};
     return names.at(static_cast<std::size_t>(action));
 }
 
@@ -36,7 +37,7 @@ struct KeyMap {
     std::array<platform::Key, action_count> keys{
         platform::Key::t,         platform::Key::v,      platform::Key::f,   platform::Key::h,
         platform::Key::c,         platform::Key::escape, platform::Key::f11, platform::Key::m,
-        platform::Key::backspace, platform::Key::r};
+        platform::Key::backspace, platform::Key::r,      platform::Key::home};
     [[nodiscard]] platform::Key of(Action action) const { return keys.at(static_cast<std::size_t>(action)); }
 };
 

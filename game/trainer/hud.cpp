@@ -133,6 +133,15 @@ void draw_hint(const Playing& p, const Said& said, const glm::dvec2& size, float
     ImGui::End();
 }
 
+// What is wrong with the devices, in their own words.
+void draw_troubles(const Playing& p, const glm::dvec2& size, float scale) {
+    if (!p.station || p.station->troubles.empty()) return;
+    plate("##troubles", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F});
+    for (const std::string& trouble : p.station->troubles)
+        coloured(trouble, {1.0F, 0.6F, 0.5F, 1.0F}, 0.5F * static_cast<float>(size.x));
+    ImGui::End();
+}
+
 }  // namespace
 
 void draw_hud(const Playing& p, const Said& said, const glm::dvec2& size, float scale) {
@@ -140,6 +149,7 @@ void draw_hud(const Playing& p, const Said& said, const glm::dvec2& size, float 
     draw_hint(p, said, size, scale);
     draw_plot(p, *said.words, size, scale);
     draw_strain(p, *said.words, size, scale);
+    draw_troubles(p, size, scale);
 }
 
 }  // namespace bolt::trainer

@@ -12,6 +12,7 @@
 #include "game/play/course.hpp"
 #include "game/scene/systems.hpp"
 #include "game/sound/live.hpp"
+#include "game/trainer/at_station.hpp"
 #include "game/trainer/controls.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "game/trainer/pointing.hpp"
@@ -27,7 +28,8 @@ struct PlotPoint {
 
 struct Playing {
     std::unique_ptr<play::Course> course;
-    MouseHand hand;
+    std::optional<AtStation> station;  // none: the hand is at the mouse
+    MouseHand hand;                    // at a station: what that one does, for whoever shows it
     scene::Workplace place;
     scene::Postures postures;
     view::Glide camera;

@@ -56,6 +56,20 @@ bool App::button(words::Key key) {
     return pressed;
 }
 
+// What the hand plays with, where there is a choice.
+void App::draw_seats() {
+    Equipment& with = options_.choice.with;
+    for (const Seat& seat : seats_) {
+        const std::string name = seat.name.empty() ? words_["menu.mouse"] : seat.name;
+        Equipment to = seat.with;
+        to.rig = with.rig;
+        to.glove = with.glove;
+        if (seats_.size() > 1 &&
+            ImGui::RadioButton(name.c_str(), with.devices == to.devices && !with.keyboard))
+            with = to;
+    }
+}
+
 void App::draw_menu(const glm::dvec2& size) {
     Choice& choice = options_.choice;
     const float scale = input_.scale;
@@ -94,6 +108,7 @@ void App::draw_menu(const glm::dvec2& size) {
     for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen})
         radio(words_[hints::term(task)].c_str(), choice.task, task);
     ImGui::NewLine();
+    draw_seats();
     text_field(words_["menu.trainee"].c_str(), choice.trainee);
     for (const words::Words& language : languages_)
         if (ImGui::RadioButton(language.name.c_str(), language.language == words_.language))

@@ -57,7 +57,7 @@ Status draw(App& app, Canvas& canvas, platform::Window& window, std::span<const 
             double passed) {
     const Result<VkExtent2D> size = canvas.swapchain->ready(size_of(window));
     if (!size) return fail(size.error());
-    if (size->width == 0 || size->height == 0) return {};  // minimised: the lesson waits
+    if (size->width == 0 || size->height == 0) return app.unseen();  // minimised: the lesson waits
     const Result<gpu::Frame*> frame = canvas.painter.frames->begin();
     if (!frame) return fail(frame.error());
     if (Status drawn = app.frame(**frame, events, *size, window.content_scale(), passed); !drawn)

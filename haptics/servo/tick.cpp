@@ -5,6 +5,7 @@
 
 #include "haptics/servo/denormals.hpp"
 #include "haptics/servo/jaw_grip.hpp"
+#include "haptics/servo/lead.hpp"
 
 namespace bolt::servo {
 
@@ -99,28 +100,6 @@ double work_beside(const force::OutputCommand& help, const Pose& hand_before, co
            glm::dot(help.torque, turn(hand_before, hand) - turn(tool_before, tool));
 }
 
-// The tool on its way to a nut.
-force::Wanted led(const Setup& setup, State& state, const ToolPose& tool, int joint, force::Free free) {
-    force::GuideGoal goal;
-    const auto i = static_cast<std::size_t>(joint);
-    if (joint >= 0 && i < setup.nuts.size()) {
-        const NutPlace& nut = setup.nuts[i];
-        const double angle = state.joints[i].nut.angle;
-        goal.id = joint;
-        goal.target.point = nut_centre(nut, angle);
-        goal.target.axis = nut.axis;
-        // Half a nut and the bolt's end above it, and a corner's radius: what is its own.
-        goal.target.shell = 1.2 * std::max(nut.height, nut.across_flats);
-        // A tightening turn is one about -axis.
-        goal.hexagon = {nut.axis, std::cos(angle) * nut.e1 - std::sin(angle) * nut.e2,
-                        std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};
-    }
-    const Vec3 across = glm::cross(tool.normal, tool.handle);
-    const Vec3 jaw =
-        std::cos(setup.wrench.head_angle) * tool.handle + std::sin(setup.wrench.head_angle) * across;
-    return force::guide(setup.guiding, state.guide, {tool.position, jaw, tool.normal}, goal, free, setup.dt);
-}
-
 constexpr double out_of_the_way = 0.12;  // m, of a tool from nuts that are to leap
 
 // What an instructor's hand, or an undo, does between two ticks: no work of the trainee's.
@@ -193,7 +172,10 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
     force::Wanted wanted;
     // Engaged it has come there, and without a pose there is nobody to lead: what help there was fades.
     const bool leads = engaged < 0 && tool.valid && input.enabled;
-    const force::Wanted help = led(setup, state, tool, leads ? input.guide : -1, free);
+    // On its way to a nut.
+    const force::Wanted help =
+        force::guide(setup.guiding, state.guide, guided_tool(setup, tool),
+                     goal_at(setup, state.joints, leads ? input.guide : -1), free, setup.dt);
     state.helped = help.command;
     if (drawn_before && engaged != engaged_before) state.opening = {state.drawn_to, 1.0};
     if (!tool.valid || !input.enabled) state.opening.share = 0.0;

@@ -9,8 +9,8 @@ namespace bolt::station {
 
 namespace {
 
-constexpr double hangs = 0.5;             // s that no read and no write of a driver takes
-constexpr std::size_t kept_ticks = 8192;  // s for a recorder to come by: eight at 1 kHz
+constexpr double hangs = 0.5;              // s that no read and no write of a driver takes
+constexpr std::size_t kept_ticks = 32768;  // for a recorder to come by: half a minute at 1 kHz
 
 }  // namespace
 
@@ -38,16 +38,19 @@ struct Station::Shared {
         heard.wishes = wishes.latest();
         if (hand) heard.hand = hand->grip();
         heard.missed = beat.missed;
-        const Answer answer = station::tick(layout, setup, mapped, state, heard);
+        const bool works = !heard.wishes.pause;
+        const Answer answer = works ? station::tick(layout, setup, mapped, state, heard)
+                                    : station::pause(layout, setup, mapped, heard);
         if (mover) mover->order(answer.mover, true);
         if (wheel) wheel->order(answer.wheel, true);
         count(counted.mover, mapped.mover, answer.mover);
         count(counted.wheel, mapped.wheel, answer.wheel);
         passed.write(counted);
-        if (hand) hand->place({mapped.workspace.tool, mapped.output.tool});
-        const Ticked now{beat.number, mapped.input, mapped.output};
+        if (hand) hand->place({mapped.workspace.tool, mapped.lies.value_or(mapped.output.tool)});
+        const Ticked now{beat.number,           mapped.input, mapped.output,
+                         mapped.workspace.tool, mapped.lies,  mapped.pressed};
         ticked.write(now);
-        if (!ticks.push(now)) lost.fetch_add(1, std::memory_order_relaxed);
+        if (works && !ticks.push(now)) lost.fetch_add(1, std::memory_order_relaxed);
         return true;
     }
 };
@@ -99,6 +102,8 @@ Result<Station> Station::start(Plan plan) {
         s.state = servo::initial_state(s.setup);
     }
     s.mapped = initial_state(s.layout);
+    s.wishes.write(plan.wishes);
+
     Result<servo::Thread> thread =
         servo::Thread::start(plan.servo, [&s](const servo::Beat& beat) { return s.tick(beat); });
     if (!thread) return fail(thread.error());

@@ -20,6 +20,7 @@ struct Plan {
     std::optional<HandPlan> hand;      // that wears it; none: nobody does, and what is gripped is wished
     double patience = 3.0;             // s for the devices to open
     device::LineOptions line{{}, 70};  // below the servo's priority
+    Wishes wishes;                     // until somebody wishes otherwise
     servo::ThreadOptions servo;
     // What is worked on, for what the devices render and the servo's dt; and how it stands at the beginning.
     std::function<servo::Setup(const force::OutputLimits& limits, double dt)> setup;
@@ -31,6 +32,9 @@ struct Ticked {
     std::uint64_t number = 0;  // deadlines that had no tick are counted
     servo::Input input;
     servo::Output output;
+    Pose tool;                 // where the hand has it
+    std::optional<Pose> lies;  // where the wrench lies that is in no hand (Wishes::rest)
+    bool pressed = false;      // the button that closes a hand, of a device
 };
 
 class Station {

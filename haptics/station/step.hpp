@@ -14,10 +14,29 @@ namespace bolt::station {
 
 // What devices do not tell: a lesson's, a glove's, a keyboard's.
 struct Wishes {
-    servo::Grip grip = servo::Grip::none;  // counts where there is no gloved hand
+    servo::Grip grip = servo::Grip::none;  // `wrench` counts where there is no gloved hand
     bool held = false;                     // the dead-man, besides the devices' buttons
     bool clutch = false, stop = false, reset = false;
     std::int16_t guide = -1;
+    // How whoever pushes looks at it: what they push goes by their right, up and nearer to them.
+    Quat looks{1.0, 0.0, 0.0, 0.0};
+    // Nobody works: no servo tick, no force, and the tool stays where it is while the hand goes where it
+    // likes.
+    bool pause = false;
+    // Where the wrench lies while it is in no hand; none: it comes along in the open one.
+    std::optional<Pose> rest{};
+    // Joint whose nut draws the tool of a hand that only pushes it and feels nothing; −1: none. Such a tool
+    // glides there by itself, as a guiding force would lead a hand.
+
+    std::int16_t glide = -1;
+    // The tool goes there, the hand stays where it is. Done once for every other number.
+    Pose put{};
+    std::uint32_t put_number = 0;
+    // How many marks of the nuts are to have been kept by now (servo::keep_mark), one a tick.
+    std::uint32_t marks = 0;
+    // What servo::Input::undo is to ask for until it is granted; once granted, not again for this number.
+    std::uint8_t back = 0;
+    std::uint32_t back_number = 0;
 };
 
 struct Heard {
@@ -44,7 +63,15 @@ struct State {
     Vec3 axis{0.0, 1.0, 0.0};         // of the bolt that the wheel turns, or turned last
     double on_bolt = 0.0;             // 0 … 1: the wheel feels that bolt
     bool anew = false;                // the servo hung: no force until the output stage has let go too
-    servo::Input input;               // of the last tick
+    std::optional<Pose> lies;  // where the wrench is while it is in no hand, where Wishes::rest lets it lie
+    force::GuideState glides;
+    int carried_by = -1;  // nut that a pushed tool goes along with
+    Vec3 carried_at{0.0};
+    std::uint32_t put_number = 0, marks = 0, back_number = 0;  // of what was wished and is done
+    std::uint32_t back_wished = 0;
+    bool stopped = false;  // the stop was pressed in a pause: it counts after that
+    bool pressed = false;  // a device's button that closes the hand: the dead-man's
+    servo::Input input;    // of the last tick
     servo::Output output;
 };
 
@@ -59,10 +86,20 @@ Answer tick(const Layout& layout, const servo::Setup& setup, State& state, servo
 
 // The two halves of it.
 servo::Input hear(const Layout& layout, const servo::Setup& setup, State& state, const Heard& heard);
+// How a tool that is only pushed goes on by itself: after hear(), for the tick that follows.
+void glide(const Layout& layout, const servo::Setup& setup, State& state, const servo::State& servo,
+           const Heard& heard, servo::Input& input);
 Answer answer(const Layout& layout, const servo::Setup& setup, State& state, const servo::Output& output);
+
+// Instead of a tick while Wishes::pause is wished: devices are listened to, and get no force; that comes back
+// slowly.
+Answer pause(const Layout& layout, const servo::Setup& setup, State& state, const Heard& heard);
 
 // A puck's tool may be ahead of what obstacles allow by so much: it turns back at once.
 inline constexpr double ahead = 0.01, turned_ahead = 0.15;  // m, rad
+// Chosen: a pushed tool spins a nut so many times faster than it turns otherwise; under the greatest torque
+// it turns so many times more slowly, but one.
+inline constexpr double spinning = 4.0, firmness = 15.0;
 // A rate is believed for so long without a new one.
 inline constexpr double rate_lasts = 0.25;  // s
 

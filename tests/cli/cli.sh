@@ -250,8 +250,9 @@ expect 2 '' "$bin/boltwright"
 expect 2 '' "$bin/boltwright" train --no-pictures --mode hard
 expect 2 'did you mean expert' "$bin/boltwright" train --no-pictures --headless --operator exprt --out never
 expect 4 'no headset' "$bin/boltwright" train --no-pictures --headless --hmd --out never
-expect 4 'takes no device such as .omega7. yet.*boltwright devices' "$bin/boltwright" train --no-pictures --headless --device omega7 --out never
-expect 4 'takes no glove such as .*ttyS0. yet' "$bin/boltwright" train --no-pictures --headless --glove /dev/ttyS0 --out never
+expect 4 'omega7' "$bin/boltwright" train --no-pictures --headless --device omega7 --out never
+expect 4 'ttyS99' "$bin/boltwright" train --no-pictures --headless --glove /dev/ttyS99 --out never
+expect 2 'stand alone' "$bin/boltwright" train --headless --device mouse --device 256f:c62e --out never
 expect 1 'cannot be made|Not a directory' "$bin/boltwright" train --no-pictures --headless --quiet --out /dev/null/out
 expect 1 'session' "$bin/boltwright" report ticks.csv --html never.html
 expect 1 'nowhere' "$bin/boltwright" report nowhere --html never.html

@@ -402,3 +402,172 @@ TEST_CASE("a station's tick allocates nothing, waits for nothing; the same told 
     CHECK(run(&forbidden) == run(nullptr));
     CHECK(forbidden.all() == 0);
 }
+
+TEST_CASE("in a pause nothing is felt and nothing moves; afterwards forces come back over the ramp") {
+    Rig rig = on_nut(with_arm());
+    rig.hand().position.z += 2e-3;
+    REQUIRE(glm::length(rig.ticks(50).mover.force) > 1.0);
+    const Pose before = rig.tool();
+    const std::uint64_t ticks = rig.servo.tick;
+    const auto rests = [&](int count) {
+        for (int i = 0; i < count; ++i) {
+            ++rig.heard.mover.number;
+            CHECK(nothing(pause(rig.layout, rig.setup, rig.state, rig.heard).mover));
+        }
+    };
+    rests(100);
+    rig.hand().position += Vec3(0.0, 0.3, 0.0);  // the arm is laid down
+    rests(100);
+    CHECK(rig.servo.tick == ticks);
+    CHECK(glm::length(rig.tool().position - before.position) < 1e-12);
+    SUBCASE("and goes on") {
+        double last = 0.0;
+        for (int i = 0; i < 1500; ++i) {
+            const double now = glm::length(rig.tick().mover.force);
+            CHECK(now - last < 0.1);
+            last = now;
+        }
+        CHECK(last > 1.0);
+        CHECK(glm::length(rig.tool().position - before.position) < 1e-9);
+        CHECK(rig.servo.output.watchdog.counts[static_cast<std::size_t>(force::Fault::jumped)] == 0);
+    }
+    SUBCASE("a stop that was pressed meanwhile counts") {
+        rig.layout.mover_buttons.stop = 16;
+        rig.heard.mover.sample.buttons = 16;
+        rests(5);
+        rig.heard.mover.sample.buttons = 0;
+        rests(5);
+        rig.ticks(3);
+        CHECK(rig.state.output.fault == force::Fault::stopped);
+    }
+}
+
+TEST_CASE("marks are kept one a tick, a way back is asked for until it is granted, and then no more") {
+    Layout layout;
+    layout.mover = test::puck();
+    layout.home.position = Vec3(0.1, 0.3, 0.0);
+    Rig rig(layout);
+    rig.ticks(10);
+    CHECK(rig.servo.marked == 0);
+    rig.heard.wishes.marks = 3;
+    rig.ticks(2);
+    CHECK(rig.servo.marked == 2);
+    rig.ticks(10);
+    CHECK(rig.servo.marked == 3);
+    // As long as the tool is beside the nut nothing leaps.
+    const Pose away = rig.tool();
+    rig.heard.wishes.put.position = servo::nut_centre(rig.setup.nuts[0], 0.0) + Vec3(0.0, 0.05, 0.0);
+    rig.heard.wishes.put_number = 1;
+    rig.heard.wishes.grip = servo::Grip::none;
+    rig.ticks(5);
+    CHECK(glm::length(rig.tool().position - rig.heard.wishes.put.position) < 1e-9);
+    rig.heard.wishes.back = 2;
+    rig.heard.wishes.back_number = 7;
+    rig.ticks(20);
+    CHECK(rig.servo.marked == 3);
+    CHECK(rig.state.input.undo == 2);
+    rig.heard.wishes.put = away;
+    rig.heard.wishes.put_number = 2;
+    rig.ticks(20);
+    CHECK(rig.servo.marked == 2);
+    CHECK(rig.state.input.undo == 0);
+    // The same once more has another number.
+    rig.heard.wishes.back_number = 8;
+    rig.ticks(20);
+    CHECK(rig.servo.marked == 1);
+}
+
+TEST_CASE(
+    "a wrench is taken where it lies, stays on the nut that the hand lets go of it on, and else goes back") {
+    Layout layout = with_arm();
+    Rig rig(layout);
+    const servo::NutPlace& nut = rig.setup.nuts[0];
+    const servo::ToolPose on =
+        servo::pose_of(test::tool_at(nut, servo::nut_centre(nut, 0.0), rig.setup.wrench.head_angle));
+    const Pose rest{Vec3(0.1, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
+    rig.heard.wishes.rest = rest;
+    rig.heard.wishes.grip = servo::Grip::none;
+    rig.ticks(5);
+    REQUIRE(rig.state.lies);
+    CHECK(rig.state.lies->position == rest.position);
+    rig.heard.wishes.grip = servo::Grip::wrench;
+    rig.tick();
+    CHECK_FALSE(rig.state.lies);
+    CHECK(glm::length(rig.tool().position - rest.position) < 1e-9);
+    // From there it follows the hand.
+    rig.hand().position += Vec3(0.0, 0.0, 1e-3);
+    rig.tick();
+    CHECK(glm::length(rig.tool().position - rest.position) == doctest::Approx(1e-3));
+    rig.heard.wishes.put = {on.position, on.orientation};
+    rig.heard.wishes.put_number = 1;
+    rig.ticks(700);
+    REQUIRE(rig.state.output.joint == 0);
+    rig.heard.wishes.grip = servo::Grip::none;
+    rig.ticks(5);
+    REQUIRE(rig.state.lies);
+    CHECK(glm::length(rig.state.lies->position - on.position) < 1e-3);
+    rig.hand().position += Vec3(0.0, 0.02, 0.0);
+    rig.tick();
+    rig.heard.wishes.grip = servo::Grip::wrench;
+    rig.tick();
+    CHECK(glm::length(rig.tool().position - on.position) < 1e-3);
+    // Let go of in the air.
+    rig.hand().position += Vec3(0.0, 0.02, 0.0);
+    rig.ticks(5);
+    REQUIRE(rig.state.output.joint < 0);
+    rig.heard.wishes.grip = servo::Grip::none;
+    rig.ticks(2);
+    CHECK(rig.state.lies->position == rest.position);
+}
+
+TEST_CASE(
+    "a tool that is only pushed glides onto the nut, goes down with it, and comes off when it is pushed "
+    "away") {
+    Layout layout;
+    layout.mover = test::puck();
+    const servo::Setup setup = test::two_joints(limits_of(layout));
+    const servo::NutPlace& nut = setup.nuts[0];
+    layout.home = {servo::nut_centre(nut, 0.0) + Vec3(0.04, 0.09, 0.03), rotation(Vec3(-0.5 * pi, 0.0, 0.0))};
+    Rig rig(layout);
+    rig.heard.wishes.grip = servo::Grip::fingers;
+    rig.ticks(1500);
+    CHECK(rig.state.output.joint < 0);
+    CHECK(glm::length(rig.tool().position - layout.home.position) < 1e-9);
+    rig.heard.wishes.glide = 0;
+    rig.ticks(4000);
+    REQUIRE(rig.state.output.joint == 0);
+    // Spun, with the clock as one sees it from above.
+    rig.heard.mover.sample.angular_velocity = Vec3(0.0, -2.0, 0.0);
+    rig.ticks(500);
+    CHECK(rig.state.output.nut_angle == doctest::Approx(spinning * 1.0).epsilon(0.1));
+    CHECK(rig.state.output.joint == 0);
+    CHECK(glm::length(rig.tool().position - servo::nut_centre(nut, rig.state.output.nut_angle)) < 5e-3);
+    rig.heard.mover.sample.angular_velocity = Vec3(0.0);
+    rig.heard.mover.sample.velocity = Vec3(0.0, 0.2, 0.0);
+    rig.ticks(800);
+    CHECK(rig.state.output.joint < 0);
+    CHECK(rig.tool().position.y > servo::nut_centre(nut, rig.state.output.nut_angle).y + 0.05);
+    SUBCASE("a hand that is led by force is not moved besides") {
+        Rig arm(with_arm());
+        arm.heard.wishes.glide = 0;
+        arm.ticks(2000);
+        CHECK(glm::length(arm.tool().position - arm.layout.home.position) < 1e-12);
+    }
+}
+
+TEST_CASE("what bears torque turns the more slowly when it is pushed round") {
+    Layout layout;
+    layout.mover = test::puck();
+    Rig rig = on_nut(layout);
+    rig.heard.mover.sample.angular_velocity = Vec3(0.0, -1.0, 0.0);
+    double fastest = 0.0, last = 0.0;
+    for (int i = 0; i < 60'000 && rig.state.output.wrench_torque < 150.0; ++i) {
+        rig.tick();
+        if (rig.state.output.wrench_torque > 50.0)
+            fastest = std::max(fastest, rig.state.output.wrench_torque - last);
+        last = rig.state.output.wrench_torque;
+    }
+    CHECK(rig.state.output.joint == 0);
+    CHECK(last >= 150.0);
+    CHECK(fastest < 0.2);  // N·m in a millisecond: a hand can stop within a second of the target
+}

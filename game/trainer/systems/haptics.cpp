@@ -1,7 +1,10 @@
 #include "game/trainer/systems.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bolt::trainer {
 
@@ -29,9 +32,15 @@ void say(Playing& p, std::span<const lesson::Event> events) {
     }
 }
 
-}  // namespace
+void note(Playing& p, const servo::Output& output) {
+    p.output = output;
+    plot(p, output);
+    say(p, p.course->events());
+    if (p.sound) p.sound->tick(output, sound::cues_of(p.course->events()));
+    if (output.undone > 0) p.undo.reset();
+}
 
-void haptic_system(scene::World& world, Frame& frame) {
+void step_ticks(Frame& frame) {
     Playing& p = frame.playing;
     play::Course& course = *p.course;
     if (!p.paused && !p.finished) p.owed += frame.seconds;
@@ -48,13 +57,45 @@ void haptic_system(scene::World& world, Frame& frame) {
             frame.status = fail(output.error());
             break;
         }
-        p.output = *output;
-        plot(p, *output);
-        say(p, course.events());
-        if (p.sound) p.sound->tick(*output, sound::cues_of(course.events()));
-        if (output->undone > 0) p.undo.reset();
+        note(p, *output);
     }
-    p.finished = p.finished || course.over();
+}
+
+// What a mouse hand would be that does the same.
+void show(MouseHand& hand, const AtStation& at) {
+    const bool engaged = at.now.output.joint >= 0;
+    hand.wrench = at.now.input.grip == servo::Grip::wrench;
+    hand.nut = engaged ? std::optional(static_cast<std::size_t>(at.now.output.joint)) : at.near;
+    hand.doing = engaged ? Doing::holding : hand.nut ? Doing::lowering : Doing::resting;
+    hand.pose = at.now.tool;
+    hand.rest = at.now.lies.value_or(at.rest);
+    hand.room = std::numeric_limits<double>::infinity();
+    hand.handle = hand.begun_at = 0.0;
+}
+
+// What the station has done since the last picture, done again beside it.
+void follow_station(Frame& frame) {
+    Playing& p = frame.playing;
+    AtStation& at = *p.station;
+    for (station::Ticked tick; !p.course->over() && frame.status && at.bench->next(tick);) {
+        frame.status = p.course->take(tick.input, tick.output);
+        if (frame.status) note(p, tick.output);
+    }
+    if (at.bench->lost() > 0 && !p.course->over() && frame.status)
+        frame.status = fail(ErrorCode::failed,
+                            fmt::format("pictures took so long that {} ticks of the servo could not be kept",
+                                        at.bench->lost()),
+                            "the session until then is whole");
+    wish(at, *p.course,
+         {p.paused || p.finished, frame.wanted.wants(Action::tool), frame.wanted.wants(Action::recentre),
+          p.undo, glm::angleAxis(p.camera.shown.yaw, Vec3(0, 1, 0))});
+    const bool had = p.hand.wrench;
+    show(p.hand, at);
+    if (p.hand.wrench && !had)
+        p.grip = scene::natural_grip(p.postures, p.output.tool, Vec3(0, 1, 0), p.shoulder);
+}
+
+scene::Held held_of(Playing& p, double seconds) {
     const bool pinches = !p.hand.wrench && p.hand.nut && p.hand.doing == Doing::holding;
     if (p.hand.doing == Doing::reaching)
         p.grip =
@@ -62,10 +103,28 @@ void haptic_system(scene::World& world, Frame& frame) {
                                 Vec3(0, 1, 0), p.shoulder);
     const bool returning = p.hand.doing == Doing::returning || p.hand.doing == Doing::holding;
     const double twisted = returning ? -twist_shown * (p.hand.handle - p.hand.begun_at) : 0.0;
-    const scene::Held held{
-        p.hand.wrench ? p.output.tool : p.hand.pose,      p.hand.wrench, p.hand.rest,  pinches,
-        scene::towards(p.hand.pose, p.shoulder, twisted), p.grip,        frame.seconds};
-    scene::place_nuts(world, setup, course.state().joints);
+    const bool gloved = p.station && p.station->gloved;
+    return {p.hand.wrench ? p.output.tool : p.hand.pose,
+            p.hand.wrench,
+            p.hand.rest,
+            pinches,
+            gloved ? p.hand.rest : scene::towards(p.hand.pose, p.shoulder, twisted),
+            p.grip,
+            seconds,
+            gloved ? &p.station->fingers : nullptr};
+}
+
+}  // namespace
+
+void haptic_system(scene::World& world, Frame& frame) {
+    Playing& p = frame.playing;
+    if (p.station)
+        follow_station(frame);
+    else
+        step_ticks(frame);
+    p.finished = p.finished || p.course->over();
+    const scene::Held held = held_of(p, frame.seconds);
+    scene::place_nuts(world, p.course->setup(), p.course->state().joints);
     scene::place_tool(world, held);
     scene::place_hand(world, p.postures, held);
 }

@@ -56,6 +56,16 @@ void pointing_system(scene::World&, Frame& frame) {
         const auto off = pixels_to(screen, wanted.pointer, p.hand.rest.position, end);
         p.over_wrench = !p.hand.wrench && !p.under && off && *off < wrench_reach;
     }
+    if (wanted.wants(Action::restart_step)) p.undo = 0;
+    if (wanted.wants(Action::undo)) p.undo = 1;
+    if (p.course->lesson().mode == lesson::Mode::assessment) p.undo.reset();
+    if (p.station) {
+        p.under.reset();
+        p.over_wrench = p.station->near_wrench;
+        p.hand_drag = false;
+        move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
+        return;
+    }
     Wish wish;
     wish.held = wanted.left && p.hand_drag;
     if (wanted.pressed) {
@@ -63,14 +73,11 @@ void pointing_system(scene::World&, Frame& frame) {
         press(p, wish);
         wish.held = wanted.left && p.hand_drag;
     }
-    if (wanted.wants(Action::restart_step)) p.undo = 0;
-    if (wanted.wants(Action::undo)) p.undo = 1;
     if (wanted.wants(Action::tool)) (p.hand.wrench ? wish.lay_down : wish.wrench) = true;
     if (wish.held) {
         wish.turn = drag_of(p, screen, wanted.dragged);
         wish.spin = (wanted.pointer.x - p.press.x) / spin_reach;
     }
-    if (p.course->lesson().mode == lesson::Mode::assessment) p.undo.reset();
     if (p.undo && p.hand.nut) wish.retreat = true;
     if (p.finished || p.paused) wish = {};
     trainer::wish(p.hand, wish, p.course->setup(), p.course->state());

@@ -1,0 +1,99 @@
+#include "game/trainer/at_station.hpp"
+
+#include <algorithm>
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double wrench_reach = 0.10;  // m from the handle's middle line
+constexpr double nut_reach = 0.06;     // m
+constexpr double let_go_reach = 0.08;  // m, of a nut that the hand is at
+constexpr double draws_from = 0.06;    // m, where no lesson leads: a tool that is only pushed is drawn on
+
+double off_handle(const Vec3& point, const Pose& wrench, double length) {
+    const Vec3 local = inverse(wrench) * point;
+    return glm::distance(local, Vec3(std::clamp(local.x, 0.0, length), 0.0, 0.0));
+}
+
+std::optional<std::size_t> nearest_nut(const play::Course& course, const Vec3& tool, double within) {
+    std::optional<std::size_t> nearest;
+    for (std::size_t i = 0; i < course.setup().nuts.size(); ++i) {
+        const Vec3 nut = servo::nut_centre(course.setup().nuts[i], course.state().joints[i].nut.angle);
+        const double distance = glm::distance(nut, tool);
+        if (distance >= within) continue;
+        within = distance;
+        nearest = i;
+    }
+    return nearest;
+}
+
+bool pinches(const hand::Skeleton& hand) {
+    return glm::distance(hand.position[hand::thumb_tip], hand.position[hand::index_tip]) < pinch;
+}
+
+// What a hand without a glove has, or the fingers of one with a glove; the wrench in that is the glove's.
+servo::Grip grip_of(const AtStation& at, bool closes, const Asked& asked) {
+    const bool has = (at.gloved ? at.now.input.grip : at.wishes.grip) == servo::Grip::wrench;
+    const bool engaged = at.now.output.joint >= 0;
+    if (has && !at.gloved) return asked.tool && !engaged ? servo::Grip::none : servo::Grip::wrench;
+    if (has) return servo::Grip::none;
+    const bool takes = (closes && !at.closed) || asked.tool;
+    if (!at.gloved && takes && at.near_wrench && !engaged) return servo::Grip::wrench;
+    return closes && at.near ? servo::Grip::fingers : servo::Grip::none;
+}
+
+void look(AtStation& at, const play::Course& course) {
+    at.now = at.bench->newest();
+    at.troubles = at.bench->troubles();
+    const station::ShownHand* hand = at.bench->hand();
+    at.gloved = hand != nullptr;
+    if (hand != nullptr && hand->any) at.fingers = hand->joints;
+    const double within = at.near ? let_go_reach : nut_reach;
+    at.near = nearest_nut(course, at.now.output.tool.position, within);
+    at.near_wrench = at.now.lies && off_handle(at.now.tool.position, *at.now.lies,
+                                               course.setup().wrench.handle_length) < wrench_reach;
+}
+
+}  // namespace
+
+bool has_dead_man(const station::Layout& layout) {
+    const auto pulls = [](const std::optional<device::Description>& d) {
+        return d && (station::renders_force(*d) || station::renders_torque(*d));
+    };
+    return pulls(layout.mover) || pulls(layout.wheel);
+}
+
+void wish(AtStation& at, const play::Course& course, const Asked& asked) {
+    look(at, course);
+    at.bench->push(at.keys.push());
+    station::Wishes& w = at.wishes;
+    const bool held = at.gloved && at.now.input.grip == servo::Grip::wrench;
+    const bool closes = at.keys.closes() || at.now.pressed || (at.gloved && !held && pinches(at.fingers));
+    w.pause = asked.paused || course.over();
+    w.rest = at.rest;
+    w.grip = grip_of(at, closes, asked);
+    w.held = !has_dead_man(at.bench->layout()) || held || at.keys.closes();
+    w.looks = asked.looks;
+    const lesson::Step* due = course.lesson().due();
+    const bool leads = due != nullptr && course.lesson().guides;
+    w.guide = leads ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
+    const bool works = closes || at.now.input.grip == servo::Grip::wrench;
+    const auto drawn = leads   ? std::optional(due->joint)
+                       : works ? nearest_nut(course, at.now.output.tool.position, draws_from)
+                               : std::nullopt;
+    w.glide = drawn ? static_cast<std::int16_t>(*drawn) : std::int16_t{-1};
+    w.marks = course.marks();
+    const std::uint8_t back =
+        asked.undo && at.now.output.joint < 0 ? course.undo_by(*asked.undo) : std::uint8_t{0};
+    if (back != 0 && w.back == 0) ++w.back_number;
+    w.back = back;
+    if (asked.recentre && at.now.output.joint < 0) {
+        w.put = at.home;
+        ++w.put_number;
+    }
+    at.bench->wish(w);
+    at.closed = closes;
+}
+
+}  // namespace bolt::trainer

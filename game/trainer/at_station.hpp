@@ -1,0 +1,50 @@
+// Somebody who plays at a station: the servo's thread has the ticks and the devices, the lesson follows tick
+// by tick with a servo of its own (play::Course::take), and what is wished goes back with every picture.
+//
+// A hand closes by a device's button, the space bar or a glove. Closed beside the wrench it takes that,
+// closed beside a nut it holds it with its fingers. A key lays the wrench down; a gloved hand lets go of it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/play/course.hpp"
+#include "game/station/bench.hpp"
+#include "game/trainer/controls.hpp"
+#include "game/trainer/pushing.hpp"
+
+namespace bolt::trainer {
+
+struct AtStation {
+    std::unique_ptr<station::Bench> bench;
+    Pose home, rest;  // where the tool begins, and where the wrench lies
+    Pushing keys;
+
+    station::Ticked now;  // the newest
+    station::Wishes wishes;
+    bool closed = false;              // the hand, in the last picture
+    std::optional<std::size_t> near;  // nut that the tool is at
+    bool near_wrench = false;         // the hand is where it could take it
+    std::vector<std::string> troubles;
+    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench in the hand or where that lies
+    bool gloved = false;
+};
+
+// What is wished of the station after a picture. `looks`: how whoever pushes looks at the machine.
+struct Asked {
+    bool paused = false;
+    bool tool = false;      // the key that lays the wrench down
+    bool recentre = false;  // the tool goes back to where it was at the beginning
+    std::optional<std::size_t> undo;
+    Quat looks{1.0, 0.0, 0.0, 0.0};
+};
+void wish(AtStation& at, const play::Course& course, const Asked& asked);
+
+// Whether forces go out only as long as somebody holds a button, or the tool in a gloved hand.
+bool has_dead_man(const station::Layout& layout);
+
+// m from thumb's to index finger's tip below which a gloved hand pinches.
+inline constexpr double pinch = 0.035;
+
+}  // namespace bolt::trainer

@@ -1,0 +1,63 @@
+#include "game/trainer/equipment.hpp"
+
+#include "game/station/plan.hpp"
+#include "haptics/device/timer.hpp"
+#include "haptics/glove/serial_line.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+std::string name_of(const station::Choice& choice) {
+    std::string name = choice.mover ? choice.mover->name : std::string();
+    if (choice.wheel) name += (name.empty() ? "" : " + ") + choice.wheel->name;
+    return name;
+}
+
+}  // namespace
+
+std::vector<Seat> seats() {
+    std::vector<Seat> there{{{}, {}}};
+    const station::Choice all = station::choose_any(device::list());
+    const auto add = [&](const station::Choice& choice) {
+        there.push_back({name_of(choice), {station::ids_of(choice), {}, {}, false}});
+    };
+    if (all.mover) add({all.mover, std::nullopt});
+    if (all.wheel) add({std::nullopt, all.wheel});
+    if (all.mover && all.wheel) add(all);
+    return there;
+}
+
+Equipment usual_equipment() {
+    Equipment with;
+    const station::Choice all = station::choose_any(device::list());
+    if (all.mover) with.devices = station::ids_of(all);
+    return with;
+}
+
+Result<std::unique_ptr<station::Bench>> start_station(const content::Assembly& assembly,
+                                                      const play::CourseOptions& course,
+                                                      const Equipment& with, const std::string& trainee) {
+    device::Puck puck({}, device::steady_timer());
+    station::Wanted wanted;
+    wanted.devices = with.devices;
+    wanted.rig = with.rig;
+    wanted.otherwise = puck.open();
+    wanted.glove = with.glove;
+    wanted.trainee = trainee;
+    if (!with.glove.empty() && trainee.empty())
+        return fail(ErrorCode::no_device, "nobody is said to wear the glove",
+                    "the trainee's name, as boltwright glove calibrate has it");
+    Result<station::Planned> planned = station::plan_lesson(assembly, course, wanted, {});
+    if (!planned) return fail(planned.error());
+    station::Plan& plan = planned->plan;
+    plan.wishes.pause = true;
+    std::optional<device::Puck> pushed;
+    if (!planned->choice.mover) {
+        pushed = std::move(puck);
+        plan.mover_buttons = {1, 0, 0, 0};
+    }
+    return station::start_bench(std::move(plan), std::move(pushed));
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,287 @@
+// A lesson at a station: the servo has its own time, the lesson follows with another servo, and somebody
+// plays by the keys that a keyboard has.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "content/format/load.hpp"
+#include "game/play/replay.hpp"
+#include "game/record/session.hpp"
+#include "game/trainer/at_station.hpp"
+#include "game/trainer/mouse_hand.hpp"
+#include "tests/station/virtual_bench.hpp"
+#include "tests/support/sanitized.hpp"
+
+using namespace bolt;
+using namespace bolt::trainer;
+using platform::Key;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double frame = 0.02;  // s
+
+// The servo at the keyboard, and the lesson beside it.
+struct Played {
+    content::Assembly assembly;
+    play::CourseOptions options;
+    std::unique_ptr<play::Course> course;
+    AtStation at;
+    test::VirtualBench* bench = nullptr;
+    Asked asked;
+    std::set<Key> down;
+    fs::path file;
+    Status status;
+    std::vector<std::string> mistakes;
+
+    explicit Played(const char* name, lesson::Mode mode = lesson::Mode::guided) {
+        content::Loaded loaded = content::load_assembly(name);
+        REQUIRE(loaded.ok());
+        assembly = std::move(loaded.assembly);
+        options.mode = mode;
+        options.obstacles = play::Obstacles::if_any;
+        file = fs::path(BOLT_TRAINER_OUT) / "station.boltwright";
+        auto one = play::prepare(assembly, options), other = play::prepare(assembly, options);
+        REQUIRE(one);
+        REQUIRE(other);
+        auto made = std::make_unique<test::VirtualBench>(std::move(*one), options);
+        bench = made.get();
+        at.bench = std::move(made);
+        options.device = bench->setup().limits;
+        play::use_device(options, *other);
+        auto begun = play::Course::begin(std::move(*other), options, file);
+        REQUIRE(begun);
+        course = std::move(*begun);
+        at.rest = {Vec3(0.0, 0.01, 0.25), glm::angleAxis(-0.5 * pi, Vec3(1, 0, 0))};
+        at.home = make_hand(at.rest).pose;
+        at.wishes.put = at.home;
+        at.wishes.put_number = 1;
+        picture();
+    }
+
+    void hold(const std::set<Key>& keys) {
+        std::vector<platform::Event> events;
+        for (const Key key : down)
+            if (!keys.contains(key)) events.emplace_back(platform::KeyEvent{key, false, false, {}});
+        for (const Key key : keys)
+            if (!down.contains(key)) events.emplace_back(platform::KeyEvent{key, true, false, {}});
+        down = keys;
+        at.keys.take(events);
+    }
+    void picture() {
+        bench->pass(frame);
+        for (station::Ticked tick; status && !course->over() && at.bench->next(tick);) {
+            status = course->take(tick.input, tick.output);
+            for (const lesson::Event& event : course->events())
+                if (event.kind == "mistake") mistakes.push_back(event.text);
+            if (tick.output.undone > 0) asked.undo.reset();
+        }
+        wish(at, *course, asked);
+        asked.tool = asked.recentre = false;
+    }
+    void pictures(double seconds) {
+        for (double t = 0.0; t < seconds; t += frame) picture();
+    }
+    [[nodiscard]] const lesson::Step* due() const { return course->lesson().due(); }
+    [[nodiscard]] int engaged() const { return at.now.output.joint; }
+    [[nodiscard]] bool has_wrench() const { return at.now.input.grip == servo::Grip::wrench; }
+    [[nodiscard]] Vec3 nut() const {
+        return servo::nut_centre(course->setup().nuts[due()->joint],
+                                 course->state().joints[due()->joint].nut.angle);
+    }
+};
+
+// Somebody at the keys.
+class Keyboard {
+  public:
+    explicit Keyboard(Played& played) : p_(played) {}
+
+    void play(double longest, std::size_t steps = SIZE_MAX) {
+        while (p_.status && p_.due() != nullptr && p_.course->time() < longest &&
+               p_.course->lesson().current < steps)
+            do_step();
+        p_.hold({});
+    }
+
+  private:
+    void go_on(const std::set<Key>& keys) {
+        p_.hold(keys);
+        p_.picture();
+    }
+    // Keys that move the tool there.
+    static std::set<Key> towards(const Vec3& way, double near) {
+        std::set<Key> keys;
+        const auto add = [&](double along, Key more, Key less) {
+            if (std::abs(along) > near) keys.insert(along > 0.0 ? more : less);
+        };
+        add(way.x, Key::d, Key::a);
+        add(way.y, Key::e, Key::q);
+        add(way.z, Key::s, Key::w);
+        return keys;
+    }
+    void go_to(const Vec3& place, double near, double longest) {
+        for (double t = 0.0; t < longest && glm::length(place - p_.at.now.tool.position) > 2.0 * near;
+             t += frame)
+            go_on(towards(place - p_.at.now.tool.position, near));
+        go_on({});
+    }
+    void do_step() {
+        const std::size_t current = p_.course->lesson().current;
+        const bool fingers = p_.due()->kind == lesson::StepKind::run_down;
+        if (fingers && p_.has_wrench()) p_.asked.tool = true;
+        if (!fingers && !p_.has_wrench()) take_wrench();
+        p_.pictures(0.1);
+        reach(fingers);
+        if (p_.engaged() >= 0) {
+            if (fingers)
+                spin(current);
+            else
+                pull();
+        }
+        come_off();
+    }
+    void take_wrench() {
+        const Pose lies = p_.at.now.lies.value_or(p_.at.rest);
+        go_to(lies * Vec3(0.1, 0.0, 0.1), 0.02, 6.0);
+        go_to(lies * Vec3(0.1, 0.0, 0.03), 0.01, 4.0);
+        for (int i = 0; i < 5; ++i) go_on({Key::space});
+        go_on({});
+        REQUIRE(p_.has_wrench());
+        for (int i = 0; i < 30; ++i) go_on({Key::e});
+    }
+    // As the ghost has it: with room for the handle.
+    void turn_to_fit() {
+        const Pose ghost =
+            wrench_on(make_hand(p_.at.rest), p_.course->setup(), p_.course->state(), p_.due()->joint, false);
+        for (double t = 0.0; t < 8.0; t += frame) {
+            const Quat& now = p_.at.now.tool.orientation;
+            const Vec3 left = rotation_vector(glm::normalize(ghost.orientation * glm::conjugate(now)));
+            if (glm::length(left) < 0.08) break;
+            std::set<Key> keys;
+            const auto add = [&](double about, Key more, Key less) {
+                if (std::abs(about) > 0.03) keys.insert(about > 0.0 ? more : less);
+            };
+            add(left.x, Key::down, Key::up);
+            add(left.y, Key::left, Key::right);
+            add(left.z, Key::page_up, Key::page_down);
+            go_on(keys);
+        }
+        go_on({});
+    }
+    void reach(bool fingers) {
+        if (!fingers) turn_to_fit();
+        go_to(p_.nut() + Vec3(0.0, 0.1, 0.0), 0.02, 8.0);
+        for (double t = 0.0; t < 6.0 && p_.engaged() < 0; t += frame)
+            go_on(fingers ? std::set<Key>{Key::space} : std::set<Key>{});
+    }
+    void spin(std::size_t current) {
+        for (double t = 0.0; t < 60.0 && p_.course->lesson().current == current && p_.engaged() >= 0 &&
+                             !lesson::reached(p_.course->lesson(), p_.course->state().joints);
+             t += frame)
+            go_on({Key::space, Key::right});
+    }
+    void pull() {
+        const lesson::Step step = *p_.due();
+        double still = 0.0, angle = 0.0;
+        while (p_.status && p_.engaged() >= 0 && still < 1.0 &&
+               p_.course->state().joints[step.joint].torque < step.torque) {
+            go_on({Key::right});
+            const double now = p_.course->state().joints[step.joint].torque;
+            still = now > angle + 0.02 || p_.course->state().joints[step.joint].nut.speed > 0.02
+                        ? 0.0
+                        : still + frame;
+            angle = std::max(angle, now);
+        }
+        for (int i = 0; i < 100 && p_.engaged() >= 0 && p_.course->state().joints[step.joint].torque > 0.5;
+             ++i)
+            go_on({Key::left});
+    }
+    void come_off() {
+        for (int i = 0; i < 30; ++i) go_on({Key::e});
+    }
+
+    Played& p_;
+};
+
+}  // namespace
+
+TEST_CASE("a lesson played with keys at a station whose servo has its own time") {
+    Played played("cover-m8");
+    Keyboard keyboard(played);
+    keyboard.play(test::sanitized ? 60.0 : 400.0, test::sanitized ? 1 : SIZE_MAX);
+    if (!played.status) FAIL(played.status.error().message());
+    MESSAGE("at " << played.course->time() << " s step " << played.course->lesson().current << " of "
+                  << played.course->lesson().steps.size());
+    for (const std::string& mistake : played.mistakes) MESSAGE(mistake);
+    const auto finished = played.course->finish();
+    REQUIRE(finished);
+    if (test::sanitized) return;
+    CHECK(finished->result.finished);
+    CHECK(finished->result.score > 80.0);
+    MESSAGE("score " << finished->result.score);
+    // And the file replays it to the bit.
+    const auto reader = record::Reader::open(played.file);
+    REQUIRE(reader);
+    auto at = play::prepare_again(*reader);
+    REQUIRE(at);
+    std::size_t steps = 0;
+    const auto replayed = play::replay(*reader, std::move(*at), [&](const play::Moment& moment) {
+        steps = moment.lesson.current;
+        return true;
+    });
+    REQUIRE(replayed);
+    CHECK(replayed->wrong == 0);
+    CHECK(steps == played.course->lesson().current);
+}
+
+TEST_CASE("a servo that was told something else than the lesson is found out at once") {
+    Played played("cover-m8");
+    played.pictures(0.2);
+    REQUIRE(played.status);
+    const double before = played.course->time();
+    CHECK(before == doctest::Approx(0.2));
+    played.bench->garbles_ = true;
+    played.hold({Key::d});
+    played.pictures(0.1);
+    CHECK_FALSE(played.status);
+    CHECK(played.course->time() < before + 0.1);
+}
+
+TEST_CASE("paused, a station's lesson stands still; a step is taken back there as at the mouse") {
+    Played played("cover-m8");
+    Keyboard keyboard(played);
+    keyboard.play(60.0, 1);
+    REQUIRE(played.course->lesson().current == 1);
+    const std::size_t first = played.course->lesson().steps[0].joint;
+    REQUIRE(played.course->state().joints[first].nut.angle > 6.0);
+    played.asked.paused = true;
+    played.pictures(0.1);
+    const double before = played.course->time();
+    played.hold({Key::d});
+    played.pictures(1.0);
+    CHECK(played.course->time() == before);
+    played.asked.paused = false;
+    played.hold({});
+    played.asked.undo = 1;
+    played.pictures(0.5);
+    CHECK_FALSE(played.asked.undo);
+    CHECK(played.course->lesson().current == 0);
+    CHECK(played.course->state().joints[first].nut.angle == 0.0);
+    played.pictures(0.2);
+    REQUIRE(played.status);
+    REQUIRE(played.course->finish());
+    const auto reader = record::Reader::open(played.file);
+    REQUIRE(reader);
+    auto at = play::prepare_again(*reader);
+    REQUIRE(at);
+    std::size_t current = 9;
+    const auto replayed = play::replay(*reader, std::move(*at), [&](const play::Moment& moment) {
+        current = moment.lesson.current;
+        return true;
+    });
+    REQUIRE(replayed);
+    CHECK(replayed->wrong == 0);
+    CHECK(current == 0);
+}
