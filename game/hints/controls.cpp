@@ -47,6 +47,29 @@ Controls device_controls(const words::Words& words, const std::string& button, c
     return said;
 }
 
+namespace {
+
+Controls pushed(const words::Words& words, const std::string& button, const std::string& tool_key, Key move,
+                Key turn) {
+    Controls said = device_controls(words, button, tool_key);
+    for (const Motion motion : {Motion::approach, Motion::reach, Motion::set_on})
+        at(said, motion) = words::say(words, move, {{"key", button}});
+    for (const Motion motion : {Motion::spin, Motion::pull_on, Motion::pull_off})
+        at(said, motion) = words::say(words, turn, {});
+    return said;
+}
+
+}  // namespace
+
+Controls puck_controls(const words::Words& words, const std::string& button, const std::string& tool_key) {
+    return pushed(words, button, tool_key, "control.puck.move", "control.device.turn");
+}
+
+Controls keyboard_controls(const words::Words& words, const std::string& button,
+                           const std::string& tool_key) {
+    return pushed(words, button, tool_key, "control.keys.move", "control.keys.turn");
+}
+
 Controls glove_controls(const words::Words& words) { return controls(words, &Row::glove, {}); }
 
 }  // namespace bolt::hints

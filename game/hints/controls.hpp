@@ -12,6 +12,10 @@ Controls mouse_controls(const words::Words& words, const std::string& tool_key);
 // With a device in the hand: `button` closes the hand, `tool_key` lays the wrench down.
 Controls device_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
 
+// With what is only pushed, and feels nothing: while `button` is held it goes the last bit by itself.
+Controls puck_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+Controls keyboard_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+
 // With a hand in a glove.
 Controls glove_controls(const words::Words& words);
 

@@ -242,8 +242,12 @@ void App::name_controls() {
         keys ? std::string(platform::name(platform::Key::space))
              : words::say(words_, "control.device.button",
                           {{"number", words::Number{static_cast<double>(std::countr_zero(held) + 1), 0}}});
-    controls_ = at->bench->hand() != nullptr ? hints::glove_controls(words_)
-                                             : hints::device_controls(words_, closes, tool);
+    const auto& mover = at->bench->layout().mover;
+    const bool feels = mover && station::renders_force(*mover);
+    controls_ = at->bench->hand() != nullptr           ? hints::glove_controls(words_)
+                : options_.choice.with.devices.empty() ? hints::keyboard_controls(words_, closes, tool)
+                : feels                                ? hints::device_controls(words_, closes, tool)
+                                                       : hints::puck_controls(words_, closes, tool);
 }
 
 Status App::unseen() {

@@ -78,11 +78,10 @@ void wish(AtStation& at, const play::Course& course, const Asked& asked) {
     const lesson::Step* due = course.lesson().due();
     const bool leads = due != nullptr && course.lesson().guides;
     w.guide = leads ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
-    const bool works = closes || at.now.input.grip == servo::Grip::wrench;
-    const auto drawn = leads   ? std::optional(due->joint)
-                       : works ? nearest_nut(course, at.now.output.tool.position, draws_from)
-                               : std::nullopt;
-    w.glide = drawn ? static_cast<std::int16_t>(*drawn) : std::int16_t{-1};
+    // Only while the hand closes: nothing is done by itself.
+    const auto drawn =
+        leads ? std::optional(due->joint) : nearest_nut(course, at.now.output.tool.position, draws_from);
+    w.glide = drawn && closes ? static_cast<std::int16_t>(*drawn) : std::int16_t{-1};
     w.marks = course.marks();
     const std::uint8_t back =
         asked.undo && at.now.output.joint < 0 ? course.undo_by(*asked.undo) : std::uint8_t{0};

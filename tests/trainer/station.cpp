@@ -173,8 +173,7 @@ class Keyboard {
     void reach(bool fingers) {
         if (!fingers) turn_to_fit();
         go_to(p_.nut() + Vec3(0.0, 0.1, 0.0), 0.02, 8.0);
-        for (double t = 0.0; t < 6.0 && p_.engaged() < 0; t += frame)
-            go_on(fingers ? std::set<Key>{Key::space} : std::set<Key>{});
+        for (double t = 0.0; t < 6.0 && p_.engaged() < 0; t += frame) go_on({Key::space});
     }
     void spin(std::size_t current) {
         for (double t = 0.0; t < 60.0 && p_.course->lesson().current == current && p_.engaged() >= 0 &&
