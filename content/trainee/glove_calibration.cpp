@@ -9,6 +9,7 @@
 
 #include "content/format/members.hpp"
 #include "content/format/wording.hpp"
+#include "content/trainee/data_folder.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::content {
@@ -140,13 +141,8 @@ Status save_glove_calibration(const std::filesystem::path& path, const GloveCali
 
 std::filesystem::path glove_calibration_path(const std::filesystem::path& folder, std::string_view trainee,
                                              glove::Hand hand) {
-    std::string name;
-    for (const char c : trainee) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
-        name += plain ? std::string(1, c) : fmt::format("_{:02x}", byte);
-    }
-    return folder / fmt::format("{}.{}.glove.json", name, hand == glove::Hand::left ? "left" : "right");
+    return folder / fmt::format("{}.{}.glove.json", file_name_of(trainee),
+                                hand == glove::Hand::left ? "left" : "right");
 }
 
 }  // namespace bolt::content

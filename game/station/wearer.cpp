@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
+#include "content/trainee/data_folder.hpp"
 #include "game/play/touch_models.hpp"
 #include "haptics/device/timer.hpp"
 #include "haptics/glove/adapter.hpp"
@@ -54,14 +54,9 @@ const char* name(glove::Hand hand) { return hand == glove::Hand::left ? "left" :
 }  // namespace
 
 Result<fs::path> calibrations_folder() {
-    // NOLINTBEGIN(concurrency-mt-unsafe): nothing sets them
-    if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && fs::path(data).is_absolute())
-        return fs::path(data) / "boltwright" / "gloves";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return fs::path(home) / ".local" / "share" / "boltwright" / "gloves";
-    // NOLINTEND(concurrency-mt-unsafe)
-    return fail(ErrorCode::usage, "there is no home folder that calibrations are kept in",
-                "one in the environment's HOME, or the folder itself");
+    const Result<fs::path> data = content::data_folder();
+    if (!data) return fail(data.error());
+    return *data / "gloves";
 }
 
 Result<glove::Identity> await_glove(glove::Driver& driver, const fs::path& port) {

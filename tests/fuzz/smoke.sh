@@ -21,6 +21,7 @@ smoke gltf 20000 -dict="$here/gltf.dict" -max_len=16384 "$bin/../corpus/gltf"
 smoke glove 100000 -max_len=4096 -dict="$here/glove.dict"
 smoke cal 100000 "$bin/../corpus/cal"
 smoke calibration 50000 -dict="$here/calibration.dict" -max_len=8192 "$bin/../corpus/calibration"
+smoke settings 50000 -dict="$here/settings.dict" -max_len=4096 "$bin/../corpus/settings"
 smoke report 200000 -max_len=512
 smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
 smoke words 10000 -max_len=32768 "$bin/../corpus/words"

@@ -1,0 +1,162 @@
+#include "content/trainee/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "content/format/members.hpp"
+#include "content/trainee/data_folder.hpp"
+#include "engine/base/file.hpp"
+
+namespace bolt::content {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* format_name = "boltwright settings 1";
+constexpr std::size_t longest_file = 1U << 16U;
+constexpr std::size_t longest_name = 64;  // bytes, as of a calibration's trainee
+constexpr const char *usual = "usual", *distinct = "distinct";
+
+bool knows(const std::vector<std::string>& all, const std::string& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+void read_language(Members& members, const json& root, Settings& to, const SettingsVocabulary& known) {
+    to.language = members.text(root, "language");
+    if (to.language.empty() || knows(known.languages, to.language)) return;
+    members.report("/language", Part::value, fmt::format("{} is no language here", in_quotes(to.language)),
+                   suggest(to.language, known.languages));
+}
+
+void read_palette(Members& members, const json& root, Settings& to) {
+    const std::string name = members.text(root, "palette");
+    if (name != usual && name != distinct)
+        members.report("/palette", Part::value, fmt::format("{} is no palette", in_quotes(name)),
+                       fmt::format("expected \"{}\" or \"{}\"", usual, distinct));
+    to.palette = name == distinct ? PaletteKind::distinct : PaletteKind::usual;
+}
+
+void read_seat(Members& members, const json& root, Settings& to) {
+    const json* seat = members.find(root, "", "seated_height_m");
+    if (seat == nullptr || seat->is_null()) return;
+    to.seated_height = members.number(root, "", "seated_height_m", lowest_seat, highest_seat);
+}
+
+void read_key(Members& members, const std::string& action, const json& value, std::set<std::string>& taken,
+              const SettingsVocabulary& known) {
+    const std::string at = "/keys/" + pointer_token(action);
+    if (!value.is_string())
+        return members.report(at, Part::value, fmt::format("the key of \"{}\" is no text", action),
+                              "expected the name of a key, as \"T\"");
+    const auto& key = value.get_ref<const std::string&>();
+    if (!knows(known.keys, key))
+        return members.report(at, Part::value, fmt::format("{} is no key that could be used", in_quotes(key)),
+                              suggest(key, known.keys));
+    if (const auto kept = known.reserved.find(key); kept != known.reserved.end() && kept->second != action)
+        return members.report(at, Part::value,
+                              fmt::format("{} is always the key of \"{}\"", in_quotes(key), kept->second),
+                              "expected another key");
+    if (!taken.insert(key).second)
+        members.report(at, Part::value, fmt::format("{} is the key of two actions", in_quotes(key)),
+                       "expected a key of its own for each of them");
+}
+
+void read_keys(Members& members, const json& root, Settings& to, const SettingsVocabulary& known) {
+    const json* keys = members.find(root, "", "keys");
+    if (keys == nullptr) return;
+    if (!keys->is_object())
+        return members.report("/keys", Part::value, "these are no keys",
+                              "expected an object with a key an action, as {\"tool\": \"T\"}");
+    members.only(*keys, "/keys", known.actions);
+    std::set<std::string> taken;
+    for (const auto& [action, key] : keys->items()) {
+        read_key(members, action, key, taken, known);
+        if (members.wrong) return;
+        to.keys[action] = key.get<std::string>();
+    }
+}
+
+}  // namespace
+
+Result<Settings> parse_settings(std::string_view text, const std::string& file,
+                                const SettingsVocabulary& known) {
+    std::vector<Error> errors;
+    const auto document = JsonDocument::parse(text, file, errors);
+    if (!errors.empty()) return fail(errors.front());
+    Members members{*document, {}};
+    const json& root = document->root();
+    Settings read;
+    if (!root.is_object()) {
+        members.report("", Part::value, "these are no settings", "expected a JSON object");
+        return fail(*members.wrong);
+    }
+    if (members.text(root, "format") != format_name)
+        members.report("/format", Part::value, "these are no settings that are known here",
+                       fmt::format("expected \"format\": \"{}\"", format_name));
+    members.only(root, "",
+                 {"format", "trainee", "language", "volume", "captions", "palette", "left_handed",
+                  "force_scale", "seated_height_m", "keys"});
+    read.trainee = members.text(root, "trainee", longest_name);
+    read_language(members, root, read, known);
+    read.volume = members.number(root, "", "volume", 0.0, 1.0);
+    read.captions = members.flag(root, "captions");
+    read_palette(members, root, read);
+    read.left_handed = members.flag(root, "left_handed");
+    read.force_scale = members.number(root, "", "force_scale", least_force_scale, 1.0);
+    read_seat(members, root, read);
+    read_keys(members, root, read, known);
+    if (members.wrong) return fail(*members.wrong);
+    return read;
+}
+
+std::string settings_text(const Settings& settings) {
+    nlohmann::ordered_json root;
+    root["format"] = format_name;
+    root["trainee"] = settings.trainee;
+    root["language"] = settings.language;
+    root["volume"] = settings.volume;
+    root["captions"] = settings.captions;
+    root["palette"] = settings.palette == PaletteKind::distinct ? distinct : usual;
+    root["left_handed"] = settings.left_handed;
+    root["force_scale"] = settings.force_scale;
+    root["seated_height_m"] = settings.seated_height ? nlohmann::ordered_json(*settings.seated_height)
+                                                     : nlohmann::ordered_json(nullptr);
+    root["keys"] = settings.keys;
+    // Names come from outside: what is no UTF-8 in them must not make a file that cannot be read.
+    return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+Result<Settings> load_settings(const std::filesystem::path& path, const SettingsVocabulary& known) {
+    const Result<std::string> text = read_file(path, longest_file, ErrorCode::bad_content);
+    if (!text) return fail(text.error());
+    return parse_settings(*text, path.string(), known);
+}
+
+Status save_settings(const std::filesystem::path& path, const Settings& settings,
+                     const SettingsVocabulary& known) {
+    const std::string text = settings_text(settings);
+    // What could not be read back is not written over what can.
+    if (const auto again = parse_settings(text, path.string(), known); !again) return fail(again.error());
+    std::error_code problem;
+    if (!path.parent_path().empty()) std::filesystem::create_directories(path.parent_path(), problem);
+    if (problem)
+        return fail(ErrorCode::failed, fmt::format("{}: this folder cannot be made: {}",
+                                                   path.parent_path().string(), problem.message()));
+    if (std::filesystem::is_regular_file(path, problem) && !load_settings(path, known)) {
+        std::filesystem::path beside = path;
+        beside += ".unread";
+        std::filesystem::rename(path, beside, problem);
+        if (problem)
+            return fail(ErrorCode::failed,
+                        fmt::format("{}: what cannot be read there cannot be put aside: {}", path.string(),
+                                    problem.message()));
+    }
+    return write_file(path, text);
+}
+
+std::filesystem::path settings_path(const std::filesystem::path& folder, std::string_view trainee) {
+    return folder / fmt::format("{}.settings.json", file_name_of(trainee));
+}
+
+}  // namespace bolt::content

@@ -1,0 +1,58 @@
+#include "haptics/force/scaled.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "haptics/force/limiter.hpp"
+
+using namespace bolt;
+using namespace bolt::force;
+
+TEST_CASE("every limit of force and torque becomes that share of it, and nothing else changes") {
+    const OutputLimits whole;
+    for (const double share : {0.1, 0.35, 0.5, 1.0}) {
+        const OutputLimits less = scaled(whole, share);
+        CHECK(less.force == doctest::Approx(share * 20.0));
+        CHECK(less.torque == doctest::Approx(share * 2.0));
+        CHECK(less.force_rate == doctest::Approx(share * 2000.0));
+        CHECK(less.torque_rate == doctest::Approx(share * 200.0));
+        CHECK(less.stiffness == whole.stiffness);
+        CHECK(less.torsion == whole.torsion);
+        CHECK(less.damping == whole.damping);
+        CHECK(less.angular_damping == whole.angular_damping);
+        CHECK(less.speed == whole.speed);
+        CHECK(less.ramp_up == whole.ramp_up);
+        CHECK(less.release == whole.release);
+        CHECK(less.silence == whole.silence);
+    }
+}
+
+TEST_CASE("it is never more than the device's own limits, whatever is asked for") {
+    const OutputLimits whole;
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    for (const double asked : {1.0 + 1e-12, 2.0, 1e300, inf})
+        CHECK(scaled(whole, asked).force == whole.force);
+    for (const double asked : {0.0, -0.0, -1.0, -inf, std::nan("")}) {
+        CHECK(scaled(whole, asked).force == 0.0);
+        CHECK(scaled(whole, asked).torque_rate == 0.0);
+    }
+    OutputLimits no_torque = whole;
+    no_torque.torque = 0.0;
+    CHECK(scaled(no_torque, 0.5).torque == 0.0);
+}
+
+TEST_CASE("what leaves the limiter obeys the smaller limits") {
+    const OutputLimits less = scaled(OutputLimits{}, 0.25);
+    OutputState state;
+    double before = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        const OutputCommand out =
+            limit_output(less, state, {Vec3(100.0, 0.0, 0.0), Vec3(0.0, 100.0, 0.0)}, true, 1e-3);
+        CHECK(glm::length(out.force) <= 5.0 + 1e-12);
+        CHECK(glm::length(out.torque) <= 0.5 + 1e-12);
+        CHECK(out.force.x - before <= 0.5 + 1e-12);
+        before = out.force.x;
+    }
+    CHECK(before == doctest::Approx(5.0));
+}

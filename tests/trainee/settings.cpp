@@ -1,0 +1,176 @@
+#include "content/trainee/settings.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstdlib>
+
+#include "content/trainee/data_folder.hpp"
+#include "engine/base/file.hpp"
+#include "engine/base/random.hpp"
+
+using namespace bolt;
+using namespace bolt::content;
+namespace fs = std::filesystem;
+
+namespace {
+
+const SettingsVocabulary known{
+    {"de", "en", "zh"}, {"hint", "pause", "tool"}, {"Escape", "F1", "H", "T"}, {{"Escape", "pause"}}};
+
+Settings example(std::uint64_t seed) {
+    Random random(seed);
+    Settings s;
+    s.trainee = "Ada Lovelace";
+    s.language = seed % 2 == 0 ? "" : "zh";
+    s.volume = random.uniform();
+    s.captions = random.chance(0.5);
+    s.palette = random.chance(0.5) ? PaletteKind::distinct : PaletteKind::usual;
+    s.left_handed = random.chance(0.5);
+    s.force_scale = random.uniform(least_force_scale, 1.0);
+    if (random.chance(0.5)) s.seated_height = random.uniform(lowest_seat, highest_seat);
+    if (random.chance(0.7)) s.keys["tool"] = random.chance(0.5) ? "T" : "F1";
+    if (random.chance(0.7)) s.keys["hint"] = "H";
+    return s;
+}
+
+struct Folder {
+    fs::path path = fs::temp_directory_path() / "boltwright_settings_test";
+    Folder() {
+        fs::remove_all(path);
+        fs::create_directories(path);
+    }
+    ~Folder() { fs::remove_all(path); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("settings: what is written is read, to the last bit, and the same bytes again") {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const Settings s = example(seed);
+        const std::string text = settings_text(s);
+        const auto read = parse_settings(text, "a.json", known);
+        REQUIRE_MESSAGE(read, (read ? "" : read.error().message()));
+        CHECK(read->trainee == s.trainee);
+        CHECK(read->language == s.language);
+        CHECK(read->volume == s.volume);
+        CHECK(read->captions == s.captions);
+        CHECK(read->palette == s.palette);
+        CHECK(read->left_handed == s.left_handed);
+        CHECK(read->force_scale == s.force_scale);
+        CHECK(read->seated_height == s.seated_height);
+        CHECK(read->keys == s.keys);
+        CHECK(settings_text(*read) == text);
+    }
+}
+
+TEST_CASE("settings: what is wrong is said with file, line and column, and what would be right") {
+    Settings s = example(1);
+    s.volume = 0.5;
+    s.captions = true;
+    s.seated_height = 1.2;
+    s.force_scale = 0.5;
+    s.palette = PaletteKind::usual;
+    s.keys = {{"tool", "T"}, {"hint", "H"}};
+    const std::string good = settings_text(s);
+    const auto message = [&](const std::string& from, const std::string& to) {
+        const auto read = parse_settings(replaced(good, from, to), "ada.json", known);
+        REQUIRE(!read);
+        CHECK(read.error().code == ErrorCode::bad_content);
+        return read.error().message();
+    };
+    CHECK(message("settings 1", "settings 2").find("ada.json:2:13: ") == 0);
+    CHECK(message("\"zh\"", "\"zz\"").find("ada.json:4:15: /language: \"zz\" is no language") == 0);
+    CHECK(message("0.5", "1.5").find("ada.json:5:13: ") == 0);
+    CHECK(message("\"captions\": true", "\"captions\": 1").find("expected true or false") !=
+          std::string::npos);
+    CHECK(message("\"usual\"", "\"colourful\"").find("expected \"usual\" or \"distinct\"") !=
+          std::string::npos);
+    CHECK(message("scale\": 0.5", "scale\": 0.05").find("from 0.1 to 1") != std::string::npos);
+    CHECK(message("1.2", "2.2").find("from 0.9 to 1.5") != std::string::npos);
+    CHECK(message("1.2", "\"high\"").find("from 0.9 to 1.5") != std::string::npos);
+    CHECK(message("\"palette\"", "\"pallete\"").find("did you mean \"palette\"") != std::string::npos);
+    CHECK(message("\"tool\"", "\"tol\"").find("did you mean \"tool\"") != std::string::npos);
+    CHECK(message("\"T\"", "\"Q\"").find("is no key that could be used") != std::string::npos);
+    CHECK(message("\"T\"", "\"H\"").find("ada.json:13:13: /keys/tool: \"H\" is the key of two actions") == 0);
+    CHECK(message("\"T\"", "\"Escape\"").find("is always the key of \"pause\"") != std::string::npos);
+    CHECK(message("\"T\"", "7").find("is no text") != std::string::npos);
+    CHECK(message("  \"captions\": true,\n", "").find("\"captions\" is missing") != std::string::npos);
+    CHECK(parse_settings(replaced(good, "\"tool\": \"T\"", "\"pause\": \"Escape\""), "x", known));
+    for (std::size_t cut = 0; cut + 3 < good.size(); cut += 5) {
+        const auto read = parse_settings(good.substr(0, cut), "ada.json", known);
+        REQUIRE(!read);
+        CHECK(read.error().line >= 1);
+    }
+    CHECK(!parse_settings("[]", "x", known));
+    CHECK(!parse_settings("{\"format\": 3}", "x", known));
+}
+
+TEST_CASE("settings: kept by trainee, and a write that fails leaves what was there") {
+    const Folder folder;
+    const fs::path path = settings_path(folder.path / "made" / "for it", "Ada");
+    CHECK(path != settings_path(path.parent_path(), "ada"));
+    CHECK(settings_path(folder.path, "../../etc/x").parent_path() == folder.path);
+    Settings first = example(1);
+    REQUIRE(save_settings(path, first, known));
+    CHECK(settings_text(load_settings(path, known).value()) == settings_text(first));
+
+    // A full disk: the process may write no more than some bytes to any file.
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+    rlimit little = before;
+    little.rlim_cur = 60;
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &little) == 0);
+    const Status failed = save_settings(path, example(2), known);
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &before) == 0);
+    REQUIRE(!failed);
+    CHECK(failed.error().message().find(path.string()) == 0);
+    CHECK(settings_text(load_settings(path, known).value()) == settings_text(first));
+
+    // What could not be read back is not written.
+    first.volume = 7.0;
+    CHECK(!save_settings(path, first, known));
+    CHECK(load_settings(path, known));
+}
+
+TEST_CASE("settings: what cannot be read is put aside, not written over; a folder that is none is told") {
+    const Folder folder;
+    const fs::path path = settings_path(folder.path, "Ada");
+    REQUIRE(write_file(path, "{ \"format\": \"boltwright settings 9\" }"));
+    REQUIRE(!load_settings(path, known));
+    REQUIRE(save_settings(path, example(3), known));
+    CHECK(load_settings(path, known));
+    const auto aside = read_file(path.string() + ".unread", 1000, ErrorCode::failed);
+    REQUIRE(aside);
+    CHECK(aside->find("settings 9") != std::string::npos);
+
+    REQUIRE(write_file(folder.path / "taken", "a file, no folder"));
+    const Status failed = save_settings(settings_path(folder.path / "taken", "Ada"), example(4), known);
+    REQUIRE(!failed);
+    CHECK(failed.error().message().find("taken") != std::string::npos);
+    CHECK(read_file(folder.path / "taken", 1000, ErrorCode::failed).value() == "a file, no folder");
+}
+
+TEST_CASE("the folder of a user's data is where the XDG base directory specification has it") {
+    const char* was = std::getenv("XDG_DATA_HOME");  // NOLINT(concurrency-mt-unsafe): one thread
+    const std::string kept = was != nullptr ? was : "";
+    setenv("XDG_DATA_HOME", "/somewhere", 1);
+    CHECK(data_folder().value() == "/somewhere/boltwright");
+    setenv("XDG_DATA_HOME", "not/absolute", 1);  // to be ignored, says the specification
+    setenv("HOME", "/home/ada", 1);
+    CHECK(data_folder().value() == "/home/ada/.local/share/boltwright");
+    if (was != nullptr)
+        setenv("XDG_DATA_HOME", kept.c_str(), 1);
+    else
+        unsetenv("XDG_DATA_HOME");
+}
