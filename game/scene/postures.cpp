@@ -24,6 +24,14 @@ hand::Angles pinched() {
     return a;
 }
 
+// A left hand is a right one in a mirror across the tool, in its plane y = 0, and its own frame is mirrored
+// in x (hand::mirrored): both together are a turn again.
+Pose on_side(const Pose& of_right, hand::Side side) {
+    if (side == hand::Side::right) return of_right;
+    const Quat& q = of_right.orientation;
+    return {of_right.position * Vec3(1.0, -1.0, 1.0), Quat(q.w, -q.x, q.y, -q.z) * Quat(0.0, 0.0, 0.0, 1.0)};
+}
+
 // Across a handle that lies along the tool's x and is broad in y: the palm from above, the thumb's side
 // towards the jaw.
 Pose wrist_on_handle(double grip_at) {
@@ -39,7 +47,7 @@ Pose wrist_on_handle(double grip_at) {
 Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::Side side) {
     const hand::Hand hand = hand::make_hand(side);
     Postures postures;
-    const Pose on_handle = wrist_on_handle(grip_at);
+    const Pose on_handle = on_side(wrist_on_handle(grip_at), side);
     for (std::size_t i = 0; i < postures.on_handle.size(); ++i) {
         // Over to the other face, and about the handle's middle to the other end.
         const Quat over = glm::angleAxis((i & 1U) != 0 ? pi : 0.0, Vec3(1, 0, 0));
@@ -55,7 +63,7 @@ Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::S
     const auto meeting = [&](const hand::Angles& bent, double lift) {
         const hand::Skeleton flat = hand::joints(hand, bent, Pose{});
         const Vec3 middle = 0.5 * (hand::pad(hand, flat, 0) + hand::pad(hand, flat, 1));
-        const Quat lean = glm::angleAxis(58.0 * deg, Vec3(0, 1, 0));
+        const Quat lean = on_side({Vec3(0.0), glm::angleAxis(58.0 * deg, Vec3(0, 1, 0))}, side).orientation;
         return hand::joints(hand, bent, Pose{Vec3(0.0, 0.0, lift) - lean * middle, lean});
     };
     postures.on_nut = meeting(pinched(), 0.0);

@@ -19,14 +19,15 @@ assets::Model read_or_miss(const std::filesystem::path& file, std::vector<std::s
 
 }  // namespace
 
-Result<Shelf> load_shelf(const content::Assembly& assembly) {
+Result<Shelf> load_shelf(const content::Assembly& assembly, hand::Side side) {
     Shelf shelf;
     view::LoadedSubject machine = view::load_subject(assembly.file);
     if (!machine.ok()) return fail(machine.errors.front());
     shelf.machine = std::move(machine.subject);
     const std::filesystem::path content = content::content_folder();
     shelf.workshop = read_or_miss(content / "environments/workshop.glb", shelf.missing);
-    shelf.hand = read_or_miss(content / "hands/hand_right.glb", shelf.missing);
+    shelf.hand = read_or_miss(
+        content / (side == hand::Side::left ? "hands/hand_left.glb" : "hands/hand_right.glb"), shelf.missing);
     if (!assembly.wrench.model.empty()) {
         shelf.wrench = read_or_miss(assembly.wrench.model, shelf.missing);
         const Result<Quat> turn = play::wrench_turn(assembly.wrench);

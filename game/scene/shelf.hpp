@@ -6,6 +6,7 @@
 #include "engine/render/environment_light.hpp"
 #include "engine/render/gpu_model.hpp"
 #include "game/view/subject.hpp"
+#include "haptics/hand/kinematics.hpp"
 
 namespace bolt::scene {
 
@@ -19,7 +20,7 @@ struct Shelf {
     std::vector<std::string> missing;
 };
 
-Result<Shelf> load_shelf(const content::Assembly& assembly);
+Result<Shelf> load_shelf(const content::Assembly& assembly, hand::Side side = hand::Side::right);
 
 // The same on the GPU. Stays where it is made: entities point to the models.
 struct GpuShelf {

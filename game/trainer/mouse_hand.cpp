@@ -198,11 +198,12 @@ void travel(MouseHand& hand, double dt) {
 
 }  // namespace
 
-MouseHand make_hand(const Pose& rest) {
+MouseHand make_hand(const Pose& rest, hand::Side side) {
     MouseHand hand;
     hand.rest = rest;
+    hand.nearer = side == hand::Side::left ? 1.0 : -1.0;
     // Beside the grip, a little above it.
-    hand.pose = {rest * Vec3(0.16, -0.05, 0.06), rest.orientation};
+    hand.pose = {rest * Vec3(0.16, 0.05 * hand.nearer, 0.06), rest.orientation};
     return hand;
 }
 
@@ -216,7 +217,7 @@ void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
     if (w.retreat) {
         hand.nut.reset();
-        const Vec3 nearer = hand.rest * Vec3(0.0, -retreat, 0.0);  // to whoever works
+        const Vec3 nearer = hand.rest * Vec3(0.0, hand.nearer * retreat, 0.0);  // to whoever works
         const Pose above{nearer + retreat * up, hand.rest.orientation};
         reach(hand, above, MouseHand::Then::rest, setup, state, up);
     } else if (w.wrench && !hand.wrench) {

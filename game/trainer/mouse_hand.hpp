@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "game/lesson/plan.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "haptics/servo/tick.hpp"
 
 namespace bolt::trainer {
@@ -40,6 +41,7 @@ struct MouseHand {
     std::optional<std::size_t> nut;  // that it goes to, or has
     Pose pose;                       // of the tool, in the assembly's frame
     Pose rest;                       // where the wrench lies, and the hand waits without it
+    double nearer = -1.0;            // along the y of `rest`: the way to whoever works
     double handle = 0.0;             // rad, of the handle about the bolt
     bool flipped = false;
     double room = 0.0;        // rad that the handle may swing in this pull
@@ -56,8 +58,8 @@ struct MouseHand {
     bool missed = false;              // the last try did not get hold of the nut, or lost it
 };
 
-// The hand at rest where the wrench lies.
-MouseHand make_hand(const Pose& rest);
+// The hand at rest where the wrench lies: the left one where that lies for it (scene::resting_place).
+MouseHand make_hand(const Pose& rest, hand::Side side = hand::Side::right);
 
 void wish(MouseHand& hand, const Wish& wish, const servo::Setup& setup, const servo::State& state);
 
