@@ -1,6 +1,7 @@
 // What people do to a window, as plain values in the order in which it happened.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <string_view>
@@ -22,8 +23,11 @@ enum class Key : std::uint8_t {
     // clang-format on
 };
 
-// "F11", "Escape", "R": for messages and help.
+inline constexpr std::size_t key_count = static_cast<std::size_t>(Key::super) + 1;
+
+// "F11", "Escape", "R": for messages, help and files; each key has its own.
 std::string_view name(Key key);
+Key key_named(std::string_view name);  // unknown: none is
 
 struct Modifiers {
     bool shift = false, control = false, alt = false, super = false;

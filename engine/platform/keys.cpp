@@ -83,4 +83,10 @@ std::string_view name(Key key) {
     return "?";
 }
 
+Key key_named(std::string_view wanted) {
+    for (std::size_t i = 1; i < key_count; ++i)
+        if (name(static_cast<Key>(i)) == wanted) return static_cast<Key>(i);
+    return Key::unknown;
+}
+
 }  // namespace bolt::platform

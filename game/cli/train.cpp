@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "content/format/load.hpp"
+#include "content/trainee/data_folder.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
@@ -36,7 +37,7 @@ struct Options {
     bool hmd = false;
     bool headless = false;
     bool start = false, full_screen = false, validate = false, silent = false;
-    std::string name, language;
+    std::string name, language, settings;
     std::string size = "1280x720", gpu;
     bool quiet = false, no_pictures = false, no_guide = false;
     bool obstacles = false, no_obstacles = false;
@@ -230,6 +231,9 @@ Status run_window(const Options& options, const play::TrainOptions& play, const 
     app_options.course.operator_name = "person";
     if (!options.law.empty()) app_options.law = play.course.law;
     app_options.out = out;
+    app_options.settings_file = options.settings;
+    // Without a home nothing is kept, and a lesson is one all the same.
+    if (const auto data = content::data_folder()) app_options.settings_folder = *data / "settings";
     app_options.begins = [out] { remove_stale(out); };
     app_options.ended = [&](const content::Assembly& assembly, const play::CourseOptions& course,
                             const play::Played& played) {
@@ -333,8 +337,13 @@ void add_train(CLI::App& app, int& exit_code) {
     train->add_flag("--start", options->start, "Begin the lesson at once, without the menu");
     train->add_option("--size", options->size, "WIDTHxHEIGHT of the window")->capture_default_str();
     train->add_flag("--full-screen", options->full_screen, "All of the display");
-    train->add_option("--trainee", options->name, "Who plays; kept in the session");
-    train->add_option("--language", options->language, "en, de, zh; the desktop's if not given");
+    train->add_option(
+        "--trainee", options->name,
+        "Who plays; kept in the session, and whose settings hold: keys, hand, captions, colours");
+    train->add_option("--settings", options->settings,
+                      "A file with settings, for whoever plays; it is made if it is not there");
+    train->add_option("--language", options->language,
+                      "en, de, zh; the trainee's or the desktop's if not given");
     train->add_flag("--silent", options->silent, "Without sound");
     train->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     train->add_flag("--validate", options->validate,

@@ -8,12 +8,16 @@ namespace bolt::scene {
 
 namespace {
 
-constexpr glm::vec4 plate_color{0.06F, 0.07F, 0.08F, 0.82F}, enough{0.45F, 0.95F, 0.5F, 1.0F},
-    too_much{1.0F, 0.35F, 0.3F, 1.0F};
+constexpr glm::vec4 plate_color{0.06F, 0.07F, 0.08F, 0.82F};
 
-glm::vec4 torque_color(const content::Window& window, double torque, double share) {
-    if (torque > window.high) return too_much;
-    return torque >= share * window.low ? enough : label_color;
+// How a torque lies to what is asked for, by a sign and by colour; what is still below it is only a number.
+void show_standing(render::Label& label, const content::Window& window, double torque, double share,
+                   const view::Palette& palette) {
+    if (torque < share * window.low) return;
+    const bool too_much = torque > window.high;
+    label.color = too_much ? palette.wrong : palette.right;
+    label.text = fmt::format("{} {}", view::sign_of(too_much ? lesson::Verdict::high : lesson::Verdict::ok),
+                             label.text);
 }
 
 }  // namespace
@@ -36,7 +40,8 @@ Vec3 above_nut(const servo::Setup& setup, const servo::State& state, std::size_t
 }
 
 std::optional<render::Label> work_label(const lesson::Lesson& lesson, const servo::Setup& setup,
-                                        const servo::State& state, const servo::Output& output, bool wrench) {
+                                        const servo::State& state, const servo::Output& output, bool wrench,
+                                        const view::Palette& palette) {
     if (output.joint < 0) return std::nullopt;
     const auto joint = static_cast<std::size_t>(output.joint);
     const lesson::JointTrack& track = lesson.joints[joint];
@@ -49,8 +54,8 @@ std::optional<render::Label> work_label(const lesson::Lesson& lesson, const serv
                                        : fmt::format("{:.1f} turns", output.nut_angle / (2.0 * pi)),
                                 above_nut(setup, state, joint), 22.0F);
     if (wrench && lesson.mode != lesson::Mode::assessment)
-        label.color =
-            torque_color(lesson.assembly->joints[joint].spec.torque, torque, fits ? due->fraction : 1.0);
+        show_standing(label, lesson.assembly->joints[joint].spec.torque, torque, fits ? due->fraction : 1.0,
+                      palette);
     label.moved_px = {0.0F, 34.0F};
     return label;
 }

@@ -3,11 +3,12 @@
 
 #include "engine/render/label.hpp"
 #include "game/lesson/lesson.hpp"
+#include "game/view/palette.hpp"
 #include "haptics/servo/tick.hpp"
 
 namespace bolt::scene {
 
-inline constexpr glm::vec4 due_color{1.0F, 0.78F, 0.1F, 1.0F}, label_color{0.95F, 0.96F, 0.97F, 1.0F};
+inline constexpr glm::vec4 label_color{0.95F, 0.96F, 0.97F, 1.0F};
 
 // A plate with a text, its lower edge at the point; equally high at every distance, through whatever hides
 // it.
@@ -16,10 +17,12 @@ render::Label plate(std::string text, const Vec3& at, float height);
 // Above a nut, where its name stands.
 Vec3 above_nut(const servo::Setup& setup, const servo::State& state, std::size_t joint);
 
-// At the wrench: torque in the colour of how it lies to what is asked for, the angle since the joint was snug
-// (or since the step began, before it is), the stage; by hand the turns. None: nothing is held.
+// At the wrench: torque in the colour of how it lies to what is asked for and with its sign, the angle since
+// the joint was snug (or since the step began, before it is), the stage; by hand the turns. None: nothing is
+// held.
 std::optional<render::Label> work_label(const lesson::Lesson& lesson, const servo::Setup& setup,
-                                        const servo::State& state, const servo::Output& output, bool wrench);
+                                        const servo::State& state, const servo::Output& output, bool wrench,
+                                        const view::Palette& palette = {});
 
 // Clamp force of a joint, with its name.
 render::Label clamp_label(const content::Assembly& assembly, const servo::Setup& setup,

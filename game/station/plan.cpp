@@ -9,6 +9,7 @@
 #include "game/play/nut_views.hpp"
 #include "game/play/servo_setup.hpp"
 #include "game/play/touch_models.hpp"
+#include "haptics/force/scaled.hpp"
 #include "haptics/glove/adapter.hpp"
 
 namespace bolt::station {
@@ -130,8 +131,8 @@ Result<Planned> plan_lesson(const content::Assembly& assembly, const play::Cours
     planned.obstacles = begins->at.state.touch.has_value();
     planned.plan.home = home;
     planned.plan.servo.rate = 1.0 / course.dt;
-    planned.plan.setup = [begins](const force::OutputLimits& limits, double) {
-        begins->options.device = limits;
+    planned.plan.setup = [begins, scale = wanted.force_scale](const force::OutputLimits& limits, double) {
+        begins->options.device = force::scaled(limits, scale);
         play::use_device(begins->options, begins->at);
         return begins->at.setup;
     };

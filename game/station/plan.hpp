@@ -19,6 +19,8 @@ struct Wanted {
     std::string trainee{};                 // who wears it; empty: its samples are read, and make no hand
     std::filesystem::path calibrations{};  // empty: where they are kept
 
+    double force_scale = 1.0;  // 0 … 1 of the forces, in a lesson
+
     bool obstacles = true;   // where the assembly models them
     bool tight = false;      // all joints are tight already
     std::size_t joint = 0;   // on whose nut the wrench is to begin

@@ -12,6 +12,7 @@
 #include "game/sound/materials.hpp"
 #include "game/trainer/hud.hpp"
 #include "game/trainer/ui_input.hpp"
+#include "haptics/force/scaled.hpp"
 
 namespace bolt::trainer {
 
@@ -64,7 +65,7 @@ Status App::speak(const std::string& language) {
     if (!loaded.ok()) return fail(loaded.errors.front());
     words_ = std::move(loaded.words);
     options_.choice.language = language;
-    name_controls();
+    apply_preferences();
     return {};
 }
 
@@ -74,9 +75,15 @@ App::App(AppOptions options) : options_(std::move(options)) {
         seats_ = seats();
     }
     start_wished_ = !options_.menu;
+    preferences_.folder = options_.settings_folder;
+    preferences_.file = options_.settings_file;
+    preferences_.known = settings_vocabulary(words::languages(words::words_folder()));
+    take(preferences_, options_.choice.trainee);
+    if (preferences_.trouble != Preferences::Trouble::none) tell(preferences_.why);
+    if (options_.choice.language.empty()) options_.choice.language = preferences_.settings.language;
 }
 
-App::~App() = default;
+App::~App() { keep_preferences(); }
 
 void App::tell(const std::string& line) const {
     if (options_.tell) options_.tell(line);
@@ -102,6 +109,7 @@ Status App::start(view::Painter& painter) {
         on_->ui->need(language.name);
         for (const std::string& text : language.texts) on_->ui->need(text);
     }
+    for (const std::string_view sign : {"▼", "●", "▲", "◆", "–"}) on_->ui->need(sign);
     for (const Listed& listed : listed_) {
         for (const auto& [code, title] : listed.title) on_->ui->need(title);
         for (const auto& [code, text] : listed.lesson) on_->ui->need(text);
@@ -138,8 +146,34 @@ Status App::place_on_gpu() {
     return {};
 }
 
+namespace {
+
+// The wrench is in the first picture too: it is what one reaches for. Who sits sees it from lower.
+view::Orbit first_view(const Playing& p, const view::Subject& machine, double handle_length, float aspect,
+                       const scene::Worker& worker) {
+    const view::Viewpoint first = machine.views.empty()
+                                      ? view::framed(p.place.machine, view::usual_fov, aspect)
+                                      : machine.views.front();
+    render::Box all = p.place.machine;
+    for (const double along : {-0.1, 1.2}) {
+        const glm::vec3 end(p.hand.rest * Vec3(along * handle_length, 0.0, 0.0));
+        all.low = glm::min(all.low, end);
+        all.high = glm::max(all.high, end);
+    }
+    const view::Orbit orbit = view::framing(view::orbit_of(first), all, aspect);
+    const auto eyes = scene::eye_level(p.place.machine, worker);
+    return eyes ? view::framing(view::from_at_most(orbit, *eyes), all, aspect) : orbit;
+}
+
+}  // namespace
+
 Status App::begin_lesson(float aspect) {
+    meet_trainee();
+    keep_preferences();
     const Choice& choice = options_.choice;
+    const content::Settings& wanted = preferences_.settings;
+    const scene::Worker worker{wanted.left_handed ? hand::Side::left : hand::Side::right,
+                               wanted.seated_height};
     content::Loaded loaded = content::load_assembly(choice.assembly, choice.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     assembly_ = std::move(loaded.assembly);
@@ -148,7 +182,8 @@ Status App::begin_lesson(float aspect) {
     course_.task = choice.task;
     course_.law = options_.law.value_or(assembly_.law);
     course_.operator_name = choice.trainee.empty() ? "person" : choice.trainee;
-    Result<scene::Shelf> shelf = scene::load_shelf(assembly_);
+    course_.device = force::scaled(options_.course.device, wanted.force_scale);
+    Result<scene::Shelf> shelf = scene::load_shelf(assembly_, worker.side);
     if (!shelf) return fail(shelf.error());
     for (const std::string& missing : shelf->missing) tell("left out: " + missing);
     Playing next;
@@ -164,30 +199,22 @@ Status App::begin_lesson(float aspect) {
     if (Status placed = place_on_gpu(); !placed) return placed;
     const servo::Setup& setup = p.course->setup();
     const servo::State& state = p.course->state();
+    p.hand = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness, worker.side),
+                       worker.side);
     take_place();
-    name_controls();
+    p.ear.still = sound::materials(p.course->assembly(), p.course->obstacle_names());
     if (options_.sound) {
-        auto live =
-            sound::Live::start(setup, sound::materials(p.course->assembly(), p.course->obstacle_names()));
+        auto live = sound::Live::start(setup, p.ear.still);
         if (live)
             p.sound = std::make_unique<sound::Live>(std::move(*live));
         else
             tell(live.error().message());
     }
-    p.postures =
-        scene::make_postures(state.touch ? &state.touch->wrench : nullptr, setup.wrench.handle_length);
-    p.shoulder = scene::shoulder_at(p.place.machine);
-    const std::vector<view::Viewpoint>& views = shelf_->machine.views;
-    const view::Viewpoint first =
-        views.empty() ? view::framed(p.place.machine, view::usual_fov, aspect) : views.front();
-    // The wrench is in the first picture too: it is what one reaches for.
-    render::Box all = p.place.machine;
-    for (const double along : {-0.1, 1.2}) {
-        const glm::vec3 end(p.hand.rest * Vec3(along * setup.wrench.handle_length, 0.0, 0.0));
-        all.low = glm::min(all.low, end);
-        all.high = glm::max(all.high, end);
-    }
-    p.camera.jump(view::framing(view::orbit_of(first), all, aspect));
+    p.postures = scene::make_postures(state.touch ? &state.touch->wrench : nullptr,
+                                      setup.wrench.handle_length, worker.side);
+    p.shoulder = scene::shoulder_at(p.place.machine, worker);
+    apply_preferences();
+    p.camera.jump(first_view(p, shelf_->machine, setup.wrench.handle_length, aspect, worker));
     played_.reset();
     shows_ = Shows::lesson;
     tell(fmt::format("lesson begun: {} {}, {}", assembly_.name, assembly_.variant,
@@ -202,7 +229,9 @@ Status App::begin_course(Playing& p) {
     if (!prepared) return fail(prepared.error());
     if (!options_.choice.with.none()) {
         if (playing_) playing_->station.reset();  // that has the devices
-        auto bench = options_.station(assembly_, course_, options_.choice.with, options_.choice.trainee);
+        Equipment with = options_.choice.with;
+        with.force_scale = preferences_.settings.force_scale;
+        auto bench = options_.station(assembly_, course_, with, options_.choice.trainee);
         if (!bench) return fail(bench.error());
         p.station.emplace();
         p.station->bench = std::move(*bench);
@@ -219,7 +248,6 @@ Status App::begin_course(Playing& p) {
 // Hand and wrench before the machine.
 void App::take_place() {
     Playing& p = *playing_;
-    p.hand = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness));
     if (!p.station) return;
     AtStation& at = *p.station;
     at.rest = p.hand.rest;
@@ -230,7 +258,7 @@ void App::take_place() {
 
 // What is pressed or moved for what.
 void App::name_controls() {
-    const std::string tool(platform::name(KeyMap{}.of(Action::tool)));
+    const std::string tool = key_name(preferences_.keys, Action::tool);
     const AtStation* at = playing_ && playing_->station ? &*playing_->station : nullptr;
     if (at == nullptr) {
         controls_ = hints::mouse_controls(words_, tool);
@@ -319,13 +347,15 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         }
     }
     const glm::dvec2 extent(size.width, size.height);
-    feed(input_, events);
+    const bool in_settings = settings_.has_value();  // also in the frame in which they are left
+    feed(input_, take_settings_keys(events));
     input_.size = glm::vec2(extent);
     input_.scale = scale;
     input_.seconds = seconds;
     ui::Ui& ui = *on_->ui;
-    // Only the menu has something to type into.
-    const Mine mine{shows_ != Shows::menu && !ui.wants_pointer(), shows_ != Shows::menu};
+    // Only the menu has something to type into, and the settings take keys for themselves.
+    const bool has_keys = shows_ != Shows::menu && !in_settings;
+    const Mine mine{has_keys && !ui.wants_pointer(), has_keys};
     static const render::Scene no_scene;
     render::Eye eye;
     const render::Scene* scene = &no_scene;
@@ -359,7 +389,7 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
         const auto* key = std::get_if<platform::KeyEvent>(&event);
         const bool enter = key != nullptr && key->key == platform::Key::enter && key->down && !key->repeated;
-        start_wished_ = start_wished_ || (enter && shows_ != Shows::lesson);
+        start_wished_ = start_wished_ || (enter && shows_ != Shows::lesson && !in_settings);
     }
     render::Renderer& renderer = *on_->painter->renderer;
     if (Status drawn = renderer.render(frame, *scene, std::span(&eye, 1), size); !drawn) return drawn;

@@ -10,6 +10,7 @@
 #include "engine/ui/ui.hpp"
 #include "game/hints/controls.hpp"
 #include "game/trainer/equipment.hpp"
+#include "game/trainer/preferences.hpp"
 #include "game/trainer/systems.hpp"
 #include "game/view/painter.hpp"
 
@@ -30,9 +31,10 @@ struct AppOptions {
     bool sound = false;
     bool menu = true;  // false: the lesson begins at once
     play::CourseOptions course;
-    std::optional<joint::Law> law;  // instead of the assembly's own
-    std::filesystem::path out;      // where sessions go
-    std::function<void()> begins;   // a lesson: what an earlier one left would speak of another
+    std::optional<joint::Law> law;                         // instead of the assembly's own
+    std::filesystem::path out;                             // where sessions go
+    std::filesystem::path settings_folder, settings_file;  // as Preferences has them; empty: nothing is kept
+    std::function<void()> begins;  // a lesson: what an earlier one left would speak of another
     // After a lesson, whole or broken off: what is left of it beside the session.
     std::function<Status(const content::Assembly&, const play::CourseOptions&, const play::Played&)> ended;
     std::function<void(const std::string&)> tell;  // a line of what happens, for a log
@@ -55,6 +57,13 @@ struct Listed {
 struct ButtonPlace {
     words::Key label;
     glm::vec2 middle{0.0F};  // px
+    float width = 0.0F;      // px
+};
+
+// The settings as they are being changed.
+struct SettingsScreen {
+    std::optional<Action> awaits;  // the key for this is to be pressed
+    std::string said;              // about the key that was pressed last
 };
 
 class App {
@@ -77,6 +86,8 @@ class App {
     [[nodiscard]] bool wants_full_screen() { return std::exchange(full_screen_, false); }
     [[nodiscard]] const Playing* playing() const { return playing_ ? &*playing_ : nullptr; }
     [[nodiscard]] std::span<const ButtonPlace> buttons() const { return buttons_; }
+    [[nodiscard]] const Preferences& preferences() const { return preferences_; }
+    [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
     // What went wrong when a lesson was to begin.
     [[nodiscard]] const std::optional<Error>& trouble() const { return trouble_; }
 
@@ -98,7 +109,21 @@ class App {
     void draw_seats();
     void draw_result(const glm::dvec2& size);
     void draw_pause(const glm::dvec2& size);
+    void draw_settings(const glm::dvec2& size);
+    void draw_people();
+    void draw_languages();
+    void draw_keys();
+    void draw_kept();
     bool button(words::Key key);
+    void remember_place(words::Key key);
+    void open_settings();
+    void close_settings();
+    // Of a frame: keys that are bound, Escape that leaves. What is left of them for the interface.
+    std::vector<platform::Event> take_settings_keys(std::span<const platform::Event> events);
+    void bind_key(platform::Key key);
+    void meet_trainee();
+    void apply_preferences();
+    void keep_preferences();
     Status speak(const std::string& language);
     void tell(const std::string& line) const;
     void tell_events();
@@ -119,6 +144,8 @@ class App {
     words::Words words_;
     hints::Controls controls_;
     std::optional<std::string> language_wished_;
+    Preferences preferences_;
+    std::optional<SettingsScreen> settings_;  // while it is shown
     ui::Input input_;
     std::vector<ButtonPlace> buttons_;
     std::unique_ptr<OnGpu> on_;

@@ -8,7 +8,8 @@ using namespace platform;
 
 void press(const Controls& controls, const KeyEvent& key, Wanted& wanted) {
     const Modifiers& m = key.modifiers;
-    if (!key.down || key.repeated || m.control || m.alt || m.super) return;
+    if (!key.down || key.repeated || m.control || m.alt || m.super || key.key == Key::unknown) return;
+    if (key.key == Key::escape) wanted.actions.at(static_cast<std::size_t>(Action::pause)) = true;
     for (std::size_t i = 0; i < action_count; ++i)
         if (controls.keys.keys.at(i) == key.key) wanted.actions.at(i) = true;
 }

@@ -1,4 +1,5 @@
-// What people mean by keys and mouse in a lesson. Keys are a table that can be another one; the mouse is:
+// What people mean by keys and mouse in a lesson. Keys are a table that can be another one (key_binding.hpp);
+// Escape pauses whatever that says, so that nobody is shut in. The mouse is:
 // left on a nut or the wrench the hand, left elsewhere or right the view, middle moves it, the wheel comes
 // nearer.
 #pragma once

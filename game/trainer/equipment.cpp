@@ -20,7 +20,7 @@ std::vector<Seat> seats() {
     std::vector<Seat> there{{{}, {}}};
     const station::Choice all = station::choose_any(device::list());
     const auto add = [&](const station::Choice& choice) {
-        there.push_back({name_of(choice), {station::ids_of(choice), {}, {}, false}});
+        there.push_back({name_of(choice), {station::ids_of(choice), {}, {}, 1.0, false}});
     };
     if (all.mover) add({all.mover, std::nullopt});
     if (all.wheel) add({std::nullopt, all.wheel});
@@ -45,6 +45,7 @@ Result<std::unique_ptr<station::Bench>> start_station(const content::Assembly& a
     wanted.otherwise = puck.open();
     wanted.glove = with.glove;
     wanted.trainee = trainee;
+    wanted.force_scale = with.force_scale;
     if (!with.glove.empty() && trainee.empty())
         return fail(ErrorCode::no_device, "nobody is said to wear the glove",
                     "the trainee's name, as boltwright glove calibrate has it");

@@ -15,6 +15,7 @@ struct Equipment {
     std::vector<std::string> devices;  // ids, as boltwright devices has them
     std::filesystem::path rig;         // what is known of a wheel; may be empty
     std::filesystem::path glove;       // its port; empty: none
+    double force_scale = 1.0;          // 0 … 1 of the forces that devices may render
     bool keyboard = false;  // a station without a device: keys move the tool, and the servo has a thread
 
     [[nodiscard]] bool none() const { return devices.empty() && glove.empty() && !keyboard; }  // the mouse

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "game/hints/terms.hpp"
+#include "game/trainer/key_binding.hpp"
 
 namespace bolt::trainer {
 
@@ -18,10 +19,13 @@ constexpr ImGuiWindowFlags still = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_AlwaysAutoResize;
 
 constexpr ImU32 grid = IM_COL32(150, 160, 170, 60), frame_color = IM_COL32(200, 205, 210, 160),
-                curve = IM_COL32(255, 205, 70, 255), window_color = IM_COL32(90, 220, 110, 60),
-                strain_color = IM_COL32(255, 120, 80, 255);
+                curve = IM_COL32(255, 205, 70, 255), strain_color = IM_COL32(255, 120, 80, 255);
 
 void text(const std::string& line) { ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size()); }
+
+ImU32 in_color(const glm::vec4& color, float opacity) {
+    return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, opacity * color.a});
+}
 
 void plate(const char* name, const ImVec2& at, const ImVec2& pivot) {
     ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
@@ -54,9 +58,13 @@ void draw_plot(const Playing& p, const words::Words& w, const glm::dvec2& size, 
                       low.y + area.y * (highest - torque) / (highest - lowest));
     };
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    if (p.course->lesson().mode != lesson::Mode::assessment)
-        list.AddRectFilled(place(begin, static_cast<float>(spec.torque.high)),
-                           place(begin + across, static_cast<float>(spec.torque.low)), window_color);
+    if (p.course->lesson().mode != lesson::Mode::assessment) {
+        const ImVec2 top = place(begin, static_cast<float>(spec.torque.high)),
+                     foot = place(begin + across, static_cast<float>(spec.torque.low));
+        // A band and its edges: it is one without any colour.
+        list.AddRectFilled(top, foot, in_color(p.palette.ok, 0.24F));
+        list.AddRect(top, foot, in_color(p.palette.ok, 0.9F));
+    }
     list.AddLine(place(begin, 0.0F), place(begin + across, 0.0F), grid);
     list.AddRect(low, {low.x + area.x, low.y + area.y}, frame_color);
     for (std::size_t i = 1; i < p.plot.size(); ++i)
@@ -99,6 +107,10 @@ void draw_step(const Playing& p, const words::Words& w, float scale) {
                  ? words::say(w, "hud.due_torque",
                               {{"joint", id}, {"what", what}, {"torque", words::torque_number(due->torque)}})
                  : words::say(w, "hud.due", {{"joint", id}, {"what", what}}));
+        for (const auto& [key, action] : {std::pair{words::Key("hud.ask"), Action::hint},
+                                          std::pair{words::Key("hud.find_view"), Action::find_view}})
+            ImGui::TextDisabled("%s",
+                                words::say(w, key, {{"control", key_name(p.controls.keys, action)}}).c_str());
     }
     ImGui::End();
 }
@@ -142,6 +154,17 @@ void draw_troubles(const Playing& p, const glm::dvec2& size, float scale) {
     ImGui::End();
 }
 
+// What there is to be heard, in words, where films have it.
+void draw_captions(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
+    if (!p.captions) return;
+    const std::vector<Caption> captions = shown(*p.captions);
+    if (captions.empty()) return;
+    plate("##captions", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 72.0F * scale},
+          {0.5F, 1.0F});
+    for (const Caption caption : captions) text(w[term(caption)]);
+    ImGui::End();
+}
+
 }  // namespace
 
 void draw_hud(const Playing& p, const Said& said, const glm::dvec2& size, float scale) {
@@ -150,6 +173,7 @@ void draw_hud(const Playing& p, const Said& said, const glm::dvec2& size, float 
     draw_plot(p, *said.words, size, scale);
     draw_strain(p, *said.words, size, scale);
     draw_troubles(p, size, scale);
+    draw_captions(p, *said.words, size, scale);
 }
 
 }  // namespace bolt::trainer

@@ -13,10 +13,12 @@
 #include "game/scene/systems.hpp"
 #include "game/sound/live.hpp"
 #include "game/trainer/at_station.hpp"
+#include "game/trainer/captions.hpp"
 #include "game/trainer/controls.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "game/trainer/pointing.hpp"
 #include "game/view/orbit.hpp"
+#include "game/view/palette.hpp"
 
 namespace bolt::trainer {
 
@@ -55,6 +57,10 @@ struct Playing {
     double undo_for = 0.0;            // s that this has been wished
     std::unique_ptr<sound::Live> sound;
     bool quiet = false;
+    double volume = 1.0;               // 0 … 1, as the trainee has it
+    sound::Ear ear;                    // of the captions
+    std::optional<Captions> captions;  // none: they are not wished for
+    view::Palette palette;
     std::vector<lesson::Event> said;  // by the lesson, since it was last taken
     operators::Sight sight;
     double unseen = 0.0;  // s that what is due has been out of sight

@@ -51,8 +51,7 @@ void text_field(const char* label, std::string& value) {
 
 bool App::button(words::Key key) {
     const bool pressed = ImGui::Button(words_[key].c_str(), {-1.0F, 0.0F});
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    buttons_.push_back({key, {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}});
+    remember_place(key);
     return pressed;
 }
 
@@ -110,12 +109,8 @@ void App::draw_menu(const glm::dvec2& size) {
     ImGui::NewLine();
     draw_seats();
     text_field(words_["menu.trainee"].c_str(), choice.trainee);
-    for (const words::Words& language : languages_)
-        if (ImGui::RadioButton(language.name.c_str(), language.language == words_.language))
-            language_wished_ = language.language;
-        else
-            ImGui::SameLine();
-    ImGui::NewLine();
+    if (ImGui::IsItemDeactivatedAfterEdit()) meet_trainee();
+    draw_languages();
     ImGui::Separator();
     if (trouble_) {
         ImGui::PushStyleColor(ImGuiCol_Text, {1.0F, 0.55F, 0.45F, 1.0F});
@@ -124,6 +119,7 @@ void App::draw_menu(const glm::dvec2& size) {
     }
     if (button("menu.start")) start_wished_ = true;
     ImGui::SetItemDefaultFocus();
+    if (button("menu.settings")) open_settings();
     if (button("menu.quit")) closed_ = true;
     ImGui::End();
 }
@@ -142,6 +138,7 @@ void App::draw_pause(const glm::dvec2& size) {
         playing_->undo = 0;
         playing_->paused = false;
     }
+    if (button("menu.settings")) open_settings();
     if (button("menu.end")) {
         playing_->paused = false;
         end_wished_ = true;
@@ -174,7 +171,8 @@ void App::draw_result(const glm::dvec2& size) {
             for (const std::string& cell :
                  {joint.id, fmt::format("{:.1f}", joint.torque),
                   fmt::format("{:.0f}", to_degrees(joint.angle)), fmt::format("{:.1f}", joint.clamp / 1e3),
-                  words_[hints::term(joint.overall)]}) {
+                  fmt::format("{} {}", view::sign_of(view::verdict_of(joint)),
+                              words_[hints::term(joint.overall)])}) {
                 ImGui::TableNextColumn();
                 text(cell);
             }
@@ -195,6 +193,7 @@ void App::draw_result(const glm::dvec2& size) {
 void App::draw_interface(const glm::dvec2& size) {
     buttons_.clear();
     if (shows_ == Shows::lesson) draw_hud(*playing_, {&words_, &controls_}, size, input_.scale);
+    if (settings_) return draw_settings(size);
     if (shows_ == Shows::lesson && playing_->paused) draw_pause(size);
     if (shows_ == Shows::menu) draw_menu(size);
     if (shows_ == Shows::result) draw_result(size);

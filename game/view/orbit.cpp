@@ -83,6 +83,13 @@ void zoom(Orbit& o, double notches, glm::dvec2 at, const render::Box& box) {
     o.distance = to;
 }
 
+Orbit from_at_most(const Orbit& orbit, double eye) {
+    const double sine = std::clamp((eye - orbit.target.y) / orbit.distance, std::sin(to_radians(5.0)), 1.0);
+    Orbit lower = orbit;
+    lower.pitch = std::min(orbit.pitch, std::asin(sine));
+    return lower;
+}
+
 Orbit framing(const Orbit& o, const render::Box& box, float aspect) {
     render::Perspective through;
     through.fov = static_cast<float>(o.fov);

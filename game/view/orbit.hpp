@@ -33,6 +33,9 @@ void pan(Orbit& orbit, glm::dvec2 by);
 // stays there. Distances stay between a thousandth and thirty times the box's size.
 void zoom(Orbit& orbit, double notches, glm::dvec2 at, const render::Box& box);
 
+// From no higher than `eye` (m), as far away as before, and never from less than 5° above the target.
+Orbit from_at_most(const Orbit& orbit, double eye);
+
 // All of the box, from the side that it is seen from now.
 Orbit framing(const Orbit& orbit, const render::Box& box, float aspect);
 

@@ -4,6 +4,7 @@
 #include "game/view/label_places.hpp"
 #include "game/view/marks.hpp"
 #include "game/view/painter.hpp"
+#include "game/view/palette.hpp"
 #include "game/view/picture_file.hpp"
 
 #include <fmt/format.h>
@@ -39,13 +40,7 @@ Status add_joint(Stage& stage, const Subject& subject, const std::string& node,
 
 }  // namespace
 
-glm::vec4 verdict_color(const lesson::JointResult& joint) {
-    using lesson::Verdict;
-    constexpr glm::vec4 green{0.1F, 0.8F, 0.25F, 1.0F}, amber{1.0F, 0.7F, 0.05F, 1.0F},
-        red{0.95F, 0.1F, 0.1F, 1.0F};
-    if (joint.condition != joint::Condition::sound || joint.overall == Verdict::high) return red;
-    return joint.overall == Verdict::ok ? green : joint.overall == Verdict::low ? amber : glm::vec4(0.0F);
-}
+glm::vec4 verdict_color(const lesson::JointResult& joint) { return color_of({}, verdict_of(joint)); }
 
 Status draw_result(const content::Assembly& assembly, const lesson::LessonResult& result,
                    const std::filesystem::path& folder, VkExtent2D size) {

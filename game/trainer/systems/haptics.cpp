@@ -37,6 +37,9 @@ void note(Playing& p, const servo::Output& output) {
     plot(p, output);
     say(p, p.course->events());
     if (p.sound) p.sound->tick(output, sound::cues_of(p.course->events()));
+    if (p.captions)
+        note(*p.captions, sound::hear(p.ear, p.course->setup(), output, sound::cues_of(p.course->events())),
+             p.course->setup().dt);
     if (output.undone > 0) p.undo.reset();
 }
 

@@ -1,9 +1,25 @@
 #include "game/trainer/systems.hpp"
 
+#include <fmt/format.h>
+
 #include "game/scene/labels.hpp"
 #include "game/view/label_places.hpp"
 
 namespace bolt::trainer {
+
+namespace {
+
+// After the lesson with the sign of what became of the joint, as its outline has the colour.
+render::Label clamp_of(const Playing& p, std::size_t joint) {
+    const play::Course& course = *p.course;
+    render::Label label = scene::clamp_label(course.assembly(), course.setup(), course.state(), joint);
+    const auto verdict = view::verdict_of(course.lesson().joints[joint].result);
+    if (p.finished && verdict != lesson::Verdict::none)
+        label.text = fmt::format("{} {}", view::sign_of(verdict), label.text);
+    return label;
+}
+
+}  // namespace
 
 void label_system(scene::World&, Frame& frame) {
     Playing& p = frame.playing;
@@ -16,12 +32,14 @@ void label_system(scene::World&, Frame& frame) {
     const bool helps = course.lesson().mode != lesson::Mode::assessment;
     if (frame.wanted.wants(Action::flange_map)) p.clamp_map = !p.clamp_map && helps;
     if (!p.finished)
-        if (auto figure = scene::work_label(course.lesson(), setup, state, p.output, p.hand.wrench))
+        if (auto figure =
+                scene::work_label(course.lesson(), setup, state, p.output, p.hand.wrench, p.palette))
             p.scene.labels.push_back(*figure);
-    const auto named = [&](std::size_t joint, const glm::vec4& color) {
-        render::Label label = scene::plate(course.assembly().joints[joint].design.id,
+    const auto named = [&](std::size_t joint, bool is_due) {
+        const std::string& id = course.assembly().joints[joint].design.id;
+        render::Label label = scene::plate(is_due ? fmt::format("{} {}", view::due_sign, id) : id,
                                            scene::above_nut(setup, state, joint), 16.0F);
-        label.color = color;
+        label.color = is_due ? p.palette.due : scene::label_color;
         label.moved_px = {0.0F, 8.0F};
         p.scene.labels.push_back(label);
     };
@@ -29,9 +47,9 @@ void label_system(scene::World&, Frame& frame) {
     const std::size_t marked = due != nullptr && guided ? due->joint : SIZE_MAX;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         if (p.clamp_map || p.finished)
-            p.scene.labels.push_back(scene::clamp_label(course.assembly(), setup, state, i));
+            p.scene.labels.push_back(clamp_of(p, i));
         else if (i == marked || p.under == i)
-            named(i, i == marked ? scene::due_color : scene::label_color);
+            named(i, i == marked);
     }
     const Screen screen = screen_of(p, frame.size);
     if (frame.fonts != nullptr)

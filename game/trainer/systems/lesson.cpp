@@ -1,7 +1,7 @@
 #include "game/trainer/systems.hpp"
 
 #include "game/scene/labels.hpp"
-#include "game/view/result_pictures.hpp"
+#include "game/view/palette.hpp"
 
 namespace bolt::trainer {
 
@@ -45,7 +45,8 @@ void lesson_system(scene::World& world, Frame& frame) {
     p.undo_for = p.undo ? p.undo_for + frame.seconds : 0.0;
     if (p.undo_for > undo_patience) p.undo.reset();
     if (frame.wanted.wants(Action::quiet)) p.quiet = !p.quiet;
-    if (p.sound) p.sound->set_volume(p.quiet || p.paused ? 0.0 : 1.0);
+    if (p.sound) p.sound->set_volume(p.quiet || p.paused ? 0.0 : p.volume);
+    if (p.captions && !p.paused) update(*p.captions, frame.seconds);
     if (!p.paused) {
         hints::update(p.hints, hint_scene(p), frame.seconds, frame.wanted.wants(Action::hint));
         hints::update(p.mistakes, frame.seconds);
@@ -54,13 +55,13 @@ void lesson_system(scene::World& world, Frame& frame) {
     const int outlined = hint != nullptr ? hint->outlined() : -1;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         glm::vec4 color = nothing;
-        if (outlined == static_cast<int>(i)) color = scene::due_color;
+        if (outlined == static_cast<int>(i)) color = p.palette.due;
         if (p.under == i && !p.finished) color = under_color;
-        if (p.finished) color = view::verdict_color(lesson.joints[i].result);
+        if (p.finished) color = view::color_of(p.palette, view::verdict_of(lesson.joints[i].result));
         scene::outline_joint(world, i, color);
     }
     const bool wants_wrench = hint != nullptr && hint->arrow() == hints::Motion::take;
-    scene::outline_tool(world, p.over_wrench ? under_color : wants_wrench ? scene::due_color : nothing);
+    scene::outline_tool(world, p.over_wrench ? under_color : wants_wrench ? p.palette.due : nothing);
     show_ghost(world, p, hint != nullptr ? hint->ghost() : hints::Ghost::none);
 }
 

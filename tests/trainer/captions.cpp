@@ -1,0 +1,88 @@
+#include "game/trainer/captions.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+using namespace bolt;
+using namespace bolt::trainer;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+bool says(const Captions& captions, Caption caption) {
+    const auto all = shown(captions);
+    return std::find(all.begin(), all.end(), caption) != all.end();
+}
+
+}  // namespace
+
+TEST_CASE("each sound has its caption: it comes in the tick of the sound, stands, and goes") {
+    struct Row {
+        sound::Heard heard;
+        Caption caption;
+    };
+    std::vector<Row> rows(6);
+    rows[0] = {{}, Caption::slip};
+    rows[0].heard.slip = 0.05F;
+    rows[1] = {{}, Caption::mistake};
+    rows[1].heard.mistake = true;
+    rows[2] = {{}, Caption::click};
+    rows[2].heard.click = true;
+    rows[3] = {{}, Caption::done};
+    rows[3].heard.done = true;
+    rows[4] = {{}, Caption::strike_casing};
+    rows[4].heard.strike = 0.3F;
+    rows[5] = {{}, Caption::strike_nut};
+    rows[5].heard.strike = 0.3F;
+    rows[5].heard.met = sound::Met::nut;
+    for (const Row& row : rows) {
+        Captions captions;
+        note(captions, {}, dt);
+        CHECK(shown(captions).empty());
+        note(captions, row.heard, dt);
+        CHECK(shown(captions) == std::vector{row.caption});
+        update(captions, caption_stands - 0.01);
+        CHECK(says(captions, row.caption));
+        update(captions, 0.02);
+        CHECK(shown(captions).empty());
+    }
+}
+
+TEST_CASE("what goes on is said once it lasts, and for as long; a blip and silence are not") {
+    sound::Heard groans;
+    groans.creep = 0.2F;
+    groans.load = 0.8F;
+    Captions captions;
+    for (int i = 0; i < 100; ++i) note(captions, groans, dt);
+    CHECK(shown(captions).empty());
+    for (int i = 0; i < 100; ++i) note(captions, groans, dt);
+    CHECK(shown(captions) == std::vector{Caption::groan});
+    for (int frame = 0; frame < 50; ++frame) {  // five seconds
+        for (int i = 0; i < 100; ++i) note(captions, groans, dt);
+        update(captions, 0.1);
+        CHECK(says(captions, Caption::groan));
+    }
+    Captions blips;
+    for (int i = 0; i < 5000; ++i) note(blips, i % 10 == 0 ? groans : sound::Heard{}, dt);
+    CHECK(shown(blips).empty());
+    sound::Heard unloaded = groans;
+    unloaded.load = 0.05F;
+    for (int i = 0; i < 1000; ++i) note(blips, unloaded, dt);
+    CHECK(shown(blips).empty());
+}
+
+TEST_CASE("no more than three at once, what matters most first; each has words of its own") {
+    sound::Heard all;
+    all.slip = 1.0F;
+    all.done = all.mistake = all.click = true;
+    all.strike = 1.0F;
+    Captions captions;
+    note(captions, all, dt);
+    CHECK(shown(captions) == std::vector{Caption::slip, Caption::mistake, Caption::click});
+    std::set<std::size_t> keys;
+    for (std::size_t i = 0; i < caption_count; ++i)
+        CHECK(keys.insert(term(static_cast<Caption>(i)).index()).second);
+}
