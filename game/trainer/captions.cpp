@@ -9,9 +9,11 @@ namespace {
 constexpr float soft_strike = 0.08F;               // m/s; what is softer is hardly heard
 constexpr float slow_slide = 0.02F, light = 1.0F;  // m/s; N
 constexpr float slow_run = 2.0F;                   // rad/s
-constexpr float slow_creep = 0.01F, some_load = 0.3F;
-constexpr double goes_on = 0.15;  // s that a sound has to last to be worth a line
-constexpr double forgets = 3.0;   // times as fast as it was heard, what has stopped is forgotten
+constexpr float some_load = 0.3F;
+constexpr double enough_creep = 0.02;    // rad under load: it sticks and lets go some times (sound/synth.cpp)
+constexpr double creep_forgotten = 1.0;  // s in which it is
+constexpr double goes_on = 0.15;         // s that other sounds have to last to be worth a line
+constexpr double forgets = 3.0;  // times as fast as they were heard they are forgotten when they have stopped
 
 double& of(std::array<double, caption_count>& all, Caption caption) {
     return all.at(static_cast<std::size_t>(caption));
@@ -21,10 +23,16 @@ void say(Captions& captions, Caption caption, bool now) {
     if (now) of(captions.left, caption) = caption_stands;
 }
 
-void lasting(Captions& captions, Caption caption, bool now, double dt) {
+// Of what goes on: shares of what it takes to be said. A hand at a mouse moves in jerks, and so do the
+// sounds.
+void gather(Captions& captions, Caption caption, double more, double less) {
     double& heard = of(captions.heard, caption);
-    heard = std::clamp(heard + (now ? dt : -forgets * dt), 0.0, goes_on);
-    say(captions, caption, now && heard >= goes_on);
+    say(captions, caption, more > 0.0 && heard + more >= 1.0);
+    heard = std::clamp(heard + more - less, 0.0, 1.0);
+}
+
+void lasting(Captions& captions, Caption caption, bool now, double dt) {
+    gather(captions, caption, now ? dt / goes_on : 0.0, now ? 0.0 : forgets * dt / goes_on);
 }
 
 }  // namespace
@@ -37,7 +45,8 @@ void note(Captions& captions, const sound::Heard& heard, double dt) {
     say(captions, Caption::done, heard.done);
     say(captions, Caption::strike_casing, struck && heard.met == sound::Met::casing);
     say(captions, Caption::strike_nut, struck && heard.met == sound::Met::nut);
-    lasting(captions, Caption::groan, heard.creep > slow_creep && heard.load > some_load, dt);
+    const double crept = heard.load > some_load ? static_cast<double>(heard.creep) * dt : 0.0;
+    gather(captions, Caption::groan, crept / enough_creep, dt / creep_forgotten);
     lasting(captions, Caption::scrape, heard.slide > slow_slide && heard.press > light, dt);
     lasting(captions, Caption::run, heard.run > slow_run, dt);
 }

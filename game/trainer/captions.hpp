@@ -28,7 +28,7 @@ inline constexpr double caption_stands = 2.0;    // s
 
 struct Captions {
     std::array<double, caption_count> left{};   // s that each of them is still shown
-    std::array<double, caption_count> heard{};  // s that what goes on has been heard, in these moments
+    std::array<double, caption_count> heard{};  // 0 … 1, of what it takes until what goes on is said
 };
 
 // A tick of `dt` seconds.

@@ -117,6 +117,7 @@ void App::draw_menu(const glm::dvec2& size) {
         ImGui::TextWrapped("%s", trouble_->message().c_str());
         ImGui::PopStyleColor();
     }
+    if (preferences_.trouble != Preferences::Trouble::none) draw_kept();
     if (button("menu.start")) start_wished_ = true;
     ImGui::SetItemDefaultFocus();
     if (button("menu.settings")) open_settings();
@@ -128,6 +129,7 @@ void App::draw_pause(const glm::dvec2& size) {
     begin_panel("##pause", size, 300.0F * input_.scale);
     text(words_["menu.paused"]);
     ImGui::Separator();
+    if (preferences_.trouble != Preferences::Trouble::none) draw_kept();
     if (button("menu.go_on")) playing_->paused = false;
     const bool may_undo = playing_->course->lesson().mode != lesson::Mode::assessment;
     if (may_undo && button("menu.undo")) {

@@ -3,7 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
+
+#include "game/sound/ear.hpp"
+#include "tests/trainer/player.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
@@ -56,9 +60,9 @@ TEST_CASE("what goes on is said once it lasts, and for as long; a blip and silen
     groans.creep = 0.2F;
     groans.load = 0.8F;
     Captions captions;
-    for (int i = 0; i < 100; ++i) note(captions, groans, dt);
+    for (int i = 0; i < 90; ++i) note(captions, groans, dt);  // 0.018 rad
     CHECK(shown(captions).empty());
-    for (int i = 0; i < 100; ++i) note(captions, groans, dt);
+    for (int i = 0; i < 50; ++i) note(captions, groans, dt);
     CHECK(shown(captions) == std::vector{Caption::groan});
     for (int frame = 0; frame < 50; ++frame) {  // five seconds
         for (int i = 0; i < 100; ++i) note(captions, groans, dt);
@@ -66,12 +70,60 @@ TEST_CASE("what goes on is said once it lasts, and for as long; a blip and silen
         CHECK(says(captions, Caption::groan));
     }
     Captions blips;
-    for (int i = 0; i < 5000; ++i) note(blips, i % 10 == 0 ? groans : sound::Heard{}, dt);
+    for (int i = 0; i < 5000; ++i) note(blips, i % 1000 < 50 ? groans : sound::Heard{}, dt);
     CHECK(shown(blips).empty());
+    sound::Heard scrapes;
+    scrapes.slide = 0.2F;
+    scrapes.press = 5.0F;
+    for (int i = 0; i < 5000; ++i) note(blips, i % 1000 < 100 ? scrapes : sound::Heard{}, dt);
+    CHECK(shown(blips).empty());
+    for (int i = 0; i < 200; ++i) note(blips, scrapes, dt);
+    CHECK(shown(blips) == std::vector{Caption::scrape});
+    blips = {};
     sound::Heard unloaded = groans;
     unloaded.load = 0.05F;
     for (int i = 0; i < 1000; ++i) note(blips, unloaded, dt);
     CHECK(shown(blips).empty());
+}
+
+TEST_CASE(
+    "a lesson in words: nuts that run, joints that groan, chimes, and no words for what was not heard") {
+    const content::Assembly cover = trainer_test::assembly("cover-m8");
+    play::CourseOptions options;
+    options.operator_name = "player";
+    const auto file = std::filesystem::temp_directory_path() / "boltwright_captions.boltwright";
+    auto course = play::Course::begin(cover, options, file);
+    if (!course) FAIL(course.error().message());
+    play::Course& c = **course;
+    trainer_test::Player player;
+    player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
+    sound::Ear ear;
+    Captions captions;
+    std::set<Caption> said, before_tightening;
+    while (!c.over() && c.time() < 200.0) {
+        trainer::wish(player.hand, trainer_test::wish_of(player, c, 0.02), c.setup(), c.state());
+        const bool tightens = c.lesson().due()->kind != lesson::StepKind::run_down;
+        for (int i = 0; i < 20 && !c.over(); ++i) {
+            const auto output = c.step(trainer::move(player.hand, c.setup(), c.state()));
+            REQUIRE(output);
+            note(captions, sound::hear(ear, c.setup(), *output, sound::cues_of(c.events())), c.setup().dt);
+        }
+        update(captions, 0.02);
+        for (const Caption caption : shown(captions)) {
+            said.insert(caption);
+            if (!tightens) before_tightening.insert(caption);
+        }
+    }
+    std::filesystem::remove(file);
+    REQUIRE(c.over());
+    CHECK(said.count(Caption::run) == 1);
+    CHECK(said.count(Caption::groan) == 1);
+    CHECK(said.count(Caption::done) == 1);
+    CHECK(before_tightening.count(Caption::run) == 1);
+    CHECK(before_tightening.count(Caption::groan) == 0);
+    CHECK(said.count(Caption::slip) == 0);
+    CHECK(said.count(Caption::mistake) == 0);
+    CHECK(said.count(Caption::click) == 0);
 }
 
 TEST_CASE("no more than three at once, what matters most first; each has words of its own") {
