@@ -180,6 +180,8 @@ TEST_CASE("while a key is waited for, closing the window closes it, and no key s
     desk.key(Key::enter);
     CHECK(desk.keys().of(Action::hint) == Key::enter);
     CHECK(desk.app->shows() == Shows::menu);
+    desk.key(Key::z);  // it has not pressed the button again: nothing is asked for any more
+    CHECK(desk.keys().of(Action::hint) == Key::enter);
     desk.push("settings.usual_keys");
     CHECK(desk.keys().keys == KeyMap{}.keys);
     desk.push("action.hint");
