@@ -11,6 +11,7 @@
 #include "game/scene/resting_place.hpp"
 #include "game/sound/materials.hpp"
 #include "game/trainer/hud.hpp"
+#include "game/trainer/plates.hpp"
 #include "game/trainer/ui_input.hpp"
 #include "haptics/force/scaled.hpp"
 
@@ -395,6 +396,7 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
     if (Status drawn = renderer.render(frame, *scene, std::span(&eye, 1), size); !drawn) return drawn;
     if (Status begun = ui.begin(frame, input_); !begun) return begun;
     draw_interface(extent);
+    if (playing_) playing_->plates = plates_shown();
     const render::Overlay overlay = ui.end();
     if (Status drawn = renderer.draw_over(frame, overlay, renderer.picture(0)); !drawn) return drawn;
     if (std::exchange(end_wished_, false)) return end_lesson();

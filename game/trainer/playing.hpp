@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/render/overlay.hpp"
 #include "engine/text/fonts.hpp"
 #include "game/hints/hints.hpp"
 #include "game/hints/mistakes.hpp"
@@ -65,8 +66,9 @@ struct Playing {
     operators::Sight sight;
     double unseen = 0.0;  // s that what is due has been out of sight
     bool paused = false, finished = false;
-    bool clamp_map = false;  // the clamp force of every joint is shown
-    double lagged = 0.0;     // s that the lesson's time fell behind the clock's: a slow machine
+    bool clamp_map = false;                 // the clamp force of every joint is shown
+    std::vector<render::Rectangle> plates;  // px, over the picture before
+    double lagged = 0.0;  // s that the lesson's time fell behind the clock's: a slow machine
 };
 
 }  // namespace bolt::trainer

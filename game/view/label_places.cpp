@@ -28,6 +28,42 @@ float outside(const LabelBox& box, const glm::vec2& moved, const glm::vec2& pict
            std::max(0.0F, high.y - picture.y);
 }
 
+// Off each of them to each side: out of something large the steps of the grid do not lead.
+void add_ways_out(const LabelBox& box, std::span<const LabelBox> placed, std::vector<glm::vec2>& ways) {
+    constexpr float clear = gap + 0.01F;
+    const auto within = [&](const LabelBox& other) { return overlap(box, other, glm::vec2(0.0F)); };
+    for (const LabelBox& other : placed) {
+        if (!within(other)) continue;
+        ways.emplace_back(other.low.x - box.high.x - clear, 0.0F);
+        ways.emplace_back(other.high.x - box.low.x + clear, 0.0F);
+        ways.emplace_back(0.0F, other.low.y - box.high.y - clear);
+        ways.emplace_back(0.0F, other.high.y - box.low.y + clear);
+    }
+}
+
+// Where the box is free of all that is placed, for the least cost; where it is, if that is nowhere.
+glm::vec2 nearest_free(const LabelBox& box, std::span<const LabelBox> placed, float step,
+                       const glm::vec2& picture) {
+    std::vector<glm::vec2> starts{glm::vec2(0.0F)};
+    add_ways_out(box, placed, starts);
+    glm::vec2 best(0.0F);
+    float least = 1e9F;
+    for (const glm::vec2& start : starts)
+        for (int right = -sideways; right <= sideways; ++right)
+            for (int up = -upwards; up <= upwards; ++up) {
+                const glm::vec2 moved = start + step * glm::vec2(right, -up);
+                // Up rather than down, over its joint rather than beside it.
+                const float cost = glm::length(moved) + (moved.y > 0.0F ? 0.5F * step : 0.0F) +
+                                   0.1F * std::abs(moved.x) + 4.0F * outside(box, moved, picture);
+                if (cost >= least) continue;
+                const auto taken = [&](const LabelBox& other) { return overlap(box, other, moved); };
+                if (std::any_of(placed.begin(), placed.end(), taken)) continue;
+                least = cost;
+                best = moved;
+            }
+    return best;
+}
+
 }  // namespace
 
 LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const render::Eye& eye,
@@ -44,7 +80,7 @@ LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const rend
 }
 
 void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
-                const glm::vec2& picture) {
+                const glm::vec2& picture, std::span<const render::Rectangle> taken) {
     std::vector<LabelBox> boxes;
     for (const render::Label& label : labels) boxes.push_back(box_of(fonts, label, eye, picture));
     std::vector<std::size_t> order(labels.size());
@@ -52,24 +88,11 @@ void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return boxes[a].high.y > boxes[b].high.y; });
     std::vector<LabelBox> placed;
+    for (const render::Rectangle& plate : taken) placed.push_back({plate.low, plate.high, true});
     for (const std::size_t i : order) {
         LabelBox& box = boxes[i];
         if (!box.seen || labels[i].stand != render::LabelStand::on_screen) continue;
-        const float step = step_em * labels[i].height;
-        glm::vec2 best(0.0F);
-        float least = 1e9F;
-        for (int right = -sideways; right <= sideways; ++right)
-            for (int up = -upwards; up <= upwards; ++up) {
-                const glm::vec2 moved = step * glm::vec2(right, -up);
-                const auto taken = [&](const LabelBox& other) { return overlap(box, other, moved); };
-                if (std::any_of(placed.begin(), placed.end(), taken)) continue;
-                // Up rather than down, over its joint rather than beside it.
-                const float cost = glm::length(moved) + (up < 0 ? 0.5F * step : 0.0F) +
-                                   0.1F * std::abs(moved.x) + 4.0F * outside(box, moved, picture);
-                if (cost >= least) continue;
-                least = cost;
-                best = moved;
-            }
+        const glm::vec2 best = nearest_free(box, placed, step_em * labels[i].height, picture);
         labels[i].moved_px += glm::vec2(best.x, -best.y);
         box.low += best;
         box.high += best;

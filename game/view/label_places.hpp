@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/render/label.hpp"
+#include "engine/render/overlay.hpp"
 #include "engine/render/scene.hpp"
 #include "engine/text/fonts.hpp"
 
@@ -18,9 +19,10 @@ struct LabelBox {
 LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const render::Eye& eye,
                 const glm::vec2& picture);
 
-// Sets `moved_px` so that no two of them overlap and none is cut off by the picture's edge, as far as there
-// is room: each to the free place that is nearest to its own, the one furthest down first.
+// Sets `moved_px` so that no two of them overlap, none is cut off by the picture's edge and none lies under
+// what is `taken` (px from the upper left corner), as far as there is room: each to the free place that is
+// nearest to its own, the one furthest down first.
 void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
-                const glm::vec2& picture);
+                const glm::vec2& picture, std::span<const render::Rectangle> taken = {});
 
 }  // namespace bolt::view

@@ -83,3 +83,31 @@ TEST_CASE("a crowd finds room, at the picture's edge too") {
     CHECK(s.overlaps(crowd) == 0);
     CHECK(box_of(s.fonts, crowd.back(), s.eye, picture).low.y >= 0.0F);
 }
+
+TEST_CASE(
+    "a label under a plate comes out at the side that is nearest, and out of none that leaves no room") {
+    const Scenery s;
+    const auto where = [&](const render::Label& label) { return box_of(s.fonts, label, s.eye, picture); };
+    std::vector<render::Label> one = {Scenery::label("B1", glm::vec3(0.0F))};
+    const LabelBox before = where(one[0]);
+    const render::Rectangle plate{{before.low.x - 200.0F, before.low.y - 120.0F},
+                                  {before.high.x + 60.0F, before.high.y + 150.0F}};
+    move_apart(s.fonts, one, s.eye, picture, {&plate, 1});
+    const LabelBox after = where(one[0]);
+    CHECK(after.low.x >= plate.high.x);
+    CHECK(after.low.x < plate.high.x + 4.0F);
+    CHECK(after.low.y == doctest::Approx(before.low.y));
+
+    // In the corner the way out of the picture is no way.
+    const render::Rectangle corner{{560.0F, 330.0F}, {1280.0F, 720.0F}};
+    std::vector<render::Label> two = {Scenery::label("B1", {0.55F, -0.2F, 0.0F}),
+                                      Scenery::label("B2", {0.56F, -0.21F, 0.0F})};
+    move_apart(s.fonts, two, s.eye, picture, {&corner, 1});
+    CHECK(s.overlaps(two) == 0);
+    for (const render::Label& label : two) {
+        const LabelBox box = where(label);
+        CHECK((box.high.x <= corner.low.x || box.high.y <= corner.low.y));
+        CHECK(box.low.x >= 0.0F);
+        CHECK(box.high.x <= picture.x);
+    }
+}

@@ -53,7 +53,7 @@ void label_system(scene::World&, Frame& frame) {
     }
     const Screen screen = screen_of(p, frame.size);
     if (frame.fonts != nullptr)
-        view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size));
+        view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size), p.plates);
 }
 
 void present_system(scene::World& world, Frame& frame) { scene::present(world, frame.playing.scene); }
