@@ -52,10 +52,18 @@ struct Outlined {
     glm::vec4 color{0.0F};
 };
 
-// Only an image of what should be there: the wrench on its nut.
+// Only an image of what should be there: the wrench on its nut, the hand at it.
 struct Ghost {
     glm::dmat4 tool_from_mesh{1.0};
     bool shown = false;
+};
+
+// Shows a motion (arrow.hpp).
+enum class ArrowShape : std::uint8_t { straight, round };
+struct Pointer {
+    ArrowShape shape = ArrowShape::straight;
+    bool shown = false;
+    glm::vec4 color{1.0F};
 };
 
 // Fades where it hides what must be seen.
@@ -63,6 +71,7 @@ struct CanFade {
     bool fades = true;
 };
 
-using World = ecs::Registry<Placement, Drawn, Nut, OfJoint, OnTool, Fingers, Outlined, Ghost, CanFade>;
+using World =
+    ecs::Registry<Placement, Drawn, Nut, OfJoint, OnTool, Fingers, Outlined, Ghost, Pointer, CanFade>;
 
 }  // namespace bolt::scene

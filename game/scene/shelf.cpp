@@ -4,6 +4,7 @@
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/radiance_file.hpp"
 #include "game/play/touch_models.hpp"
+#include "game/scene/arrow.hpp"
 
 namespace bolt::scene {
 
@@ -56,6 +57,7 @@ Result<std::unique_ptr<GpuShelf>> upload(gpu::Device& device, const Shelf& shelf
                                     {&shelf.wrench, &on->wrench},
                                     {&shelf.hand, &on->hand}})
         if (Status s = put(*model, *to); !s) return fail(s.error());
+    if (Status s = put(arrow_model(), on->arrows); !s) return fail(s.error());
     Result<render::EnvironmentLight> light =
         render::upload_environment(device, shelf.light ? *shelf.light : shading::studio());
     if (!light) return fail(light.error());

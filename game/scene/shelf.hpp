@@ -24,7 +24,7 @@ Result<Shelf> load_shelf(const content::Assembly& assembly, hand::Side side = ha
 
 // The same on the GPU. Stays where it is made: entities point to the models.
 struct GpuShelf {
-    render::GpuModel machine, workshop, wrench, hand;
+    render::GpuModel machine, workshop, wrench, hand, arrows;
     render::EnvironmentLight light;
 };
 

@@ -23,6 +23,14 @@ double furthest(const hand::Skeleton& a, const hand::Skeleton& b) {
     return most;
 }
 
+std::shared_ptr<const render::Deformation> bend(const Fingers& fingers, const hand::Skeleton& to) {
+    render::Deformation deformation;
+    for (std::size_t i = 0; i < fingers.inverse_bind.size() && i < hand::joint_count; ++i)
+        deformation.joints.push_back(glm::mat4(matrix({to.position[i], to.rotation[i]})) *
+                                     fingers.inverse_bind[i]);
+    return std::make_shared<const render::Deformation>(std::move(deformation));
+}
+
 void outline(World& world, ecs::Entity entity, const glm::vec4& color) {
     if (color.w > 0.0F)
         world.add<Outlined>(entity, color);
@@ -52,7 +60,8 @@ void place_hand(World& world, const Postures& postures, const Held& held) {
                                 : held.wrench          ? postures.on_handle.at(held.grip)
                                 : held.pinches         ? postures.on_nut
                                                        : postures.open;
-    world.view<Fingers, Placement>().each([&](Fingers& fingers, Placement& placement) {
+        world.view<Fingers, Placement>().each([&](ecs::Entity entity, Fingers& fingers, Placement& placement) {
+        if (world.find<Ghost>(entity) != nullptr) return;
         placement.world = glm::mat4(matrix(held.wrench ? held.tool : held.fingers));
         const bool first = !fingers.deformation;
         const double far = first ? 1.0 : furthest(fingers.shown, goal);
@@ -61,23 +70,30 @@ void place_hand(World& world, const Postures& postures, const Held& held) {
         const hand::Skeleton shown =
             there ? goal : between(fingers.shown, goal, 1.0 - std::exp(-held.seconds / change));
         fingers.shown = shown;
-        render::Deformation deformation;
-        for (std::size_t i = 0; i < fingers.inverse_bind.size() && i < hand::joint_count; ++i)
-            deformation.joints.push_back(glm::mat4(matrix({shown.position[i], shown.rotation[i]})) *
-                                         fingers.inverse_bind[i]);
-        fingers.deformation = std::make_shared<const render::Deformation>(std::move(deformation));
+        fingers.deformation = bend(fingers, shown);
     });
 }
 
 void show_ghost(World& world, const Pose& tool) {
     const glm::dmat4 at = matrix(tool);
-    world.view<Ghost, Placement>().each([&](Ghost& ghost, Placement& placement) {
+    world.view<Ghost, Placement>().each([&](ecs::Entity entity, Ghost& ghost, Placement& placement) {
+        if (world.find<Fingers>(entity) != nullptr) return;
         ghost.shown = true;
         placement.world = glm::mat4(at * ghost.tool_from_mesh);
     });
 }
 
-void hide_ghost(World& world) {
+void show_hand_ghost(World& world, const Pose& tool, const hand::Skeleton& bent) {
+    world.view<Ghost, Fingers, Placement>().each([&](Ghost& ghost, Fingers& fingers, Placement& placement) {
+        ghost.shown = true;
+        placement.world = glm::mat4(matrix(tool));
+        if (fingers.deformation && furthest(fingers.shown, bent) == 0.0) return;
+        fingers.shown = bent;
+        fingers.deformation = bend(fingers, bent);
+    });
+}
+
+void hide_ghosts(World& world) {
     world.view<Ghost>().each([](Ghost& ghost) { ghost.shown = false; });
 }
 
@@ -133,6 +149,10 @@ void present(World& world, render::Scene& scene) {
                 if (!ghost->shown) return;
                 object.opacity = ghost_opacity;
                 object.tint = ghost_tint;
+            }
+            if (const Pointer* pointer = world.find<Pointer>(entity)) {
+                if (!pointer->shown) return;
+                object.tint = glm::vec4(glm::vec3(pointer->color), 1.0F);
             }
             scene.objects.push_back(object);
         });

@@ -23,9 +23,10 @@ void place_nuts(World& world, const servo::Setup& setup, std::span<const joint::
 void place_tool(World& world, const Held& held);
 void place_hand(World& world, const Postures& postures, const Held& held);
 
-// The ghost of the wrench, with its jaw there.
+// The ghosts of the wrench, with its jaw there, and of a hand bent like this in the frame of the tool.
 void show_ghost(World& world, const Pose& tool);
-void hide_ghost(World& world);
+void show_hand_ghost(World& world, const Pose& tool, const hand::Skeleton& bent);
+void hide_ghosts(World& world);
 
 // Lines around what belongs to a joint; none for a colour without alpha.
 void outline_joint(World& world, std::size_t joint, const glm::vec4& color);

@@ -120,6 +120,19 @@ void add_hand(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
         place.world.get<Drawn>(entity).moves = true;
         place.world.add<CanFade>(entity, true);
         place.world.add<Fingers>(entity, hand::Skeleton{}, shelf.hand.skins.front().inverse_bind, nullptr);
+        const ecs::Entity ghost = add(place.world, object);
+        place.world.get<Drawn>(ghost).moves = true;
+        place.world.add<Fingers>(ghost, hand::Skeleton{}, shelf.hand.skins.front().inverse_bind, nullptr);
+        place.world.add<Ghost>(ghost, glm::dmat4(1.0), false);
+    }
+}
+
+void add_arrows(Workplace& place, const GpuShelf& on_gpu) {
+    for (const ArrowShape shape : {ArrowShape::straight, ArrowShape::round}) {
+        const ecs::Entity entity = place.world.create();
+        place.world.add<Placement>(entity);
+        place.world.add<Drawn>(entity, &on_gpu.arrows, static_cast<std::uint32_t>(shape), -1, true);
+        place.world.add<Pointer>(entity, shape);
     }
 }
 
@@ -132,6 +145,7 @@ Result<Workplace> make_workplace(const Shelf& shelf, const GpuShelf& on_gpu,
     add_workshop(place, shelf, on_gpu);
     add_wrench(place, shelf, on_gpu);
     add_hand(place, shelf, on_gpu);
+    add_arrows(place, on_gpu);
     return place;
 }
 

@@ -1,6 +1,7 @@
 #include "game/trainer/systems.hpp"
 
 #include "game/scene/labels.hpp"
+#include "game/trainer/aids.hpp"
 #include "game/view/palette.hpp"
 
 namespace bolt::trainer {
@@ -19,21 +20,6 @@ hints::Scene hint_scene(const Playing& p) {
     if (p.hand.wrench && p.hand.doing == Doing::holding)
         scene.room = p.hand.room - std::abs(p.hand.handle - p.hand.begun_at);
     return scene;
-}
-
-// The wrench on the due nut, or the hand there, as an image of what is to be done.
-void show_ghost(scene::World& world, Playing& p, hints::Ghost ghost) {
-    const lesson::Lesson& lesson = p.course->lesson();
-    const lesson::Step* due = lesson.due();
-    if (due == nullptr || ghost != hints::Ghost::hand_and_wrench) {
-        p.ghost.reset();
-        scene::hide_ghost(world);
-        return;
-    }
-    if (!p.ghost || p.ghost->first != lesson.current)
-        p.ghost = {lesson.current, wrench_on(p.hand, p.course->setup(), p.course->state(), due->joint,
-                                             due->kind == lesson::StepKind::loosen)};
-    scene::show_ghost(world, p.ghost->second);
 }
 
 }  // namespace
@@ -62,7 +48,7 @@ void lesson_system(scene::World& world, Frame& frame) {
     }
     const bool wants_wrench = hint != nullptr && hint->arrow() == hints::Motion::take;
     scene::outline_tool(world, p.over_wrench ? under_color : wants_wrench ? p.palette.due : nothing);
-    show_ghost(world, p, hint != nullptr ? hint->ghost() : hints::Ghost::none);
+        show_aids(world, p, hint);
 }
 
 }  // namespace bolt::trainer

@@ -1,0 +1,33 @@
+// What a hint shows in the scene beside its words: an arrow for the motion, ghosts of hand and wrench.
+#pragma once
+
+#include <optional>
+
+#include "game/hints/hint.hpp"
+#include "game/scene/arrow.hpp"
+#include "game/scene/labels.hpp"
+#include "game/trainer/playing.hpp"
+
+namespace bolt::trainer {
+
+// Towards the work, and away from it.
+inline constexpr glm::vec4 forth_color = scene::due_color, back_color{0.3F, 0.72F, 1.0F, 1.0F};
+
+// Where a motion is made.
+struct MotionPlace {
+    const servo::NutPlace& nut;
+    Vec3 middle{0.0};  // m, of the nut
+    Pose tool;         // on the nut, or what is in the hand
+    Pose rest;         // where the wrench lies
+    double handle_length = 0.0;
+    bool loosens = false;  // the step
+};
+
+// None for no motion. About the bolt where something turns, clockwise from above to tighten; straight along
+// it to where the tool goes or comes from; down to where the wrench lies.
+std::optional<scene::Arrow> arrow_of(hints::Motion motion, const MotionPlace& place);
+
+// Of the hint, none: all of them go.
+void show_aids(scene::World& world, Playing& playing, const hints::Hint* hint);
+
+}  // namespace bolt::trainer
