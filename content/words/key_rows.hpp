@@ -216,6 +216,7 @@ inline constexpr KeyRow key_rows[] = {
     {"action.undo", ""},
     {"action.restart_step", ""},
     {"action.recentre", ""},
+    {"action.close_up", ""},
     // What sounds say (game/trainer/captions.cpp).
     {"caption.slip", ""},
     {"caption.mistake", ""},

@@ -1,7 +1,10 @@
 #include "game/film/film.hpp"
 
+#include <cmath>
+
 #include "game/scene/labels.hpp"
 #include "game/scene/resting_place.hpp"
+#include "game/scene/strain.hpp"
 
 namespace bolt::film {
 
@@ -93,6 +96,7 @@ Result<render::Picture> Film::draw(const play::Moment& moment, double seconds) {
     const Vec3 shoulder = scene::shoulder_at(place_.machine);
     held.fingers = scene::towards(held.tool, shoulder, 0.0);
     held.grip = scene::natural_grip(postures_, held.tool, Vec3(0, 1, 0), shoulder);
+    held.strain = std::abs(scene::effort(moment.output, moment.setup, wrench));
     held.seconds = seconds;
     scene::place_nuts(place_.world, moment.setup, moment.state.joints);
     scene::place_tool(place_.world, held);

@@ -45,6 +45,7 @@ struct Fingers {
     hand::Skeleton shown;  // in the frame of the tool
     std::vector<glm::mat4> inverse_bind;
     std::shared_ptr<const render::Deformation> deformation;
+    float strain = 0.0F;  // 0 … 1: its skin pales
 };
 
 // A line around it, through whatever hides it.

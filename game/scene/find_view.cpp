@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/render/camera.hpp"
+
 namespace bolt::scene {
 
 namespace {
@@ -12,6 +14,20 @@ constexpr int sides = 24;                                    // every 15° about
 constexpr std::array pitches{35.0, 50.0, 22.0, 65.0, 80.0};  // degrees
 constexpr double reach = 1.8;                                // of the handle's length: how far off
 constexpr double dearer_pitch = 0.7;                         // a head is raised more easily than moved
+
+// From the same side, no further off and no more aside of the nut than it takes to have the wrist in the
+// picture too; as far as that goes.
+view::Orbit with_wrist(const view::Orbit& of_nut, const ViewOf& of) {
+    view::Orbit orbit = of_nut;
+    if (!of.wrist) return orbit;
+    for (const double further : {1.0, 1.15, 1.3, 1.5, 1.75})
+        for (const double aside : {0.0, 0.2, 0.35, 0.5}) {
+            orbit.target = glm::mix(of.nut, *of.wrist, aside);
+            orbit.distance = further * of_nut.distance;
+            if (holds(orbit, of.nut, of.aspect) && holds(orbit, *of.wrist, of.aspect)) return orbit;
+        }
+    return orbit;
+}
 
 Vec3 eye_of(const view::Orbit& orbit) { return Vec3(view::viewpoint_of(orbit).eye); }
 
@@ -23,14 +39,25 @@ double seen_from(const ViewOf& of, operators::Sight& sight, const Vec3& eye) {
                      : operators::nut_seen(sight, *of.touch, of.joint, eye);
 }
 
+bool holds(const view::Orbit& orbit, const Vec3& point, double aspect) {
+    constexpr double inner = 0.88;
+    const view::Viewpoint from = view::viewpoint_of(orbit);
+    render::Perspective lens;
+    lens.fov = static_cast<float>(orbit.fov);
+    lens.aspect = static_cast<float>(aspect);
+    const render::Eye eye = render::make_eye(from.eye, from.target, lens);
+    const glm::dvec4 clip = glm::dmat4(eye.clip_from_world) * glm::dvec4(point, 1.0);
+    return clip.w > 0.0 && std::max(std::abs(clip.x), std::abs(clip.y)) < inner * clip.w;
+}
+
 view::Orbit find_view(const ViewOf& of, operators::Sight& sight, const view::Orbit& from) {
     view::Orbit near = from;
     near.target = of.nut;
     near.distance = std::min(from.distance, reach * of.setup.wrench.handle_length);
     near.pitch = std::clamp(from.pitch, to_radians(20.0), to_radians(80.0));
-    view::Orbit best = near;
-    double most = seen_from(of, sight, eye_of(near)), least_turn = 0.0;
-    if (most >= well_seen) return near;
+    view::Orbit best = with_wrist(near, of);
+    double most = seen_from(of, sight, eye_of(best)), least_turn = 0.0;
+    if (most >= well_seen) return best;
     for (int side = 0; side < sides; ++side)
         for (const double pitch : pitches) {
             view::Orbit orbit = near;
@@ -38,13 +65,14 @@ view::Orbit find_view(const ViewOf& of, operators::Sight& sight, const view::Orb
             orbit.pitch = to_radians(pitch);
             const double turn =
                 std::abs(orbit.yaw - from.yaw) + dearer_pitch * std::abs(orbit.pitch - near.pitch);
+            const view::Orbit whole = with_wrist(orbit, of);
             const bool enough = most >= well_seen;
             if (enough && turn >= least_turn) continue;
-            const double seen = std::min(seen_from(of, sight, eye_of(orbit)), well_seen);
+            const double seen = std::min(seen_from(of, sight, eye_of(whole)), well_seen);
             if (seen < most || (seen == most && turn >= least_turn)) continue;
             most = seen;
             least_turn = turn;
-            best = orbit;
+            best = whole;
         }
     return best;
 }

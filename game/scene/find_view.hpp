@@ -15,6 +15,9 @@ struct ViewOf {
     std::size_t joint = 0;
     Vec3 nut{0.0};               // m, its middle
     std::optional<Pose> wrench;  // where the jaw is or will be; none: only the nut counts
+    // m, the wrist of the hand that works there: the picture, of that shape, is to hold it too.
+    std::optional<Vec3> wrist = std::nullopt;
+    double aspect = 16.0 / 9.0;
 };
 
 // 0 … 1: of nut and jaw the lesser.
@@ -22,6 +25,9 @@ double seen_from(const ViewOf& of, operators::Sight& sight, const Vec3& eye);
 
 // Enough of it, and nobody wants more.
 inline constexpr double well_seen = 0.6;
+
+// Whether a point is in the picture, and not at its very edge.
+bool holds(const view::Orbit& orbit, const Vec3& point, double aspect);
 
 // The view nearest to `from` in which it is well seen, or the one in which most is; near enough to work by.
 view::Orbit find_view(const ViewOf& of, operators::Sight& sight, const view::Orbit& from);

@@ -1,10 +1,13 @@
 #include "game/scene/postures.hpp"
 
+#include <algorithm>
+
 namespace bolt::scene {
 
 namespace {
 
 constexpr double deg = pi / 180.0;
+constexpr double strained_wrist = 11.0 * deg;
 
 // Fingers bent by a share of a fist's, the thumb opposed. Chosen by eye.
 hand::Angles closed(double share) {
@@ -32,6 +35,28 @@ Pose on_side(const Pose& of_right, hand::Side side) {
     return {of_right.position * Vec3(1.0, -1.0, 1.0), Quat(q.w, -q.x, q.y, -q.z) * Quat(0.0, 0.0, 0.0, 1.0)};
 }
 
+// Fingertips that press are bent back, and the joints before them bend for it.
+hand::Angles pinched_hard() {
+    hand::Angles a = pinched();
+    for (std::size_t i = 0; i < 2; ++i) {
+        a.fingers[i].pip += 16.0 * deg;
+        a.fingers[i].dip -= 24.0 * deg;
+    }
+    a.thumb.mcp += 10.0 * deg;
+    a.thumb.ip -= 24.0 * deg;
+    return a;
+}
+
+// Opened a little.
+hand::Angles eased(const hand::Angles& angles) {
+    constexpr double of_fingers = 0.86, of_thumb = 0.8;
+    hand::Angles a = angles;
+    for (hand::FingerAngles& f : a.fingers) f = {of_fingers * f.mcp, of_fingers * f.pip, f.dip, f.side};
+    a.thumb.ip *= of_thumb;
+    a.thumb.mcp *= of_thumb;
+    return a;
+}
+
 // Across a handle that lies along the tool's x and is broad in y: the palm from above, the thumb's side
 // towards the jaw.
 Pose wrist_on_handle(double grip_at) {
@@ -48,15 +73,23 @@ Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::S
     const hand::Hand hand = hand::make_hand(side);
     Postures postures;
     const Pose on_handle = on_side(wrist_on_handle(grip_at), side);
+    const auto closed_on = [&](const Pose& wrist) {
+        return wrench != nullptr ? grip::close_on(*wrench, hand, closed(1.0), wrist).shown : closed(0.75);
+    };
     for (std::size_t i = 0; i < postures.on_handle.size(); ++i) {
         // Over to the other face, and about the handle's middle to the other end.
         const Quat over = glm::angleAxis((i & 1U) != 0 ? pi : 0.0, Vec3(1, 0, 0));
         const Quat round = glm::angleAxis((i & 2U) != 0 ? pi : 0.0, Vec3(0, 0, 1));
         const Pose middle{Vec3(grip_at, 0.0, 0.0)};
         const Pose wrist = middle * Pose{Vec3(0.0), over * round} * inverse(middle) * on_handle;
-        hand::Angles angles = closed(0.75);
-        if (wrench != nullptr) angles = grip::close_on(*wrench, hand, closed(1.0), wrist).shown;
+        const hand::Angles angles = closed_on(wrist);
         postures.on_handle[i] = hand::joints(hand, angles, wrist);
+        postures.at_ease[i] = hand::joints(hand, eased(angles), wrist);
+        // About the knuckles, which stay where they are.
+        const Vec3 knuckles = postures.on_handle[i].position[hand::middle_proximal];
+        const Quat bent = glm::angleAxis(strained_wrist, wrist.orientation * Vec3(1, 0, 0));
+        const Pose hard{knuckles + bent * (wrist.position - knuckles), bent * wrist.orientation};
+        postures.strained[i] = hand::joints(hand, closed_on(hard), hard);
     }
 
     // The pads meet at the tool's origin, the fingers come from above and from the handle's side.
@@ -67,8 +100,19 @@ Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::S
         return hand::joints(hand, bent, Pose{Vec3(0.0, 0.0, lift) - lean * middle, lean});
     };
     postures.on_nut = meeting(pinched(), 0.0);
+    postures.on_nut_strained = meeting(pinched_hard(), 0.0);
     postures.open = meeting(closed(0.25), 0.02);
     return postures;
+}
+
+hand::Skeleton holding(const Postures& postures, std::size_t way, double strain) {
+    const double share = 2.0 * std::clamp(strain, 0.0, 1.0);
+    return share < 1.0 ? between(postures.at_ease.at(way), postures.on_handle.at(way), share)
+                       : between(postures.on_handle.at(way), postures.strained.at(way), share - 1.0);
+}
+
+hand::Skeleton pinching(const Postures& postures, double strain) {
+    return between(postures.on_nut, postures.on_nut_strained, std::clamp(strain, 0.0, 1.0));
 }
 
 std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3& up, const Vec3& shoulder) {

@@ -13,7 +13,15 @@ namespace bolt::scene {
 struct Postures {
     std::array<hand::Skeleton, 4> on_handle;
     hand::Skeleton on_nut, open;
+    // The same without any force, and with all that a hand has: fingers that only lie on the handle, and a
+    // wrist rolled over it with the fingers after; fingertips bent back on the nut.
+    std::array<hand::Skeleton, 4> at_ease, strained;
+    hand::Skeleton on_nut_strained;
 };
+
+// On the handle held that way, with so much of the force that there is (0 … 1); likewise on a nut.
+hand::Skeleton holding(const Postures& postures, std::size_t way, double strain);
+hand::Skeleton pinching(const Postures& postures, double strain);
 
 // The way that suits somebody whose shoulder is there, with the tool so: back of the hand up, forearm towards
 // the shoulder.

@@ -8,7 +8,8 @@ namespace bolt::scene {
 
 namespace {
 
-constexpr float ghost_opacity = 0.4F;
+constexpr float ghost_opacity = 0.4F, most_pale = 0.4F;
+constexpr glm::vec3 pale{0.95F, 0.80F, 0.74F};
 constexpr glm::vec4 ghost_tint{0.2F, 0.75F, 1.0F, 0.7F};
 
 glm::dmat4 matrix(const Pose& pose) {
@@ -55,14 +56,19 @@ void place_tool(World& world, const Held& held) {
 }
 
 void place_hand(World& world, const Postures& postures, const Held& held) {
-    constexpr double change = 0.07;  // s in which most of it is done
+    constexpr double change = 0.07;             // s in which most of it is done
+    constexpr double furthest_tremor = 1.2e-3;  // m
     const hand::Skeleton goal = held.gloved != nullptr ? *held.gloved
-                                : held.wrench          ? postures.on_handle.at(held.grip)
-                                : held.pinches         ? postures.on_nut
+                                : held.wrench          ? holding(postures, held.grip, held.strain)
+                                : held.pinches         ? pinching(postures, held.strain)
                                                        : postures.open;
-        world.view<Fingers, Placement>().each([&](ecs::Entity entity, Fingers& fingers, Placement& placement) {
+    world.view<Fingers, Placement>().each([&](ecs::Entity entity, Fingers& fingers, Placement& placement) {
         if (world.find<Ghost>(entity) != nullptr) return;
-        placement.world = glm::mat4(matrix(held.wrench ? held.tool : held.fingers));
+        Pose at = held.wrench ? held.tool : held.fingers;
+        // Along the way of the pull.
+        at.position += at.orientation * Vec3(0.0, furthest_tremor * held.tremor, 0.0);
+        placement.world = glm::mat4(matrix(at));
+        fingers.strain = static_cast<float>(held.strain);
         const bool first = !fingers.deformation;
         const double far = first ? 1.0 : furthest(fingers.shown, goal);
         if (far == 0.0) return;
@@ -141,8 +147,11 @@ void present(World& world, render::Scene& scene) {
             object.node = drawn.node;
             object.moves = drawn.moves;
             object.world = placement.world;
-            if (const Fingers* fingers = world.find<Fingers>(entity))
+            if (const Fingers* fingers = world.find<Fingers>(entity)) {
                 object.deformation = fingers->deformation;
+                // Never quite none: what has none is drawn by other shaders, made in the middle of a pull.
+                object.tint = glm::vec4(pale, std::max(1e-3F, most_pale * fingers->strain));
+            }
             if (const Outlined* line = world.find<Outlined>(entity)) object.outline = line->color;
             if (const CanFade* fade = world.find<CanFade>(entity)) object.cut = fade->fades;
             if (const Ghost* ghost = world.find<Ghost>(entity)) {

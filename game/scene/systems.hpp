@@ -16,6 +16,8 @@ struct Held {
     Pose fingers;          // what they are shown in, without a wrench
     std::size_t grip = 0;  // of Postures::on_handle
     double seconds = 0.0;  // since the last frame: a hand changes its posture in no time, but not at once
+    double strain = 0.0;   // 0 … 1, of the hand (strain.hpp)
+    double tremor = 0.0;   // −1 … 1, likewise
     // Of a hand in a glove, in the frame of the wrench, in the hand or where it lies.
     const hand::Skeleton* gloved = nullptr;
 };

@@ -215,6 +215,7 @@ Status App::begin_lesson(float aspect) {
                                       setup.wrench.handle_length, worker.side);
     p.shoulder = scene::shoulder_at(p.place.machine, worker);
     apply_preferences();
+    p.close_up.wished = course_.mode == lesson::Mode::guided;
     p.camera.jump(first_view(p, shelf_->machine, setup.wrench.handle_length, aspect, worker));
     played_.reset();
     shows_ = Shows::lesson;
@@ -396,6 +397,10 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
     if (Status drawn = renderer.render(frame, *scene, std::span(&eye, 1), size); !drawn) return drawn;
     if (Status begun = ui.begin(frame, input_); !begun) return begun;
     draw_interface(extent);
+    if (playing_ && shows_ == Shows::lesson) {
+        const Drawing on{renderer, frame, ui};
+        if (Status drawn = draw_close_up(on, *playing_, extent, scale); !drawn) return drawn;
+    }
     if (playing_) playing_->plates = plates_shown();
     const render::Overlay overlay = ui.end();
     if (Status drawn = renderer.draw_over(frame, overlay, renderer.picture(0)); !drawn) return drawn;

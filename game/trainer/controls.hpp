@@ -25,20 +25,21 @@ enum class Action : std::uint8_t {
     undo,   // the step before is due again
     restart_step,
     recentre,  // at a station: the tool goes back to where it was at the beginning
+    close_up,  // the picture from the wrench on and off
 };
-inline constexpr std::size_t action_count = 11;
+inline constexpr std::size_t action_count = 12;
 constexpr std::string_view name(Action action) {
     constexpr std::array<std::string_view, action_count> names{
         "tool",        "find_view", "whole_view", "hint",         "flange_map", "pause",
-        "full_screen", "quiet",     "undo",       "restart_step", "recentre"};
+        "full_screen", "quiet",     "undo",       "restart_step", "recentre",   "close_up"};
     return names.at(static_cast<std::size_t>(action));
 }
 
 struct KeyMap {
     std::array<platform::Key, action_count> keys{
-        platform::Key::t,         platform::Key::v,      platform::Key::f,   platform::Key::h,
-        platform::Key::c,         platform::Key::escape, platform::Key::f11, platform::Key::m,
-        platform::Key::backspace, platform::Key::r,      platform::Key::home};
+        platform::Key::t,         platform::Key::v,      platform::Key::f,    platform::Key::h,
+        platform::Key::c,         platform::Key::escape, platform::Key::f11,  platform::Key::m,
+        platform::Key::backspace, platform::Key::r,      platform::Key::home, platform::Key::i};
     [[nodiscard]] platform::Key of(Action action) const { return keys.at(static_cast<std::size_t>(action)); }
 };
 

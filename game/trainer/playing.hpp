@@ -11,10 +11,12 @@
 #include "game/hints/mistakes.hpp"
 #include "game/operators/sight.hpp"
 #include "game/play/course.hpp"
+#include "game/scene/strain.hpp"
 #include "game/scene/systems.hpp"
 #include "game/sound/live.hpp"
 #include "game/trainer/at_station.hpp"
 #include "game/trainer/captions.hpp"
+#include "game/trainer/close_up.hpp"
 #include "game/trainer/controls.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "game/trainer/pointing.hpp"
@@ -66,7 +68,9 @@ struct Playing {
     operators::Sight sight;
     double unseen = 0.0;  // s that what is due has been out of sight
     bool paused = false, finished = false;
-    bool clamp_map = false;                 // the clamp force of every joint is shown
+    bool clamp_map = false;  // the clamp force of every joint is shown
+    scene::Strain strain;    // of the hand
+    CloseUp close_up;
     std::vector<render::Rectangle> plates;  // px, over the picture before
     double lagged = 0.0;  // s that the lesson's time fell behind the clock's: a slow machine
 };

@@ -26,7 +26,7 @@ words::Key term(Action action) {
     constexpr words::Key keys[] = {"action.tool",         "action.find_view",  "action.whole_view",
                                    "action.hint",         "action.flange_map", "action.pause",
                                    "action.full_screen",  "action.quiet",      "action.undo",
-                                   "action.restart_step", "action.recentre"};
+                                   "action.restart_step", "action.recentre",   "action.close_up"};
     static_assert(std::size(keys) == action_count);
     return keys[static_cast<std::size_t>(action)];
 }

@@ -35,6 +35,7 @@ void say(Playing& p, std::span<const lesson::Event> events) {
 void note(Playing& p, const servo::Output& output) {
     p.output = output;
     plot(p, output);
+    scene::strain(p.strain, output, p.course->setup(), p.hand.wrench);
     say(p, p.course->events());
     if (p.sound) p.sound->tick(output, sound::cues_of(p.course->events()));
     if (p.captions)
@@ -114,6 +115,8 @@ scene::Held held_of(Playing& p, double seconds) {
             gloved ? p.hand.rest : scene::towards(p.hand.pose, p.shoulder, twisted),
             p.grip,
             seconds,
+            p.strain.share,
+            p.strain.tremor,
             gloved ? &p.station->fingers : nullptr};
 }
 

@@ -48,7 +48,7 @@ void lesson_system(scene::World& world, Frame& frame) {
     }
     const bool wants_wrench = hint != nullptr && hint->arrow() == hints::Motion::take;
     scene::outline_tool(world, p.over_wrench ? under_color : wants_wrench ? p.palette.due : nothing);
-        show_aids(world, p, hint);
+    show_aids(world, p, hint);
 }
 
 }  // namespace bolt::trainer

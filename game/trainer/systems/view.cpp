@@ -1,5 +1,6 @@
 #include "game/trainer/systems.hpp"
 
+#include "game/operators/mind.hpp"
 #include "game/scene/find_view.hpp"
 
 namespace bolt::trainer {
@@ -25,10 +26,30 @@ scene::ViewOf view_of(const Playing& p, std::size_t joint) {
     return of;
 }
 
-void look_at_work(Playing& p) {
+// Where the hand is at the nut, or will be.
+Vec3 wrist_at(const Playing& p, std::size_t joint) {
+    const servo::Setup& setup = p.course->setup();
+    const servo::State& state = p.course->state();
+    const bool there = p.hand.nut == joint && p.hand.doing != Doing::resting;
+    if (p.hand.wrench) {
+        const bool loosens = p.course->lesson().task == lesson::Task::loosen;
+        const Pose tool = there ? p.output.tool : wrench_on(p.hand, setup, state, joint, loosens);
+        const std::size_t grip = scene::natural_grip(p.postures, tool, Vec3(0, 1, 0), p.shoulder);
+        return tool * p.postures.on_handle.at(grip).position[hand::wrist];
+    }
+    const servo::NutPlace& nut = setup.nuts[joint];
+    const Pose at{servo::nut_centre(nut, state.joints[joint].nut.angle),
+                  operators::orientation_of(nut, 0.0, false)};
+    return scene::towards(at, p.shoulder, 0.0) * p.postures.on_nut.position[hand::wrist];
+}
+
+void look_at_work(Playing& p, const glm::dvec2& picture) {
     const auto joint = at_work(p);
     if (!joint) return;
-    p.camera.go(scene::find_view(view_of(p, *joint), p.sight, p.camera.goal));
+    scene::ViewOf of = view_of(p, *joint);
+    of.wrist = wrist_at(p, *joint);
+    of.aspect = picture.x / picture.y;
+    p.camera.go(scene::find_view(of, p.sight, p.camera.goal));
     p.unseen = 0.0;
 }
 
@@ -58,9 +79,11 @@ void view_system(scene::World& world, Frame& frame) {
     if (frame.wanted.wants(Action::whole_view))
         p.camera.go(
             view::framing(p.camera.goal, p.place.machine, static_cast<float>(frame.size.x / frame.size.y)));
-    if (frame.wanted.wants(Action::find_view) || lost(p, frame)) look_at_work(p);
+    if (frame.wanted.wants(Action::find_view) || lost(p, frame)) look_at_work(p, frame.size);
     (void)p.camera.advance(frame.seconds);
     const bool helps = p.course->lesson().mode != lesson::Mode::assessment;
+    if (frame.wanted.wants(Action::close_up)) p.close_up.wished = !p.close_up.wished;
+    update_close_up(p);
     p.scene.cut_away.strength = 0.0F;
     if (p.hand.nut && p.hand.doing != Doing::resting && helps)
         scene::keep_in_sight(world, p.scene, p.course->setup(), p.course->state(), *p.hand.nut);

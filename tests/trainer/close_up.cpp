@@ -1,0 +1,82 @@
+// The close-up: its eye sees nut and jaw, and it covers nothing.
+#include "game/trainer/close_up.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+#include "game/scene/close_up.hpp"
+#include "game/trainer/mouse_hand.hpp"
+#include "tests/trainer/player.hpp"
+
+using namespace bolt;
+using namespace bolt::trainer;
+
+TEST_CASE("the close-up's place: below on the left, over nothing else") {
+    const glm::dvec2 picture(1280.0, 720.0);
+    const auto place = close_up_place(picture, 1.0F, {});
+    REQUIRE(place);
+    CHECK(place->low == glm::vec2(12.0F, 720.0F - 12.0F - 180.0F));
+    CHECK(place->high == glm::vec2(252.0F, 708.0F));
+    // Beside the strain in the middle below, or over it where the window is narrow.
+    CHECK(place->high.x < 640.0F - 145.0F);
+    const auto narrow = close_up_place({640.0, 480.0}, 1.0F, {});
+    REQUIRE(narrow);
+    CHECK(narrow->high.y <= 480.0F - 12.0F - 62.0F);
+    // What is there already it does not cover.
+    const render::Rectangle below{{0.0F, 650.0F}, {600.0F, 720.0F}}, left{{0.0F, 300.0F}, {100.0F, 720.0F}};
+    const auto above = close_up_place(picture, 1.0F, {&below, 1});
+    REQUIRE(above);
+    CHECK(above->high.y <= below.low.y);
+    CHECK_FALSE(close_up_place(picture, 1.0F, {&left, 1}));
+    // A small window has a small one.
+    const auto small = close_up_place({320.0, 180.0}, 1.0F, {});
+    REQUIRE(small);
+    CHECK(small->high.y - small->low.y < 0.3F * 180.0F);
+}
+
+// Asked of the obstacles themselves, for what lies loose and for what is tight; the wrench from where it is
+// put on through a pull of 60 degrees.
+TEST_CASE(
+    "on every nut of the reducer the eye on the wrench sees nut and jaw, and the eye beside the fingers the "
+    "nut") {
+    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-close-up.boltwright";
+    for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
+        play::CourseOptions options;
+        options.task = task;
+        options.obstacles = play::Obstacles::required;
+        auto begun = play::Course::begin(trainer_test::assembly("zq350"), options, file);
+        REQUIRE(begun);
+        const servo::Setup& setup = (*begun)->setup();
+        const servo::State& state = (*begun)->state();
+        REQUIRE(setup.nuts.size() == 12);
+        const bool loosens = task == lesson::Task::loosen;
+        const MouseHand hand = make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
+        operators::Sight sight;
+        for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
+            const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
+            scene::ViewOf of{setup, &*state.touch, i, nut, std::nullopt};
+            const Pose tool = wrench_on(hand, setup, state, i, loosens);
+            const scene::CloseUpEye fingers = scene::close_up_eye(of, tool, 0.0, sight);
+            of.wrench = tool;
+            const scene::CloseUpEye wrench =
+                scene::close_up_eye(of, tool, to_radians(loosens ? 60.0 : -60.0), sight);
+            // Beside what it says itself, and in the middle of the pull too.
+            const double first = scene::seen_from(of, sight, tool * wrench.at);
+            const Quat half = glm::angleAxis(to_radians(loosens ? 30.0 : -30.0), setup.nuts[i].axis);
+            const Pose later{tool.position, half * tool.orientation};
+            of.wrench = later;
+            const double then = scene::seen_from(of, sight, later * wrench.at);
+            MESSAGE((*begun)->assembly().joints[i].design.id << (loosens ? " tight: " : " loose: ")
+                                                             << "wrench " << first << ", " << then
+                                                             << ", fingers " << fingers.seen);
+            CHECK(first >= 0.6);
+            CHECK(then >= 0.6);
+            CHECK(wrench.seen >= 0.6);
+            CHECK(fingers.seen >= 0.6);
+            // On the side of the nut that the jaw comes from, whichever face the wrench lies on.
+            CHECK(glm::dot(tool * wrench.at - nut, setup.nuts[i].axis) > 0.5 * glm::length(wrench.at));
+        }
+    }
+    std::filesystem::remove(file);
+}

@@ -1,0 +1,61 @@
+// The view that is found shows nut, jaw and the hand that works there.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "game/scene/find_view.hpp"
+#include "game/scene/postures.hpp"
+#include "game/trainer/mouse_hand.hpp"
+#include "tests/trainer/player.hpp"
+
+using namespace bolt;
+
+TEST_CASE("a point is in the picture or not") {
+    view::Orbit orbit;  // from +Z at 1 m
+    const double up = std::tan(0.5 * orbit.fov);
+    CHECK(scene::holds(orbit, {0.0, 0.85 * up, 0.0}, 2.0));
+    CHECK_FALSE(scene::holds(orbit, {0.0, 0.9 * up, 0.0}, 2.0));
+    CHECK(scene::holds(orbit, {1.7 * up, 0.0, 0.0}, 2.0));
+    CHECK_FALSE(scene::holds(orbit, {1.7 * up, 0.0, 0.0}, 1.0));
+    CHECK_FALSE(scene::holds(orbit, {0.0, 0.0, 1.5}, 1.0));  // behind the eye
+}
+
+TEST_CASE(
+    "the view of every nut of the reducer has the wrist in it, and loses nothing of what is seen for it") {
+    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-views.boltwright";
+    play::CourseOptions options;
+    options.obstacles = play::Obstacles::required;
+    auto begun = play::Course::begin(trainer_test::assembly("zq350"), options, file);
+    REQUIRE(begun);
+    const servo::Setup& setup = (*begun)->setup();
+    const servo::State& state = (*begun)->state();
+    const trainer::MouseHand hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
+    const scene::Postures postures = scene::make_postures(&state.touch->wrench, setup.wrench.handle_length);
+    const Vec3 shoulder(0.6, 0.6, 0.7);
+    operators::Sight sight;
+    int outside_before = 0;
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
+        const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
+        scene::ViewOf of{setup, &*state.touch, i, nut, wrench_on(hand, setup, state, i, false)};
+        const std::size_t grip = scene::natural_grip(postures, *of.wrench, Vec3(0, 1, 0), shoulder);
+        const Vec3 wrist = *of.wrench * postures.on_handle.at(grip).position[hand::wrist];
+        view::Orbit from;
+        from.pitch = to_radians(30.0);
+        const view::Orbit without = scene::find_view(of, sight, from);
+        if (!scene::holds(without, wrist, of.aspect)) ++outside_before;
+        of.wrist = wrist;
+        const view::Orbit found = scene::find_view(of, sight, from);
+        const double seen = scene::seen_from(of, sight, Vec3(view::viewpoint_of(found).eye));
+        MESSAGE((*begun)->assembly().joints[i].design.id << " seen " << seen << " from " << found.distance
+                                                         << " m");
+        CHECK(scene::holds(found, nut, of.aspect));
+        CHECK(scene::holds(found, wrist, of.aspect));
+        CHECK(seen >= scene::well_seen);
+        CHECK(found.distance < 0.8);
+    }
+    CHECK(outside_before > 0);  // or this test shows nothing
+    MESSAGE(outside_before << " of 12 wrists were outside without it");
+    begun->reset();
+    std::filesystem::remove(file);
+}
