@@ -129,6 +129,7 @@ void App::drop() {
         playing_->scene = {};
         playing_->place = {};
     }
+    backdrop_.drop();
     on_.reset();
 }
 
@@ -332,6 +333,12 @@ void App::tell_events() {
     playing_->said.clear();
 }
 
+Status App::draw_backdrop(gpu::Frame& frame, VkExtent2D size) {
+    backdrop_.want(options_.choice.assembly);
+    view::Painter& painter = *on_->painter;
+    return backdrop_.draw(*painter.device, *painter.renderer, frame, size);
+}
+
 Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, VkExtent2D size, float scale,
                   double seconds) {
     if (const auto language = std::exchange(language_wished_, std::nullopt))
@@ -395,7 +402,12 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
     }
     render::Renderer& renderer = *on_->painter->renderer;
     if (Status drawn = renderer.render(frame, *scene, std::span(&eye, 1), size); !drawn) return drawn;
+    if (!playing_)
+        if (Status drawn = draw_backdrop(frame, size); !drawn) return drawn;
     if (Status begun = ui.begin(frame, input_); !begun) return begun;
+    if (const auto behind = backdrop_.picture(renderer); behind && !playing_)
+        ImGui::GetBackgroundDrawList()->AddImage(ui.picture(*behind), {0.0F, 0.0F},
+                                                 {input_.size.x, input_.size.y});
     draw_interface(extent);
     if (playing_ && shows_ == Shows::lesson) {
         const Drawing on{renderer, frame, ui};

@@ -9,6 +9,7 @@
 
 #include "engine/ui/ui.hpp"
 #include "game/hints/controls.hpp"
+#include "game/trainer/backdrop.hpp"
 #include "game/trainer/equipment.hpp"
 #include "game/trainer/preferences.hpp"
 #include "game/trainer/systems.hpp"
@@ -85,6 +86,8 @@ class App {
     [[nodiscard]] Shows shows() const { return shows_; }
     [[nodiscard]] bool wants_full_screen() { return std::exchange(full_screen_, false); }
     [[nodiscard]] const Playing* playing() const { return playing_ ? &*playing_ : nullptr; }
+    // What stands behind the menu.
+    [[nodiscard]] const Backdrop& backdrop() const { return backdrop_; }
     [[nodiscard]] std::span<const ButtonPlace> buttons() const { return buttons_; }
     [[nodiscard]] const Preferences& preferences() const { return preferences_; }
     [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
@@ -105,6 +108,7 @@ class App {
     void name_controls();
     Status place_on_gpu();
     void draw_interface(const glm::dvec2& size);
+    Status draw_backdrop(gpu::Frame& frame, VkExtent2D size);
     void draw_menu(const glm::dvec2& size);
     void draw_seats();
     void draw_result(const glm::dvec2& size);
@@ -149,6 +153,7 @@ class App {
     ui::Input input_;
     std::vector<ButtonPlace> buttons_;
     std::unique_ptr<OnGpu> on_;
+    Backdrop backdrop_;
     bool closed_ = false, full_screen_ = false;
     bool start_wished_ = false, end_wished_ = false;
 };

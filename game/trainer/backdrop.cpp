@@ -1,0 +1,77 @@
+#include "game/trainer/backdrop.hpp"
+
+#include <chrono>
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr std::uint32_t group = 2;                     // of the renderer's pictures: 1 is the close-up
+constexpr glm::vec4 dim{0.035F, 0.04F, 0.045F, 1.0F};  // behind it
+constexpr float exposure = 0.55F;                      // the menu is what is to be read
+
+// The coarse model is enough, where there is one.
+view::LoadedSubject read(const std::string& assembly) {
+    view::LoadedSubject far = view::load_subject(assembly, view::Level::far);
+    return far.ok() ? std::move(far) : view::load_subject(assembly);
+}
+
+}  // namespace
+
+void Backdrop::want(const std::string& assembly) {
+    wanted_ = assembly;
+    if (coming_.valid() || shown_ == wanted_ || coming_name_ == wanted_) return;
+    coming_name_ = assembly;
+    coming_ = std::async(std::launch::async, read, assembly);
+}
+
+Status Backdrop::put_up(gpu::Device& device, const view::Subject& subject) {
+    if (Status idle = device.idle(); !idle) return idle;
+    if (light_.levels.get() == VK_NULL_HANDLE) {
+        Result<render::EnvironmentLight> light = render::upload_environment(device, shading::studio());
+        if (!light) return fail(light.error());
+        light_ = std::move(*light);
+    }
+    Result<std::unique_ptr<view::Stage>> stage = view::set_stage(device, subject, light_);
+    if (!stage) return fail(stage.error());
+    stage_ = std::move(*stage);
+    stage_->scene.background = dim;
+    stage_->scene.exposure = exposure;
+    from_ = subject.views.empty() ? view::Viewpoint{} : subject.views.front();
+    shown_ = coming_name_;
+    drawn_ = {};
+    return {};
+}
+
+Status Backdrop::draw(gpu::Device& device, render::Renderer& renderer, gpu::Frame& frame, VkExtent2D size) {
+    using namespace std::chrono_literals;
+    if (coming_.valid() && coming_.wait_for(0s) == std::future_status::ready) {
+        const view::LoadedSubject loaded = coming_.get();
+        // One that cannot be read is told of when its lesson is to begin.
+        if (loaded.ok())
+            if (Status up = put_up(device, loaded.subject); !up) return up;
+    }
+    if (!stage_ || (drawn_.width == size.width && drawn_.height == size.height)) return {};
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    const view::Viewpoint at = from_.fov > 0.0F ? from_ : view::framed(stage_->box, view::usual_fov, aspect);
+    const render::Eye eye =
+        render::make_eye(at.eye, at.target, view::lens(stage_->box, at.eye, at.target, at.fov, aspect));
+    if (Status drawn = renderer.render(frame, stage_->scene, {&eye, 1}, size, group); !drawn) return drawn;
+    drawn_ = size;
+    return {};
+}
+
+std::optional<render::Layer> Backdrop::picture(const render::Renderer& renderer) const {
+    if (shown_ != wanted_ || drawn_.width == 0) return std::nullopt;
+    return renderer.picture(0, group);
+}
+
+void Backdrop::drop() {
+    stage_.reset();
+    light_ = {};
+    shown_.clear();
+    coming_name_.clear();
+    drawn_ = {};
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,118 @@
+// What is shown over and beside the work: the close-up and hints in the scene, and the machine behind the
+// menu.
+#include <algorithm>
+#include <thread>
+
+#include "tests/trainer_app/onlooker.hpp"
+
+using namespace bolt;
+using namespace bolt::trainer;
+
+namespace {
+
+constexpr VkExtent2D size{320, 180};
+
+AppOptions options(lesson::Mode mode, bool menu) {
+    AppOptions o;
+    o.choice.assembly = "cover-m8";
+    o.choice.mode = mode;
+    o.choice.task = lesson::Task::loosen;
+    o.choice.language = "en";
+    o.menu = menu;
+    o.course.obstacles = play::Obstacles::if_any;
+    return o;
+}
+
+// With the wrench on the first nut.
+void put_on(test::Onlooker& one) {
+    one.frame();
+    one.key(platform::Key::t);
+    for (int i = 0; i < 40 && !one.playing().hand.wrench; ++i) one.frame({}, 0.25);
+    REQUIRE(one.playing().hand.wrench);
+}
+
+// Of the picture's pixels those that are not as in the other.
+double share_changed(const render::Picture& a, const render::Picture& b, const render::Rectangle& in) {
+    int changed = 0, all = 0;
+    for (auto y = static_cast<std::size_t>(in.low.y); y < static_cast<std::size_t>(in.high.y); ++y)
+        for (auto x = static_cast<std::size_t>(in.low.x); x < static_cast<std::size_t>(in.high.x); ++x) {
+            const std::size_t at = 4 * (y * a.width + x);
+            ++all;
+            changed += std::equal(&a.rgba[at], &a.rgba[at] + 3, &b.rgba[at]) ? 0 : 1;
+        }
+    return static_cast<double>(changed) / all;
+}
+
+bool straight_arrow_shown(const Playing& p) {
+    bool shown = false;
+    const_cast<scene::World&>(p.place.world).view<const scene::Pointer>().each([&](const scene::Pointer& it) {
+        shown = shown || (it.shown && it.shape == scene::ArrowShape::straight);
+    });
+    return shown;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the close-up comes with the wrench at a nut, goes by its key and with the wrench, and looks from "
+    "above") {
+    test::Onlooker one(options(lesson::Mode::guided, false), "seen-guided", size, 0.5F);
+    put_on(one);
+    CHECK_FALSE(one.playing().close_up.joint);  // far away
+    one.key(platform::Key::h);
+    one.key(platform::Key::h);
+    one.frame();
+    CHECK(straight_arrow_shown(one.playing()));
+    const std::size_t joint = one.playing().course->lesson().due()->joint;
+    one.key(platform::Key::v);
+    for (int i = 0; i < 4; ++i) one.frame({}, 0.25);
+    const glm::dvec2 at = one.hold(joint);
+    const CloseUp& c = one.playing().close_up;
+    REQUIRE(c.joint == joint);
+    CHECK(c.seen >= 0.6);
+    const servo::NutPlace& nut = one.playing().course->setup().nuts[joint];
+    CHECK(glm::dot(c.tool * c.eye - c.tool.position, nut.axis) > 0.03);
+    one.wait(0.6);
+    one.frame({}, 0.001);
+    const render::Picture with = one.picture();
+    const auto place = close_up_place(glm::dvec2(size.width, size.height), 0.5F, {});
+    REQUIRE(place);
+    one.frame({platform::KeyEvent{platform::Key::i, true, false, {}}}, 0.001);
+    CHECK_FALSE(c.joint);
+    const render::Picture without = one.picture();
+    CHECK(share_changed(with, without, *place) > 0.5);
+    CHECK(share_changed(with, without, {{170.0F, 70.0F}, {320.0F, 120.0F}}) < 0.05);
+    one.key(platform::Key::i);
+    CHECK(c.joint == joint);
+    one.button(false, at);
+    one.wait(1.0);
+    one.key(platform::Key::t);
+    for (int i = 0; i < 12; ++i) one.frame({}, 0.25);
+    CHECK_FALSE(c.joint);
+}
+
+TEST_CASE("in an assessment there is no close-up, whatever is pressed, and no arrow") {
+    test::Onlooker one(options(lesson::Mode::assessment, false), "seen-assessment", size, 0.5F);
+    put_on(one);
+    one.key(platform::Key::i);
+    one.key(platform::Key::h);
+    one.hold(0);
+    one.frame();
+    CHECK_FALSE(one.playing().close_up.joint);
+    CHECK_FALSE(straight_arrow_shown(one.playing()));
+}
+
+TEST_CASE("behind the menu stands the machine that is chosen, and the menu does not wait for it") {
+    test::Onlooker one(options(lesson::Mode::guided, true), "seen-menu", size, 0.3F);
+    one.frame();
+    const render::Picture bare = one.picture();
+    CHECK(one.app().shows() == Shows::menu);
+    for (int i = 0; i < 2000 && one.app().backdrop().reading(); ++i) {
+        one.frame();
+        std::this_thread::yield();
+    }
+    REQUIRE_FALSE(one.app().backdrop().reading());
+    one.frame();
+    const render::Rectangle beside{{0.0F, 0.0F}, {60.0F, 180.0F}};
+    CHECK(share_changed(bare, one.picture(), beside) > 0.5);
+}
