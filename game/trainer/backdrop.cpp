@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::uint32_t group = 2;                     // of the renderer's pictures: 1 is the close-up
 constexpr glm::vec4 dim{0.035F, 0.04F, 0.045F, 1.0F};  // behind it
-constexpr float exposure = 0.55F;                      // the menu is what is to be read
+constexpr float nearer = 0.7F;            // than to see all of it: the menu stands before its middle
+constexpr float exposure = 0.55F;         // the menu is what is to be read
+constexpr std::uint32_t light_size = 32;  // texels: less to filter, while somebody waits
 
 // The coarse model is enough, where there is one.
 view::LoadedSubject read(const std::string& assembly) {
@@ -28,7 +30,8 @@ void Backdrop::want(const std::string& assembly) {
 Status Backdrop::put_up(gpu::Device& device, const view::Subject& subject) {
     if (Status idle = device.idle(); !idle) return idle;
     if (light_.levels.get() == VK_NULL_HANDLE) {
-        Result<render::EnvironmentLight> light = render::upload_environment(device, shading::studio());
+        Result<render::EnvironmentLight> light =
+            render::upload_environment(device, shading::studio(), light_size);
         if (!light) return fail(light.error());
         light_ = std::move(*light);
     }
@@ -53,7 +56,8 @@ Status Backdrop::draw(gpu::Device& device, render::Renderer& renderer, gpu::Fram
     }
     if (!stage_ || (drawn_.width == size.width && drawn_.height == size.height)) return {};
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    const view::Viewpoint at = from_.fov > 0.0F ? from_ : view::framed(stage_->box, view::usual_fov, aspect);
+    view::Viewpoint at = from_.fov > 0.0F ? from_ : view::framed(stage_->box, view::usual_fov, aspect);
+    at.eye = glm::mix(at.target, at.eye, nearer);
     const render::Eye eye =
         render::make_eye(at.eye, at.target, view::lens(stage_->box, at.eye, at.target, at.fov, aspect));
     if (Status drawn = renderer.render(frame, stage_->scene, {&eye, 1}, size, group); !drawn) return drawn;
