@@ -1,5 +1,6 @@
 // boltwright: the trainer. The commands are in game/cli.
 
+#include <csignal>
 #include <cstdlib>
 
 #include "game/cli/commands.hpp"
@@ -8,6 +9,8 @@
 int main(int argc, char** argv) {
     // What OpenAL prints of devices that are not there is said once, in our words (engine/audio).
     (void)::setenv("ALSOFT_LOGLEVEL", "0", 0);
+    // A file that may not grow is told by whoever writes it, as a full disk is.
+    (void)std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Boltwright trains people to assemble bolted joints by feel.", "boltwright");
     app.require_subcommand(1);
     app.set_version_flag("--version", "boltwright " BOLTWRIGHT_VERSION);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "engine/platform/display_end.hpp"
 #include "engine/platform/keys.hpp"
 
 namespace bolt::platform {
@@ -74,6 +75,7 @@ struct Window::State {
     GLFWwindow* window = nullptr;
     std::vector<Event> events;
     Rect before_full_screen;
+    std::shared_ptr<const bool> gone;
     // Where it was when things happened: GLFW, asked for it, tells where it is by now.
     glm::dvec2 cursor{0.0};
 
@@ -81,7 +83,7 @@ struct Window::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State() {
-        if (window != nullptr) glfwDestroyWindow(window);
+        if (window != nullptr && !(gone && *gone)) glfwDestroyWindow(window);
     }
 
     void listen();
@@ -146,11 +148,13 @@ Result<Desktop> Desktop::open() {
     if (glfwInit() != GLFW_TRUE)
         return desktop_error("there is no desktop to open a window on",
                              "a display: DISPLAY names one, xvfb-run makes one that nobody sees");
-    return Desktop(true);
+    Desktop desktop(true);
+    note_display_end(*desktop.gone_);
+    return desktop;
 }
 
 Desktop::~Desktop() {
-    if (open_) glfwTerminate();
+    if (open_ && !*gone_) glfwTerminate();  // what the display had has ended with it
 }
 
 Result<std::vector<const char*>> Desktop::vulkan_extensions() const {
@@ -167,7 +171,7 @@ Window::Window(Window&&) noexcept = default;
 Window& Window::operator=(Window&&) noexcept = default;
 Window::~Window() = default;
 
-Result<Window> Window::open(const Desktop&, const WindowOptions& options) {
+Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options) {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
@@ -175,6 +179,7 @@ Result<Window> Window::open(const Desktop&, const WindowOptions& options) {
     state->window = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height),
                                      options.title.c_str(), nullptr, nullptr);
     if (state->window == nullptr) return desktop_error("no window could be opened", "");
+    state->gone = desktop.gone_;
     state->listen();
     Window window(std::move(state));
     if (options.full_screen) window.set_full_screen(true);
@@ -198,7 +203,13 @@ std::vector<Event> Window::wait_for_events(double seconds) {
     return std::exchange(state_->events, {});
 }
 
+Status Window::there() const {
+    if (!*state_->gone) return {};
+    return fail(ErrorCode::failed, "the display has ended, and the window with it", "");
+}
+
 Size Window::pixels() const {
+    if (*state_->gone) return {};
     int width = 0, height = 0;
     glfwGetFramebufferSize(state_->window, &width, &height);
     return {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))};

@@ -18,9 +18,11 @@ class Desktop {
   public:
     // Fails where there is no display.
     static Result<Desktop> open();
-    Desktop(Desktop&& other) noexcept : open_(std::exchange(other.open_, false)) {}
+    Desktop(Desktop&& other) noexcept
+        : open_(std::exchange(other.open_, false)), gone_(std::move(other.gone_)) {}
     Desktop& operator=(Desktop&& other) noexcept {
         std::swap(open_, other.open_);
+        std::swap(gone_, other.gone_);
         return *this;
     }
     ~Desktop();
@@ -29,8 +31,10 @@ class Desktop {
     [[nodiscard]] Result<std::vector<const char*>> vulkan_extensions() const;
 
   private:
-    explicit Desktop(bool open) : open_(open) {}
+    friend class Window;
+    explicit Desktop(bool open) : open_(open), gone_(std::make_shared<bool>(false)) {}
     bool open_ = false;
+    std::shared_ptr<bool> gone_;  // its display server has ended; at an address that stays
 };
 
 struct WindowOptions {
@@ -57,6 +61,9 @@ class Window {
     // What has happened since the last call: at once, or after at most `seconds` of nothing.
     std::vector<Event> events();
     std::vector<Event> wait_for_events(double seconds);
+
+    // Why nothing is seen and heard of people any more, if the display server has ended.
+    [[nodiscard]] Status there() const;
 
     [[nodiscard]] Size pixels() const;  // of what is drawn; zero while it is minimised on some systems
     [[nodiscard]] float content_scale() const;  // 2 on a display where text is to be twice as large

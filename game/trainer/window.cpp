@@ -76,11 +76,16 @@ Status until_closed(App& app, Canvas& canvas, platform::Window& window, const Wi
         const bool nothing_to_see = canvas.swapchain->plan().extent.width == 0;
         const std::vector<platform::Event> events =
             nothing_to_see ? window.wait_for_events(0.1) : window.events();
+        if (Status there = window.there(); !there) return there;
         for (const platform::Event& event : events)
             if (nothing_to_see && std::holds_alternative<platform::CloseEvent>(event)) return {};
         const double now = seconds(), passed = std::min(now - last, longest_frame);
         last = now;
-        if (Status done = draw(app, canvas, window, events, passed); !done) return done;
+        if (Status done = draw(app, canvas, window, events, passed); !done) {
+            // What cannot be shown for want of a display is no fault of the GPU.
+            Status there = window.there();
+            return there ? done : there;
+        }
         if (app.wants_full_screen()) window.set_full_screen(!window.full_screen());
         (void)platform::wait_for_due(pace);
     }
