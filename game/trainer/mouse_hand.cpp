@@ -20,6 +20,8 @@ constexpr double hand_speed = 0.45;                 // m/s, of a reach, at most 
 constexpr double shortest = 0.25;                   // s
 constexpr double lowering = 0.35, lifting = 0.25;   // s
 constexpr double patience = 0.6;                    // s on the nut without getting hold of it
+constexpr double caught = 0.05;                     // m that the wrench is away from the nut it should be on
+constexpr double higher = 0.05;                     // m, with every miss
 constexpr double unwinding = 0.15;                  // s
 constexpr double twist = to_radians(200.0);         // of fingers, before they have to go back
 constexpr double twist_speed = to_radians(540.0);   // rad/s, the fastest
@@ -63,7 +65,7 @@ double reach_time(const Pose& from, const Pose& to, const Vec3& bulge) {
 void reach(MouseHand& hand, const Pose& to, MouseHand::Then then, const servo::Setup& setup,
            const servo::State& state, const Vec3& up) {
     const double far = glm::distance(hand.pose.position, to.position);
-    operators::Way way{std::min(0.05, 0.3 * far) * up, {}};
+    operators::Way way{(std::min(0.05, 0.3 * far) + higher * std::min(hand.misses, 5)) * up, {}};
     if (hand.wrench && state.touch)
         way = operators::way_round(setup, *state.touch, hand.pose, to, up, glm::length(way.bulge));
     hand.stations.assign(1, to);
@@ -81,7 +83,9 @@ void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State&
     const servo::NutPlace& nut = nut_of(hand, setup);
     // Towards whoever works, in the middle of the pull.
     const Vec3 out = hand.rest.position - nut.seat;
-    const double wanted = -std::atan2(glm::dot(out, nut.e2), glm::dot(out, nut.e1)) - 0.5 * sign * stroke;
+    const double aside = (hand.misses % 2 == 1 ? 1.0 : -1.0) * to_radians(60.0) * (hand.misses / 2);
+    const double wanted =
+        -std::atan2(glm::dot(out, nut.e2), glm::dot(out, nut.e1)) - 0.5 * sign * stroke + aside;
     const auto grip = operators::choose_grip(setup, state.touch ? &*state.touch : nullptr, *hand.nut,
                                              state.joints[*hand.nut].nut.angle, wanted, sign, stroke);
     hand.handle = grip.handle;
@@ -106,6 +110,10 @@ void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
     hand.pose = hand.wrench && state.touch && state.touch->in_hand ? state.touch->god_object.tool : hand.pose;
     Pose up = at_nut(hand, setup, state, hover);
     up.orientation = hand.pose.orientation;
+    // Caught on the way there: off what holds it, not on through that.
+    const servo::NutPlace& nut = nut_of(hand, setup);
+    if (hand.missed && glm::distance(hand.pose.position, nut.seat) > caught)
+        up.position = hand.pose.position + hover * nut.axis;
     go(hand, up, lifting, Doing::lifting);
 }
 
@@ -170,12 +178,14 @@ void hold(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
     }
     if (hand.time > patience) {  // it slipped off, or did not get on
         hand.missed = true;
+        ++hand.misses;
         hand.held = false;
         lift(hand, setup, state);
         return;
     }
     if (!on) return;
     hand.missed = false;
+    hand.misses = 0;
     if (hand.wrench)
         pull(hand, setup, state);
     else

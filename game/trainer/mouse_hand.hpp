@@ -56,6 +56,7 @@ struct MouseHand {
     enum class Then : std::uint8_t { rest, take, lay_down, lower } then = Then::rest;
     std::optional<std::size_t> next;  // was pressed on while the hand was busy
     bool missed = false;              // the last try did not get hold of the nut, or lost it
+    int misses = 0;                   // times in a row: the next try goes higher, and to another side
 };
 
 // The hand at rest where the wrench lies: the left one where that lies for it (scene::resting_place).

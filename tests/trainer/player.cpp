@@ -41,7 +41,8 @@ trainer::Wish wish_of(Player& p, const play::Course& course, double seconds) {
         wish.held = true;
         return wish;
     }
-    bool enough = false;
+    // What it still has is done already.
+    bool enough = p.hand.nut && *p.hand.nut != due->joint;
     if (on && fingers) {
         wish.spin = loosens ? -1.0 : 1.0;
         enough = joint.stage != joint::Stage::navigation;

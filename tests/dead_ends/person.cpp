@@ -1,0 +1,68 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "content/format/load.hpp"
+#include "engine/base/random.hpp"
+#include "tests/dead_ends/life.hpp"
+
+namespace dead_ends {
+
+namespace {
+
+constexpr std::size_t most_joints = 3;  // of a lesson on a large assembly: its bolts are many and alike
+
+// Ticks with a hand deep in a wall cost a hundred times what free ones do.
+constexpr double among_obstacles = 0.2;
+constexpr double longest_in_walls = 4.0;  // s
+
+std::string any_assembly(Random& random) {
+    const double which = random.uniform();
+    return which < 0.90 ? "cover-m8" : which < 0.96 ? "zq350" : "dn200-pn16";
+}
+
+}  // namespace
+
+Person person(std::uint64_t seed) {
+    Random random(seed, 9100);
+    Person p;
+    p.seed = seed;
+    p.assembly = any_assembly(random);
+    if (p.assembly == "zq350" && random.chance(0.5)) p.variant = "stainless";
+    p.course.mode = static_cast<lesson::Mode>(seed % 3);
+    p.course.task = random.chance(0.3) ? lesson::Task::loosen : lesson::Task::tighten;
+    p.course.law = random.chance(0.15) ? joint::Law::published : joint::Law::mechanistic;
+    p.course.seed = seed;
+    p.course.operator_name = "person";
+    p.at_mouse = random.chance(0.65);
+    p.rough = random.chance(0.3);
+    p.span = random.uniform(2.0, p.rough ? 45.0 : 25.0);
+    const bool among = random.chance(p.at_mouse ? among_obstacles : 0.5 * among_obstacles);
+    p.course.obstacles = among ? play::Obstacles::required : play::Obstacles::none;
+    if (among && !p.at_mouse) p.span = std::min(p.span, longest_in_walls);
+    return p;
+}
+
+std::string describe(const Person& p) {
+    return fmt::format("seed {}: {} {}, {}, {}, {} law, {}, {}{}, {:.1f} s", p.seed, p.assembly, p.variant,
+                       lesson::name(p.course.mode), lesson::name(p.course.task), joint::name(p.course.law),
+                       p.course.obstacles == play::Obstacles::none ? "no obstacles" : "obstacles",
+                       p.at_mouse ? "mouse" : "device", p.rough ? ", rough" : "", p.span);
+}
+
+content::Assembly assembly_of(const Person& p) {
+    content::Loaded loaded = content::load_assembly(p.assembly, p.variant);
+    REQUIRE(loaded.ok());
+    std::vector<content::Pass>& passes = loaded.assembly.passes;
+    if (passes.front().order.size() <= most_joints + 1) return std::move(loaded.assembly);
+    const std::vector<std::size_t> few(passes.front().order.begin(),
+                                       passes.front().order.begin() + most_joints);
+    for (content::Pass& pass : passes)
+        std::erase_if(pass.order, [&](std::size_t joint) {
+            return std::find(few.begin(), few.end(), joint) == few.end();
+        });
+    return std::move(loaded.assembly);
+}
+
+}  // namespace dead_ends
