@@ -16,6 +16,7 @@
 #include "game/play/train.hpp"
 #include "game/report/report.hpp"
 #include "game/station/choice.hpp"
+#include "game/scene/view_help.hpp"
 #include "game/trainer/window.hpp"
 #include "game/view/result_pictures.hpp"
 #include "game/view/size.hpp"
@@ -39,7 +40,7 @@ struct Options {
     bool start = false, full_screen = false, validate = false, silent = false;
     std::string name, language, settings;
     std::string size = "1280x720", gpu;
-    bool quiet = false, no_pictures = false, no_guide = false;
+    bool quiet = false, no_pictures = false, no_guide = false, view_help = false;
     bool obstacles = false, no_obstacles = false;
     std::string trainee = "expert";
     std::uint64_t seed = 1;
@@ -136,6 +137,7 @@ Result<play::TrainOptions> play_options(const Options& options, const content::A
                             : options.obstacles  ? play::Obstacles::required
                                                  : play::Obstacles::if_any;
     play.course.guide = !options.no_guide;
+    if (options.view_help) play.view_help = scene::view_help();
     Result<operators::Profile> trainee = operators::find_profile(options.trainee);
     if (!trainee) return fail(trainee.error());
     play.trainee = *trainee;
@@ -360,6 +362,9 @@ void add_train(CLI::App& app, int& exit_code) {
     train->add_flag("--no-obstacles", options->no_obstacles, "The wrench goes through everything")
         ->excludes(solid);
     train->add_flag("--no-guide", options->no_guide, "A guided lesson without the force that leads the hand");
+    train->add_flag(
+        "--view-help", options->view_help,
+        "A simulated trainee asks for views, as V does in the window; else it looks round by itself");
     train->add_flag("--no-pictures", options->no_pictures, "Without pictures of how the lesson ended");
     train->add_flag("--quiet", options->quiet, "No progress");
     train->callback([options, &exit_code] { exit_code = run(*options); });

@@ -8,6 +8,7 @@
 #include "game/operators/motion.hpp"
 #include "game/operators/nerves.hpp"
 #include "game/operators/sight.hpp"
+#include "game/operators/view_help.hpp"
 #include "haptics/servo/tick.hpp"
 
 namespace bolt::operators {
@@ -43,6 +44,7 @@ struct Mind {
     int bumps = 0;        // times in a row that it was
     int misses = 0;       // times in a row that the jaw did not slide on
     Sight sight;
+    ViewHelp view_help;
     Vec3 looks_from{0.0};                // m, where its head is on the way to
     std::vector<lesson::Event> noticed;  // since they were last taken
     double told = -1.0;                  // share of the nut that was told last

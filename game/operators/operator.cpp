@@ -133,9 +133,10 @@ Pose move(Mind& m, const Feeling& felt, Grip& grip) {
 
 }  // namespace
 
-Operator::Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup)
+Operator::Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup, ViewHelp help)
     : mind_(std::make_unique<Mind>(profile, seed, setup)) {
     Mind& mind = *mind_;
+    mind.view_help = std::move(help);
     Vec3 centre(0.0);
     for (const servo::NutPlace& nut : setup.nuts) centre += nut.seat / static_cast<double>(setup.nuts.size());
     mind.from.position = centre + Vec3(0.0, 0.3, 0.4);  // the hand rests in front of the assembly

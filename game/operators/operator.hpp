@@ -8,6 +8,7 @@
 
 #include "game/lesson/lesson.hpp"
 #include "game/operators/profile.hpp"
+#include "game/operators/view_help.hpp"
 #include "haptics/servo/setup.hpp"
 #include "haptics/servo/tick.hpp"
 
@@ -17,7 +18,8 @@ struct Mind;  // mind.hpp
 
 class Operator {
   public:
-    Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup);
+    // `help`: what it asks for a view when it sees too little; none: it has its own head and the first view.
+    Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup, ViewHelp help = {});
     Operator(Operator&& other) noexcept;
     Operator& operator=(Operator&& other) noexcept;
     ~Operator();

@@ -18,6 +18,8 @@ constexpr int patient_misses = 3;
 // A glance, and a head that turns. Chosen.
 constexpr double glance = 0.3;                   // s
 constexpr double head_speed = to_radians(60.0);  // rad/s
+// A key is pressed, and the picture glides: after five times 70 ms (view::Glide) it is there.
+constexpr double gliding = 0.35;  // s
 
 Vec3 unit(const Vec3& v) { return v / (1e-3 + glm::length(v)); }
 
@@ -40,17 +42,28 @@ void plan_reach(Mind& m) {
     m.stations.pop_back();
 }
 
-// rad that the head turns to see more of the place that the wrench is to go to. Nothing is hidden where
-// nothing is modelled, and fingers find a nut by themselves.
+// s until it sees more of the place that the wrench is to go to. Nothing is hidden where nothing is modelled,
+// and fingers find a nut by themselves. Help with the view is asked for first; what it does not show to
+// somebody's content is looked for as without it.
 double look_for_nut(Mind& m) {
     m.looks_from = m.sight.eye;
     if (m.obstacles() == nullptr || m.intent.fingers) return 0.0;
     m.placed = Vec3(0.0);
-    const auto better =
-        look_round(m.sight, *m.setup, *m.obstacles(), m.intent.joint, m.at_nut(hover), m.profile.content);
-    if (!better) return 0.0;
+    const Pose wrench = m.at_nut(hover);
+    const servo::Touch& touch = *m.obstacles();
+    double seconds = 0.0;
+    const auto content = [&] {
+        return place_seen(m.sight, *m.setup, touch, m.intent.joint, wrench, m.sight.eye) >= m.profile.content;
+    };
+    if (m.view_help && !content()) {
+        const Vec3 nut = servo::nut_centre(m.nut(), m.joint().nut.angle);
+        m.sight.eye = m.looks_from = m.view_help({*m.setup, touch, m.intent.joint, nut, wrench, m.sight.eye});
+        seconds = glance + gliding;
+    }
+    const auto better = look_round(m.sight, *m.setup, touch, m.intent.joint, wrench, m.profile.content);
+    if (!better) return seconds;
     m.looks_from = better->eye;
-    return better->turn;
+    return seconds + glance + better->turn / head_speed;
 }
 
 // How far off the centre it puts the tool, from what it will see there.
@@ -89,7 +102,7 @@ void decide(Mind& m) {
     } else {
         choose_grip_angle(m);
     }
-    const double turn = look_for_nut(m);
+    const double looking = look_for_nut(m);
     m.placed = place(m);
     // Among obstacles another tool is laid down or taken up where there are none.
     const bool other_tool = m.holds_wrench == m.intent.fingers;
@@ -100,8 +113,8 @@ void decide(Mind& m) {
         return;
     }
     m.holds_wrench = !m.intent.fingers;
-    if (turn > 0.0) {
-        m.enter(Phase::look, glance + turn / head_speed);
+    if (looking > 0.0) {
+        m.enter(Phase::look, looking);
         return;
     }
     set_off(m);

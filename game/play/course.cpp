@@ -16,6 +16,7 @@ record::Header header_of(const Prepared& at, const CourseOptions& options) {
     const content::Assembly& assembly = at.assembly;
     record::Header header;
     header.guide = options.guide && options.mode == lesson::Mode::guided ? "on" : "off";
+    header.view_help = options.view_help;
     header.obstacles = at.obstacles;
     header.obstacle_names = at.obstacle_names;
     header.device = record::text_of(options.device);

@@ -28,6 +28,7 @@ struct CourseOptions {
     Obstacles obstacles = Obstacles::none;
     bool guide = true;                   // a guided lesson leads the hand to the nut
     std::string operator_name;           // "expert", …, or "person"
+    std::string view_help;               // "on", "off", of who is simulated; empty: a person has it
     std::string servo = "virtual time";  // who has the ticks, for the session (record::Header)
     force::OutputLimits device;  // what a 6-DoF arm of the Virtuose class renders, unless said otherwise
 };

@@ -10,11 +10,12 @@ Result<Played> train(const content::Assembly& given, const TrainOptions& options
                      const std::filesystem::path& file, const std::function<bool(const Progress&)>& watch) {
     CourseOptions options_of_course = options.course;
     options_of_course.operator_name = options.trainee.name;
+    options_of_course.view_help = options.view_help ? "on" : "off";
     Result<std::unique_ptr<Course>> begun = Course::begin(given, options_of_course, file);
     if (!begun) return fail(begun.error());
     Course& course = **begun;
     const double dt = options.course.dt;
-    operators::Operator trainee(options.trainee, options.course.seed, course.setup());
+    operators::Operator trainee(options.trainee, options.course.seed, course.setup(), options.view_help);
     const auto second = static_cast<std::uint64_t>(std::lround(1.0 / dt));
     const auto last = static_cast<std::uint64_t>(options.longest / dt);
     const auto patience = static_cast<std::uint64_t>(options.patience / dt);

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "game/operators/profile.hpp"
+#include "game/operators/view_help.hpp"
 #include "game/play/course.hpp"
 
 namespace bolt::play {
@@ -12,8 +13,9 @@ namespace bolt::play {
 struct TrainOptions {
     CourseOptions course;  // operator_name comes from the trainee
     operators::Profile trainee;
-    double longest = 14400.0;  // s of virtual time after which the lesson is given up
-    double patience = 900.0;   // s without a step done, likewise
+    operators::ViewHelp view_help;  // none: the trainee looks by itself
+    double longest = 14400.0;       // s of virtual time after which the lesson is given up
+    double patience = 900.0;        // s without a step done, likewise
 };
 
 struct Progress {

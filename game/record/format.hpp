@@ -47,6 +47,7 @@ inline constexpr const char* guide = "guide";  // this one and the three below: 
 inline constexpr const char* obstacles = "obstacles";
 inline constexpr const char* device = "device";
 inline constexpr const char* servo = "servo";
+inline constexpr const char* view_help = "view_help";  // not in every session
 inline constexpr const char* state = "state";
 inline constexpr const char* duration = "duration_s";  // this one and those below: complete sessions only
 inline constexpr const char* score = "score";

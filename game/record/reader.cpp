@@ -112,10 +112,8 @@ Result<Header> header_of(Meta meta, const std::string& file) {
         *text = std::move(found->second);
     }
     const std::pair<const char*, std::string*> since_2[] = {
-        {key::guide, &header.guide},
-        {key::obstacles, &header.obstacles},
-        {key::device, &header.device},
-        {key::servo, &header.servo},
+        {key::guide, &header.guide}, {key::obstacles, &header.obstacles}, {key::device, &header.device},
+        {key::servo, &header.servo}, {key::view_help, &header.view_help},
     };
     for (const auto& [name, text] : since_2)
         if (const auto found = meta.find(name); found != meta.end()) *text = std::move(found->second);

@@ -57,6 +57,8 @@ struct Header {
     std::string device;     // what it takes (device_text.hpp)
     std::string servo;      // "virtual time", or the rate of the thread in words
     std::vector<ObstacleName> obstacle_names;
+
+    std::string view_help;  // "on", "off": of a simulated trainee; empty: a person, or it is not said
 };
 
 // Move-only. All errors name the file. After an error everything committed before stays readable, and every

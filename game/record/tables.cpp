@@ -39,6 +39,7 @@ Status put_header(Database& database, const Header& header, Seals& seals) {
         {key::obstacles, header.obstacles},
         {key::device, header.device},
         {key::servo, header.servo},
+        {key::view_help, header.view_help},
         {key::state, state_recording},
     };
     for (const auto& [name, value] : values)

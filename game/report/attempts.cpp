@@ -107,7 +107,8 @@ std::string attempts_table(std::span<const Attempt> attempts, bool alone) {
             "<td class=\"n\">{9}</td><td class=\"n\">{10} <span class=\"of\">of {11}</span></td>"
             "<td class=\"n\">{12}</td><td class=\"n\">{13}</td></tr>\n",
             number_text, escape(a.title), escape(a.task), escape(a.variant), escape(a.operator_name),
-            escape(a.mode + (a.mode == "guided" && !a.guided ? ", no force" : "")),
+            escape(a.mode + (a.mode == "guided" && !a.guided ? ", no force" : "") +
+                   (a.view_help ? ", view help" : "")),
             a.complete ? "" : " (cut short)", escape(a.law), a.seed, number(a.score, 1), a.summary.ok,
             a.summary.joints, percent(a.summary.mean_torque_error), duration_text(a.duration));
     }
@@ -150,6 +151,7 @@ Attempt attempt_of(const SessionData& session) {
     const Feel& feel = session.feel;
     constexpr double unknown = Moment::nan;
     a.guided = feel.guided;
+    a.view_help = session.header.view_help == "on";
     a.obstacles = feel.obstacles;
     a.simulated = session.header.operator_name != "person";
     std::vector<double> waited, placing;
@@ -177,7 +179,7 @@ Attempt attempt_of(const SessionData& session) {
 std::string attempts_section(std::span<const Attempt> attempts, bool alone) {
     std::string out = fmt::format("<p class=\"over\">Boltwright training report</p>\n<h1>{} attempts</h1>\n",
                                   attempts.size());
-    const std::string study = guiding_study(attempts);
+    const std::string study = guiding_study(attempts) + view_study(attempts);
     out += alone ? study + attempts_table(attempts, alone) : attempts_table(attempts, alone) + study;
     if (alone && !study.empty()) return out;
     bool compared = false;

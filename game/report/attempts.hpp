@@ -19,7 +19,7 @@ struct Attempt {
     Summary summary;
 
     // Of what was felt; NaN where it is not known.
-    bool guided = false, obstacles = false, simulated = true;
+    bool guided = false, view_help = false, obstacles = false, simulated = true;
     double to_nut = 0.0, near_nut = 0.0;  // s with the wrench, medians over the steps
     double seen = 0.0;                    // 0…1 of the time near the nuts with them in sight
     double bumps = 0.0, bump_time = 0.0;  // count, s

@@ -41,6 +41,30 @@ constexpr Measure measures[] = {
      100.0, 3},
 };
 
+// What is with some lessons and not with others.
+struct Factor {
+    std::string_view heading, title, with, without;
+    bool Attempt::*has;
+    std::string_view model;  // how simulated trainees have it
+};
+
+constexpr Factor guiding{"guiding", "with and without guiding", "guided", "not guided", &Attempt::guided, ""};
+constexpr Factor view{
+    "view help",
+    "with and without view help",
+    "view help",
+    "by hand",
+    &Attempt::view_help,
+    " Whoever sees less of nut and jaw than they want presses V: after a glance of 0.3 s and 0.35 s of "
+    "gliding "
+    "the eye is where the program's search puts it, and what is still not seen to their content is looked "
+    "for by "
+    "hand. By hand the eye begins in the assembly's first view and goes about the place in steps of 15°, at "
+    "60° "
+    "a second after a glance, as far as it takes. The hand waits meanwhile; who sees less places the wrench "
+    "worse. Nothing else differs: that people forget the key, tire, or lose their way in a view is not "
+    "modelled."};
+
 using Group = std::vector<const Attempt*>;
 
 std::vector<double> values_of(const Group& group, const Measure& measure) {
@@ -85,7 +109,8 @@ void draw_row(Svg& svg, const std::vector<double>& values, const Scale& x, doubl
     }
 }
 
-std::string strip_plot(const Group& with, const Group& without, const Measure& measure) {
+std::string strip_plot(const Group& with, const Group& without, const Measure& measure,
+                       const Factor& factor) {
     const std::vector<double> a = values_of(with, measure), b = values_of(without, measure);
     if (a.empty() || b.empty()) return {};
     const double high =
@@ -93,13 +118,13 @@ std::string strip_plot(const Group& with, const Group& without, const Measure& m
     constexpr double width = 460.0, height = 112.0, left = 82.0, right = 22.0;
     const Ticks ticks = covering_ticks(0.0, high > 0.0 ? high : 1.0, 5);
     const Scale x{ticks.range, width - left - right, false};
-    Svg svg(width, height, fmt::format("{}, {}, with and without guiding", measure.name, measure.unit));
+    Svg svg(width, height, fmt::format("{}, {}, {}", measure.name, measure.unit, factor.title));
     for (const double at : ticks.at) {
         svg.line({left + x(at), 4.0}, {left + x(at), 80.0}, "gr");
         svg.text({left + x(at), 93.0}, "tk mid", number(at, ticks.decimals));
     }
-    svg.text({left - 8.0, 26.0}, "lb end", "guided");
-    svg.text({left - 8.0, 64.0}, "lb end", "not guided");
+    svg.text({left - 8.0, 26.0}, "lb end", factor.with);
+    svg.text({left - 8.0, 64.0}, "lb end", factor.without);
     draw_row(svg, a, x, left, 22.0, "mpeak");
     draw_row(svg, b, x, left, 60.0, "mclamp");
     svg.text({left + 0.5 * x.length, 106.0}, "sm mid", measure.unit);
@@ -111,23 +136,25 @@ std::string quartile_text(const Quartiles& q, int decimals) {
                        number(q.low, decimals), number(q.high, decimals));
 }
 
-std::string part(const Group& with, const Group& without) {
+std::string part(const Group& with, const Group& without, const Factor& factor) {
     const Attempt& first = *with.front();
     std::string out;
-    put(out, "<h2>With and without guiding: {}, {}{}</h2>\n", escape(first.title),
+    put(out, "<h2>With and without {}: {}, {}{}</h2>\n", factor.heading, escape(first.title),
         escape(first.operator_name), first.obstacles ? "" : ", without obstacles");
     const auto finished = [](const Group& group) {
         return std::count_if(group.begin(), group.end(), [](const Attempt* a) { return a->finished; });
     };
-    put(out, "<p>{}n = {} guided and {} not guided; finished: {} and {}.</p>\n",
+    put(out, "<p>{}n = {} {} and {} {}; finished: {} and {}.{}</p>\n",
         first.simulated
             ? "<strong>These trainees are simulated:</strong> this shows what the program does to a model of "
               "a hand, not what it does to people. "
             : "",
-        with.size(), without.size(), finished(with), finished(without));
-    out +=
-        "<div class=\"scroll\"><table><thead><tr><th>median (quartiles)</th><th class=\"n\">guided</th><th "
-        "class=\"n\">not guided</th></tr></thead><tbody>\n";
+        with.size(), factor.with, without.size(), factor.without, finished(with), finished(without),
+        first.simulated ? factor.model : "");
+    put(out,
+        "<div class=\"scroll\"><table><thead><tr><th>median (quartiles)</th><th class=\"n\">{}</th><th "
+        "class=\"n\">{}</th></tr></thead><tbody>\n",
+        factor.with, factor.without);
     for (const Measure& m : measures) {
         const Quartiles a = quartiles(values_of(with, m)), b = quartiles(values_of(without, m));
         if (a.n + b.n == 0) continue;
@@ -135,17 +162,16 @@ std::string part(const Group& with, const Group& without) {
             m.name, m.unit, quartile_text(a, m.decimals), quartile_text(b, m.decimals));
     }
     out += "</tbody></table></div>\n<div class=\"grid\">\n";
-    for (const Measure& m : measures) out += strip_plot(with, without, m);
+    for (const Measure& m : measures) out += strip_plot(with, without, m, factor);
     return out +
            "</div>\n<p class=\"note\">Each dot is a lesson; the box is from the lower to the upper quartile "
            "(type 7), the line is the median.</p>\n";
 }
 
-}  // namespace
-
-std::string guiding_study(std::span<const Attempt> attempts) {
-    const auto key = [](const Attempt& a) {
-        return std::tie(a.assembly, a.title, a.task, a.variant, a.law, a.mode, a.operator_name, a.obstacles);
+std::string study(std::span<const Attempt> attempts, const Factor& factor, bool Attempt::*alike_in) {
+    const auto key = [&](const Attempt& a) {
+        return std::tie(a.assembly, a.title, a.task, a.variant, a.law, a.mode, a.operator_name, a.obstacles,
+                        a.*alike_in);
     };
     std::string out;
     Group seen;
@@ -155,10 +181,18 @@ std::string guiding_study(std::span<const Attempt> attempts) {
         seen.push_back(&attempt);
         Group with, without;
         for (const Attempt& a : attempts)
-            if (a.complete && alike(&a)) (a.guided ? with : without).push_back(&a);
-        if (!with.empty() && !without.empty()) out += part(with, without);
+            if (a.complete && alike(&a)) (a.*factor.has ? with : without).push_back(&a);
+        if (!with.empty() && !without.empty()) out += part(with, without, factor);
     }
     return out;
 }
+
+}  // namespace
+
+std::string guiding_study(std::span<const Attempt> attempts) {
+    return study(attempts, guiding, &Attempt::view_help);
+}
+
+std::string view_study(std::span<const Attempt> attempts) { return study(attempts, view, &Attempt::guided); }
 
 }  // namespace bolt::report

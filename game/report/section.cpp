@@ -50,6 +50,7 @@ void put_heading(std::string& out, const SessionData& s, std::size_t index) {
     out += fact("mode", s.header.mode);
     if (s.feel.recorded) {
         out += fact("guiding force", s.feel.guided ? "on" : "off");
+        if (!s.header.view_help.empty()) out += fact("view help", s.header.view_help);
         out += fact("obstacles", s.feel.obstacles ? "met" : "none");
     }
     out += fact("law", s.header.law);

@@ -219,6 +219,21 @@ TEST_CASE("a study sets lessons beside each other that differ in the guiding and
     CHECK(attempts_section(attempts).find("Learning curve") != std::string::npos);
     for (Attempt& a : attempts) a.guided = true;
     CHECK(guiding_study(attempts).empty());
+    CHECK(view_study(attempts).empty());
+    for (std::size_t i = 0; i < 8; ++i) attempts[i].view_help = i % 2 == 0;
+    const std::string views = view_study(attempts);
+    CHECK(markup_fault(page("t", views)) == "");
+    CHECK(views.find("n = 4 view help and 4 by hand; finished: 4 and 3.") != std::string::npos);
+    CHECK(views.find("These trainees are simulated") != std::string::npos);
+    CHECK(views.find("presses V") != std::string::npos);  // how the model has it
+    CHECK(guiding_study(attempts).empty());
+    // With the guiding another thing too, nothing is set beside anything.
+    for (Attempt& a : attempts) a.guided = a.view_help;
+    CHECK(view_study(attempts).empty());
+    for (Attempt& a : attempts) {
+        a.view_help = false;
+        a.guided = true;
+    }
     attempts.front().guided = false;
     for (Attempt& a : attempts) a.simulated = false;
     CHECK(guiding_study(attempts).find("simulated") == std::string::npos);
