@@ -89,8 +89,9 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
     return r;
 }
 
-void step_group(const GroupParameters& group, std::span<JointState> joints, int driven, const Handle& handle,
-                double dt) {
+ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
+                     const Handle& handle, double dt) {
+    ClickStep click;
     int moved = -1;
     double angle = 0.0, share = 0.0;
     for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -102,6 +103,7 @@ void step_group(const GroupParameters& group, std::span<JointState> joints, int 
         const auto i = static_cast<std::size_t>(driven);
         const double inertia = coupling_inertia(std::max(handle.stiffness, 1.0), dt);
         NutStep step = step_nut(resistance(group, i, joints[i]), inertia, joints[i].nut, handle, dt);
+        click = step.click;
         if (step.nut.angle < 0.0) {  // the end of the bolt: it stops there and the hand winds up
             step.nut = {};
             step.torque = wound_torque(handle, 0.0);
@@ -116,6 +118,7 @@ void step_group(const GroupParameters& group, std::span<JointState> joints, int 
         settle(group, joints, moved, angle, share, dt);
     else if (moved >= 0)
         settle_published(group, joints[static_cast<std::size_t>(moved)], angle, share);
+    return click;
 }
 
 void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::size_t joint, double angle,

@@ -41,8 +41,9 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 // One step of dt: the nut `driven` (or none: −1) under its handle, then every joint's clamp force. The
 // group's forces minimise a strictly convex energy; each step is one sweep of exact minimisation joint by
 // joint from the last solution, so it never diverges, and what it leaves open is closed by the next steps.
-void step_group(const GroupParameters& group, std::span<JointState> joints, int driven, const Handle& handle,
-                double dt);
+// Returned: the handle's torque wrench.
+ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
+                     const Handle& handle, double dt);
 
 // Turns one nut to an angle as a machine would, kinematically, `share` the friction's direction (+1 on, −1
 // off).

@@ -32,16 +32,65 @@ double share_of(const Resistance& r, double torque, double speed) {
     return friction > 0.0 ? std::clamp((torque - r.lead) / friction, -1.0, 1.0) : 0.0;
 }
 
+NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt);
+
+// A mechanism that swings against `holds` is, over one implicit step, a softer spring wound further: with
+// c (swung' − swung)/dt = T' − holds put into T' = K (hand − nut' − swung' ∓ play).
+Handle swinging(const Handle& handle, double holds, double dt) {
+    const double share = dt / handle.click.settles;
+    Handle soft = handle;
+    soft.angle += share * holds / handle.stiffness - handle.swung;
+    soft.stiffness = handle.stiffness / (1.0 + share);
+    return soft;
+}
+
+// Stood, swung on or swung back: the one that is consistent. What has swung resists the more the faster it
+// goes, so there is but one; what has not swung holds to its setting first.
+NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const Handle& handle, double dt) {
+    const Click& click = handle.click;
+    const double on = click.falls_to * click.setting, back = click.rearms_at * click.setting;
+    const auto standing_at = [&](double swung) {
+        Handle stiff = handle;
+        stiff.angle -= swung;
+        NutStep step = step_rigid(r, inertia, nut, stiff, dt);
+        step.click.swung = swung;
+        return step;
+    };
+    const NutStep stood = standing_at(handle.swung);
+    const bool armed = handle.swung <= 0.0;
+    const bool goes_on = handle.swung < click.swing && stood.torque > (armed ? click.setting : on);
+    const bool goes_back = !armed && stood.torque < back;
+    if (!goes_on && !goes_back) return stood;
+    const double holds = goes_on ? on : back;
+    NutStep step = step_rigid(r, inertia, nut, swinging(handle, holds, dt), dt);
+    const double swung = handle.swung + (step.torque - holds) * dt / (handle.stiffness * click.settles);
+    if (swung >= click.swing)
+        step = standing_at(click.swing);
+    else if (swung <= 0.0)
+        step = standing_at(0.0);
+    else
+        step.click.swung = swung;
+    step.click.clicked = armed && step.click.swung > 0.0;
+    return step;
+}
+
 }  // namespace
 
 double wound_torque(const Handle& handle, double nut_angle) {
     if (!handle.engaged) return 0.0;
-    const double gap = handle.angle - nut_angle;
+    const double gap = handle.angle - handle.swung - nut_angle;
     const double torque = handle.stiffness * (gap - std::clamp(gap, -handle.half_play, handle.half_play));
     return handle.torque_limit > 0.0 ? std::clamp(torque, -handle.torque_limit, handle.torque_limit) : torque;
 }
 
 NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt) {
+    if (handle.engaged && handle.click.trips()) return step_clicking(given, inertia, nut, handle, dt);
+    return step_rigid(given, inertia, nut, handle, dt);
+}
+
+namespace {
+
+NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt) {
     // A thread that would run by itself is held by the fingers that started it: the nut rests at zero torque.
     Resistance r = given;
     r.tighten = std::max(r.tighten, 0.0);
@@ -83,5 +132,7 @@ NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const H
     step.share = share_of(r, step.torque, speed);
     return step;
 }
+
+}  // namespace
 
 }  // namespace bolt::joint

@@ -6,6 +6,7 @@
 // nothing to tune.
 #pragma once
 
+#include "haptics/joint/click.hpp"
 #include "haptics/joint/mechanistic.hpp"
 
 namespace bolt::joint {
@@ -22,6 +23,8 @@ struct Handle {
     double half_play = 0.0;     // rad, backlash to either side
     double stiffness = 0.0;     // N·m/rad
     double torque_limit = 0.0;  // N·m, at which the grip slips (fingers); 0: never
+    Click click;                // between hand and spring
+    double swung = 0.0;         // rad, how far it has swung: 0 … click.swing
 };
 
 struct NutStep {
@@ -29,6 +32,7 @@ struct NutStep {
     double torque = 0.0;   // N·m on the nut, tightening positive
     double share = 0.0;    // friction share after the step, −1…1
     bool slipped = false;  // the grip's torque limit was reached
+    ClickStep click;
 };
 
 // `inertia` (kg·m²) of nut and wrench about the bolt while the jaw pushes; inside its play the nut is alone

@@ -26,6 +26,10 @@ struct Engagement {
     double hand_angle = 0.0;  // rad, the same unwrapped, in the nut's count
     Vec3 held_at{0.0};        // tool minus nut centre when it was engaged; relaxes to zero
 
+    // Of a torque wrench, which is armed whenever it is put on a nut.
+    double setting = 0.0;  // N·m on its scale
+    double swung = 0.0;    // rad that its handle has swung
+
     // Of a wrench among obstacles.
     contact::JawSeat seat;
     double strength = 1.0;  // 0 … 1 of what the corners bear: it slips

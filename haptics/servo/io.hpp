@@ -45,6 +45,9 @@ struct Input {
     std::uint8_t missed = 0;  // deadlines without a tick since the one before, 15 at most
     // See above; not while a nut is held, nor where the tool is so near to one that it could be in the way.
     std::uint8_t undo = 0;
+    // N·m that a click-type torque wrench is set to, as its scale has it; 0: it does not click. Once it has
+    // clicked nobody turns its scale before it is let go of.
+    float setting = 0.0F;
 };
 
 struct Output {
@@ -68,6 +71,7 @@ struct Output {
     double clamp = 0.0;          // N
 
     std::int16_t slipped = -1;  // joint over whose corners the jaw slipped in this tick; −1: none
+    bool clicked = false;       // the torque wrench did, in this tick
     std::uint8_t undone = 0;    // marks that the nuts went back by in this tick
     double rounded = 0.0;       // m of its flats that the engaged or slipped nut has lost at each corner
 };

@@ -102,7 +102,8 @@ bool round_corners(const Setup& setup, const NutPlace& nut, const joint::JointSt
     const double whole = bears(setup, nut, lost, e), play = play_of(setup, nut, lost);
     const double limit = std::max(least_limit, e.strength * whole);
     if (std::abs(joint.torque) < 0.999 * limit) return false;
-    const double beyond = std::abs(e.hand_angle - joint.nut.angle) - play - whole / setup.wrench.stiffness;
+    const double wound = e.hand_angle - e.swung - joint.nut.angle;
+    const double beyond = std::abs(wound) - play - whole / setup.wrench.stiffness;
     const double turned = std::max(0.0, beyond - e.yielded);
     e.yielded = std::max(e.yielded, beyond);
     // The work flows off as corner: a triangle with sides of `lost` about 120°, at two corners.

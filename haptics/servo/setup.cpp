@@ -9,6 +9,8 @@ namespace bolt::servo {
 
 namespace {
 
+constexpr std::uint64_t tool_stream = 6789;  // the joints have theirs from 0 on
+
 NutPlace place(const joint::JointDesign& design) {
     NutPlace nut;
     nut.seat = design.seat;
@@ -56,6 +58,10 @@ Setup make_setup(const Description& d) {
     const double greatest = std::max(d.greatest_torque, 1.0);
     setup.wrench.stiffness =
         greatest / to_radians(2.5);  // wrench and wrists give 2.5° at the greatest torque
+
+    setup.wrench.click.swing = d.click_swing;
+    Random of_the_tool(d.seed, tool_stream);
+    setup.wrench.deviation = of_the_tool.uniform(-d.click_accuracy, d.click_accuracy);
 
     setup.limits = d.limits;
     // What a device cannot render must not count as stored by it.

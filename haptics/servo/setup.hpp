@@ -40,6 +40,8 @@ struct Wrench {
     double handle_length = 0.0;  // m
     double half_play = 0.0;      // rad, jaw on hexagon, to either side
     double stiffness = 0.0;      // N·m/rad, wrench and hand coupling
+    joint::Click click;          // without a setting: that is an input's
+    double deviation = 0.0;      // relative, of what it trips at from what it is set to
 };
 
 struct Setup {
@@ -74,6 +76,8 @@ struct Description {
     double handle_length = 0.0;    // m
     double greatest_torque = 0.0;  // N·m that the lesson asks for: what the device's range is scaled to
     force::OutputLimits limits;
+    double click_swing = 0.0;     // rad, of a click-type torque wrench; 0: the wrench is none
+    double click_accuracy = 0.0;  // relative: this wrench deviates by no more, the seed says by how much
     std::uint64_t seed = 0;
     double dt = 0.001;
 };

@@ -14,7 +14,14 @@ namespace {
 // Whether contacts hold what is engaged.
 bool by_contact(const State& state) { return state.touch && state.engagement.grip == Grip::wrench; }
 
-joint::Handle handle_of(const Setup& setup, const State& state) {
+// Under way a scale that turned would make energy.
+void set_wrench(const Setup& setup, Engagement& e, float scale) {
+    if (e.swung > 0.0) return;
+    const bool clicks = e.grip == Grip::wrench && setup.wrench.click.swing > 0.0;
+    e.setting = clicks && std::isfinite(scale) ? std::max(static_cast<double>(scale), 0.0) : 0.0;
+}
+
+joint::Handle rigid_handle(const Setup& setup, const State& state) {
     const Engagement& e = state.engagement;
     if (e.joint >= 0 && by_contact(state)) {
         const auto i = static_cast<std::size_t>(e.joint);
@@ -30,6 +37,15 @@ joint::Handle handle_of(const Setup& setup, const State& state) {
         handle.stiffness = setup.finger_stiffness;
         handle.torque_limit = setup.finger_torque(setup.nuts[static_cast<std::size_t>(std::max(e.joint, 0))]);
     }
+    return handle;
+}
+
+joint::Handle handle_of(const Setup& setup, const State& state) {
+    const Engagement& e = state.engagement;
+    joint::Handle handle = rigid_handle(setup, state);
+    handle.click = setup.wrench.click;
+    handle.click.setting = e.setting * (1.0 + setup.wrench.deviation);
+    handle.swung = e.swung;
     return handle;
 }
 
@@ -165,9 +181,13 @@ Output tick(const Setup& setup, State& state, const Input& input, force::Free fr
         update_engagement(setup, state.joints, tool, grip, state.engagement);
 
     const int engaged = state.engagement.joint;
-    step_group(setup.group, state.joints, engaged, handle_of(setup, state), setup.dt);
+    set_wrench(setup, state.engagement, input.setting);
+    const joint::ClickStep click =
+        step_group(setup.group, state.joints, engaged, handle_of(setup, state), setup.dt);
+    state.engagement.swung = click.swung;
 
     Output output;
+    output.clicked = click.clicked;
     output.undone = undone;
     force::Wanted wanted;
     // Engaged it has come there, and without a pose there is nobody to lead: what help there was fades.

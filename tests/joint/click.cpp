@@ -1,0 +1,228 @@
+// A click-type torque wrench: where it trips, how the torque falls, when it is armed again; and that swinging
+// it to and fro takes energy, whatever the hand does.
+
+#include "haptics/joint/click.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/joint/support.hpp"
+
+using namespace bolt;
+using namespace bolt::joint;
+
+namespace {
+
+constexpr double stiffness = 2000.0, setting = 40.0, swing = to_radians(4.0), play = 0.01;
+constexpr double fixed = 1e9;  // N·m: what holds a nut that is not to turn
+
+Resistance constant(double torque) {
+    Resistance r;
+    r.tighten = torque;
+    r.loosen = -torque;
+    return r;
+}
+
+// A wrench on a nut that a constant torque holds.
+struct Bench {
+    double dt = 1e-3;
+    Resistance held_by = constant(fixed);
+    Handle handle;
+    NutMotion nut;
+    NutStep last;
+    double hand = 0.0, work = 0.0;  // rad, and J that the hand put in
+    int clicks = 0;
+
+    explicit Bench(double tick = 1e-3) : dt(tick) {
+        handle.engaged = true;
+        handle.stiffness = stiffness;
+        handle.half_play = play;
+        handle.click.setting = setting;
+        handle.click.swing = swing;
+    }
+    // One tick, in which the hand goes to an angle.
+    double to(double angle) {
+        handle.angle = angle;
+        last = step_nut(held_by, coupling_inertia(stiffness, dt), nut, handle, dt);
+        nut = last.nut;
+        handle.swung = last.click.swung;
+        clicks += last.click.clicked ? 1 : 0;
+        work += last.torque * (angle - hand);
+        hand = angle;
+        return last.torque;
+    }
+    double by_torque(double torque) { return to(play + torque / stiffness); }
+    void slowly_to(double angle, double speed = 0.2) {
+        const double from = hand;
+        const int n = static_cast<int>(std::abs(angle - from) / (speed * dt)) + 1;
+        for (int i = 1; i <= n; ++i) to(from + (angle - from) * i / n);
+    }
+    // What the spring of the wrench holds, and the mechanism's own, which brings it back.
+    [[nodiscard]] double stored() const {
+        const Click& c = handle.click;
+        const double wound = last.torque / stiffness;
+        return 0.5 * stiffness * wound * wound + c.rearms_at * c.setting * handle.swung;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("up to its setting it is the plain wrench, bit for bit, and loosening always") {
+    Bench click, plain;
+    plain.handle.click = {};
+    Random random(5);
+    for (int i = 0; i < 20'000; ++i) {
+        const double torque = random.uniform(-3.0 * setting, 0.999 * setting);
+        REQUIRE(click.by_torque(torque) == plain.by_torque(torque));
+    }
+    CHECK(click.clicks == 0);
+    CHECK(click.handle.swung == 0.0);
+    CHECK(click.by_torque(setting * 1.001) < setting);
+    CHECK(click.clicks == 1);
+}
+
+TEST_CASE("it trips at play + setting / stiffness, within what the hand goes in a tick") {
+    for (const double dt : {1e-3, 2.5e-4}) {
+        Bench bench(dt);
+        const double speed = 0.2;
+        double greatest = 0.0;
+        while (bench.clicks == 0) greatest = std::max(greatest, bench.to(bench.hand + speed * dt));
+        CHECK(bench.hand >= play + setting / stiffness);
+        CHECK(bench.hand <= play + setting / stiffness + 1.001 * speed * dt);
+        CHECK(greatest <= setting);
+        CHECK(greatest >= setting - stiffness * speed * dt);
+    }
+}
+
+TEST_CASE("held still it swings until the torque has fallen, with its time constant and in no leap") {
+    for (const double dt : {1e-3, 2.5e-4}) {
+        Bench bench(dt);
+        while (bench.clicks == 0) bench.to(bench.hand + 0.05 * dt);
+        const Click& c = bench.handle.click;
+        const double low = c.falls_to * setting, share = dt / c.settles;
+        double expected = bench.last.torque;
+        const double begin = expected;
+        for (int i = 0; i < static_cast<int>(0.2 / dt); ++i) {
+            const double before = bench.last.torque, torque = bench.to(bench.hand);
+            expected = (expected + share * low) / (1.0 + share);  // backward Euler of T' = −(T − low)/settles
+            REQUIRE(torque == doctest::Approx(expected).epsilon(1e-9));
+            REQUIRE(before - torque <= share * (setting - low) * 1.001);
+        }
+        CHECK(begin > 0.9 * setting);
+        CHECK(bench.last.torque == doctest::Approx(low).epsilon(1e-6));
+        CHECK(bench.handle.swung == doctest::Approx((setting - low) / stiffness).epsilon(0.01));
+        CHECK(bench.clicks == 1);
+    }
+}
+
+TEST_CASE("who pulls on comes to the end of the swing, and over the setting") {
+    Bench bench;
+    const double low = bench.handle.click.falls_to * setting;
+    const double speed = 0.02, extra = stiffness * bench.handle.click.settles * speed;
+    bench.slowly_to(play + low / stiffness + 0.9 * swing, speed);
+    CHECK(bench.last.torque == doctest::Approx(low + extra).epsilon(0.01));  // swings against this
+    CHECK(bench.handle.swung < swing);
+    bench.slowly_to(play + swing + 1.5 * setting / stiffness, speed);
+    CHECK(bench.handle.swung == swing);
+    CHECK(bench.last.torque == doctest::Approx(1.5 * setting));
+    CHECK(bench.clicks == 1);
+}
+
+TEST_CASE("let go of it swings back below its lower torque only, and holds up to its setting again") {
+    Bench bench;
+    const Click& c = bench.handle.click;
+    bench.slowly_to(play + 0.5 * swing + c.falls_to * setting / stiffness);
+    for (int i = 0; i < 500; ++i) bench.to(bench.hand);
+    const double swung = bench.handle.swung;
+    REQUIRE(swung > 0.3 * swing);
+    bench.slowly_to(play + swung + 1.05 * c.rearms_at * setting / stiffness);
+    CHECK(bench.handle.swung == swung);  // between its torques it stands
+    bench.slowly_to(play);
+    for (int i = 0; i < 2000; ++i) bench.to(bench.hand);
+    CHECK(bench.handle.swung == 0.0);
+    CHECK(bench.last.torque == doctest::Approx(0.0));
+    CHECK(bench.clicks == 1);
+    bench.slowly_to(play + 0.98 * setting / stiffness);
+    CHECK(bench.last.torque == doctest::Approx(0.98 * setting));
+    bench.slowly_to(play + 1.02 * setting / stiffness);
+    CHECK(bench.clicks == 2);
+}
+
+TEST_CASE("a nut that turns at less than the setting never makes it click; one that turns at more stops") {
+    Bench loose;
+    loose.held_by = constant(0.9 * setting);
+    loose.slowly_to(2.0);
+    CHECK(loose.clicks == 0);
+    CHECK(loose.nut.angle > 1.9);
+
+    Bench tight;
+    tight.held_by = constant(0.8 * setting);
+    tight.held_by.tighten_slope = 300.0;  // reaches the setting after 1.5°
+    while (tight.clicks == 0) {
+        tight.held_by.tighten = 0.8 * setting + 300.0 * tight.nut.angle;
+        tight.to(tight.hand + 1e-4);
+    }
+    const double stopped = tight.nut.angle;
+    CHECK(stopped == doctest::Approx(0.2 * setting / 300.0).epsilon(0.05));
+    for (int i = 0; i < 100; ++i) tight.to(tight.hand);
+    CHECK(tight.nut.angle == doctest::Approx(stopped).epsilon(1e-3));
+}
+
+TEST_CASE("it never gives energy: random hands and nuts, at 1 and at 4 kHz") {
+    Random random(17);
+    for (int trial = 0; trial < 400; ++trial) {
+        CAPTURE(trial);
+        Bench bench(trial % 2 == 0 ? 1e-3 : 2.5e-4);
+        Click& c = bench.handle.click;
+        c.setting = random.uniform(2.0, 80.0);
+        c.falls_to = random.uniform(0.3, 0.9);
+        c.rearms_at = random.uniform(0.05, 0.95) * c.falls_to;
+        c.settles = random.uniform(2e-3, 40e-3);
+        c.swing = to_radians(random.uniform(0.5, 10.0));
+        bench.handle.half_play = random.uniform(0.0, 0.03);
+        bench.held_by = constant(random.chance(0.5) ? fixed : random.uniform(0.3, 2.0) * c.setting);
+        for (int leg = 0; leg < 12; ++leg) {
+            const double stored = bench.stored(), work = bench.work;
+            bench.slowly_to(bench.nut.angle + random.uniform(-0.1, 0.2), random.uniform(0.02, 4.0));
+            for (int i = 0; i < 200; ++i) bench.to(bench.hand);  // until nothing moves any more
+            const double lost = bench.work - work - (bench.stored() - stored);
+            REQUIRE(lost >= -1e-9);
+            REQUIRE(bench.handle.swung >= 0.0);
+            REQUIRE(bench.handle.swung <= c.swing);
+            REQUIRE(std::isfinite(bench.last.torque));
+        }
+    }
+}
+
+TEST_CASE("under every law a joint is tightened to the click, the same to the bit each time") {
+    const auto run = [](const GroupParameters& group, double dt, double trips) {
+        std::vector<JointState> joints = initial_state(group, 1);
+        Handle handle;
+        handle.engaged = true;
+        handle.stiffness = stiffness;
+        handle.half_play = play;
+        handle.click.setting = trips;
+        handle.click.swing = swing;
+        double greatest = 0.0;
+        bool clicked = false;
+        for (int i = 0; i < 4'000'000 && !clicked; ++i) {
+            handle.angle += 1.5 * dt;
+            const ClickStep click = step_group(group, joints, 0, handle, dt);
+            handle.swung = click.swung;
+            clicked = click.clicked;
+            greatest = std::max(greatest, joints[0].torque);
+        }
+        for (int i = 0; i < 1000; ++i) handle.swung = step_group(group, joints, 0, handle, dt).swung;
+        CHECK(clicked);
+        CHECK(greatest <= trips * (1.0 + 1e-12));
+        CHECK(greatest > 0.8 * trips);
+        CHECK(joints[0].torque < 0.9 * trips);
+        return std::pair(joints[0].nut.angle, joints[0].torque);
+    };
+    PublishedParameters published;
+    for (const double dt : {1e-3, 2.5e-4})
+        for (const GroupParameters& group :
+             {test::single(test::m16_flange_joint()), make_published_group(published)}) {
+            const double trips = group.law == Law::published ? 0.6 * published.T_max_Nm : 60.0;
+            CHECK(run(group, dt, trips) == run(group, dt, trips));
+        }
+}

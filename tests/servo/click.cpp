@@ -1,0 +1,176 @@
+// A torque wrench in the hand: its setting is an input, what it trips at is the tool's own, and the click is
+// felt within what the device may do.
+
+#include <doctest/doctest.h>
+
+#include "tests/servo/support.hpp"
+#include "tests/support/forbidden.hpp"
+
+using namespace bolt;
+using namespace bolt::servo;
+
+namespace {
+
+constexpr float setting = 60.0F;
+
+Setup with_torque_wrench(double deviation = 0.0, double dt = 1e-3) {
+    Setup setup = test::two_joints();
+    setup.dt = dt;
+    setup.wrench.click.swing = to_radians(4.0);
+    setup.wrench.deviation = deviation;
+    return setup;
+}
+
+// The wrench on nut 0, its handle where the hand has it.
+struct Bench {
+    Setup setup;
+    State state;
+    double handle = 0.0, scale = setting;
+    Grip grip = Grip::wrench;
+    Output last;
+
+    explicit Bench(Setup made) : setup(std::move(made)), state(initial_state(setup)) {}
+    Output hold(double angle) {
+        handle = angle;
+        const NutPlace& nut = setup.nuts[0];
+        const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
+        Input input = test::holding(grip, test::tool_at(nut, at, setup.wrench.head_angle + handle));
+        input.setting = static_cast<float>(scale);
+        return last = tick(setup, state, input);
+    }
+    // Turns on until it clicks or has gone this far; the greatest torque on the way.
+    double pull(double at_most, double speed = 1.0) {
+        double greatest = 0.0;
+        const double end = handle + at_most;
+        while (handle < end) {
+            hold(handle + speed * setup.dt);
+            greatest = std::max(greatest, last.wrench_torque);
+            if (last.clicked) break;
+        }
+        return greatest;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the wrench clicks at its setting, beside it by its own deviation, at any rate of the servo") {
+    for (const double dt : {1e-3, 2.5e-4})
+        for (const double deviation : {-0.04, 0.0, 0.03}) {
+            Bench bench(with_torque_wrench(deviation, dt));
+            bench.hold(0.0);
+            const double greatest = bench.pull(60.0);
+            CHECK(bench.last.clicked);
+            const double trips = static_cast<double>(setting) * (1.0 + deviation);
+            CHECK(greatest <= trips * (1.0 + 1e-9));
+            CHECK(greatest > 0.95 * trips);
+            int clicks = 0;
+            for (int i = 0; i < 200; ++i) clicks += bench.hold(bench.handle).clicked ? 1 : 0;
+            CHECK(clicks == 0);
+            CHECK(bench.last.wrench_torque < 0.55 * trips);
+        }
+}
+
+TEST_CASE("without a setting, with another wrench, and with fingers nothing clicks") {
+    SUBCASE("no setting") {
+        Bench bench(with_torque_wrench());
+        bench.scale = 0.0;
+        CHECK(bench.pull(40.0) > 1.5 * setting);
+    }
+    SUBCASE("a setting that is none") {
+        Bench bench(with_torque_wrench());
+        bench.scale = std::numeric_limits<double>::quiet_NaN();
+        CHECK(bench.pull(40.0) > 1.5 * setting);
+    }
+    SUBCASE("a plain wrench") {
+        Bench bench(test::two_joints());
+        CHECK(bench.pull(40.0) > 1.5 * setting);
+    }
+    SUBCASE("fingers") {
+        Bench bench(with_torque_wrench());
+        bench.grip = Grip::fingers;
+        bench.scale = 0.01;
+        bench.pull(20.0);
+        CHECK(bench.last.joint == 0);
+        CHECK_FALSE(bench.last.clicked);
+    }
+}
+
+TEST_CASE("a scale that is turned after the click changes nothing until the wrench is let go of") {
+    Bench turned(with_torque_wrench()), left(with_torque_wrench());
+    for (Bench* bench : {&turned, &left}) {
+        bench->hold(0.0);
+        bench->pull(60.0);
+        REQUIRE(bench->last.clicked);
+    }
+    turned.scale = 1.0;
+    for (int i = 0; i < 100; ++i) {
+        const double angle = turned.handle + 2e-4;
+        REQUIRE(turned.hold(angle).wrench_torque == left.hold(angle).wrench_torque);
+    }
+}
+
+TEST_CASE("taken off the nut it is armed again") {
+    Bench bench(with_torque_wrench());
+    bench.hold(0.0);
+    bench.pull(60.0);
+    REQUIRE(bench.last.clicked);
+    bench.hold(bench.handle);
+    CHECK(bench.state.engagement.swung > 0.0);
+    bench.grip = Grip::none;
+    bench.hold(bench.handle);
+    CHECK(bench.state.engagement.swung == 0.0);
+}
+
+TEST_CASE("the click is felt: a short fall of the device's torque, in no step above its limits") {
+    for (const double dt : {1e-3, 2.5e-4}) {
+        Bench bench(with_torque_wrench(0.0, dt));
+        for (int i = 0; i < static_cast<int>(1.0 / dt); ++i) bench.hold(0.0);
+        bench.pull(60.0);
+        REQUIRE(bench.last.clicked);
+        const double before = glm::length(bench.last.torque);
+        REQUIRE(before > 0.1);
+        for (int i = 0; i < static_cast<int>(0.1 / dt); ++i) {
+            const Vec3 felt = bench.last.torque;
+            bench.hold(bench.handle);
+            // By itself, with room to spare: the limiter has nothing to do.
+            REQUIRE(glm::length(bench.last.torque - felt) <= 0.9 * bench.setup.limits.torque_rate * dt);
+        }
+        CHECK(glm::length(bench.last.torque) < 0.6 * before);
+    }
+}
+
+TEST_CASE("each wrench has a deviation of its own, within its accuracy, and keeps it") {
+    const joint::JointDesign design = test::m16_flange_joint();
+    Description description;
+    description.joints = {&design, 1};
+    description.jaw = 24.2e-3;
+    description.handle_length = 0.23;
+    description.click_swing = to_radians(4.0);
+    description.click_accuracy = 0.04;
+    double least = 1.0, most = -1.0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        description.seed = seed;
+        const double deviation = make_setup(description).wrench.deviation;
+        CHECK(make_setup(description).wrench.deviation == deviation);
+        least = std::min(least, deviation);
+        most = std::max(most, deviation);
+    }
+    CHECK(least >= -0.04);
+    CHECK(least < -0.035);
+    CHECK(most <= 0.04);
+    CHECK(most > 0.035);
+}
+
+TEST_CASE("ticks of a torque wrench allocate nothing and come out the same") {
+    const auto run = [] {
+        Bench bench(with_torque_wrench());
+        bench.hold(0.0);
+        const test::Forbidden in_ticks = test::forbidden_in([&] {
+            bench.pull(60.0);
+            bench.pull(0.3);
+        });
+        CHECK(in_ticks.all() == 0);
+        return std::pair(bench.last.wrench_torque, bench.state.engagement.swung);
+    };
+    CHECK(run() == run());
+}
