@@ -1,15 +1,19 @@
-// boltwright replay: a session played again to the same bits, as a picture or as a film.
+// boltwright replay: a session played again to the same bits, as a picture, as a film, as what was heard.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <memory>
 
 #include "engine/base/console.hpp"
 #include "engine/base/feed.hpp"
+#include "engine/base/process.hpp"
 #include "game/cli/commands.hpp"
 #include "game/film/film.hpp"
+#include "game/sound/materials.hpp"
+#include "game/sound/soundtrack.hpp"
 #include "game/view/picture_file.hpp"
 #include "game/view/size.hpp"
 
@@ -18,17 +22,46 @@ namespace bolt::cli {
 namespace {
 
 struct Options {
-    std::string session, png, video, view, size = "1280x720", gpu;
+    std::string session, png, video, wav, view, size = "1280x720", gpu;
     double at = -1.0, from = 0.0, until = 1e9;
     int rate = 30;
-    bool validate = false;
+    bool validate = false, silent = false;
 };
 
+// What is there on the way to a film; gone in the end, however it ends.
+struct Scratch {
+    std::filesystem::path pictures, sound;
+    ~Scratch() {
+        std::error_code ignored;
+        for (const auto& path : {pictures, sound})
+            if (!path.empty()) std::filesystem::remove(path, ignored);
+    }
+};
+
+// Named after the film, beside it: "film.pictures.mp4", "film.sound.wav".
+void name_beside(const std::filesystem::path& film, const std::string& wav, Scratch& scratch) {
+    const std::filesystem::path stem = film.parent_path() / film.stem();
+    scratch.pictures = stem.string() + ".pictures" + film.extension().string();
+    if (wav.empty()) scratch.sound = stem.string() + ".sound.wav";
+}
+
 // H.264 where FFmpeg has it, what every player reads.
-Result<Feed> start_ffmpeg(const Options& options, VkExtent2D size) {
+Result<Feed> start_ffmpeg(const Options& options, const std::string& film, VkExtent2D size) {
     return Feed::start({"ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba", "-s",
                         fmt::format("{}x{}", size.width, size.height), "-r", std::to_string(options.rate),
-                        "-i", "-", "-pix_fmt", "yuv420p", "-movflags", "+faststart", options.video});
+                        "-i", "-", "-pix_fmt", "yuv420p", "-movflags", "+faststart", film});
+}
+
+// Pictures and sound to a film, the sound as its kind of file has it: AAC in MP4, nothing in a GIF.
+Status put_together(const std::string& pictures, const std::string& sound, const std::string& film) {
+    const Result<Finished> done =
+        run_program({"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-i", pictures, "-i", sound, "-c:v",
+                     "copy", "-movflags", "+faststart", film},
+                    Hear::output_and_errors);
+    if (!done) return fail(done.error());
+    if (done->exit_code != 0)
+        return fail(ErrorCode::failed, fmt::format("ffmpeg could not write {}: {}", film, done->said));
+    return {};
 }
 
 // What is drawn of the session while it is played again.
@@ -39,14 +72,17 @@ class Camera {
 
     // Whether to go on.
     bool see(const play::Moment& moment) {
+        if (wrong_) return false;
         const bool one = options_.at >= 0.0;
         const double period = one ? 0.05 : 1.0 / options_.rate;
         // A single picture has a second before it, in which the camera comes to where it looks.
-        const double begin = one ? options_.at - 1.0 : options_.from;
+        const double begin =
+            one ? options_.at - period * std::min(20.0, std::floor(options_.at / period)) : options_.from;
         const double end = one ? options_.at : options_.until;
-        if (moment.time < begin || moment.time < next_) return true;
+        // Due by their count, not by the one before: the sound would run away from a film that is late by a
+        // part of a tick at every picture.
+        if (moment.time < begin + drawn_ * period - 0.5 * moment.setup.dt) return true;
         if (moment.time > end && drawn_ > 0) return false;
-        next_ = moment.time + period - 0.5 * moment.setup.dt;
         Result<render::Picture> picture = film_.draw(moment, period);
         if (!picture) return stop(picture.error());
         ++drawn_;
@@ -59,13 +95,13 @@ class Camera {
     Status finish() {
         if (wrong_) return fail(*wrong_);
         if (drawn_ == 0) return fail(ErrorCode::usage, "the session ends before there is anything to draw");
-        if (feed_ && feed_->finish() != 0)
-            return fail(ErrorCode::failed, fmt::format("ffmpeg could not write {}", options_.video));
+        if (feed_ && feed_->finish() != 0) return fail(ErrorCode::failed, "ffmpeg could not write the film");
         if (!options_.png.empty())
             if (Status kept = view::write_picture(last_, options_.png); !kept) return kept;
         return film_.no_messages();
     }
     [[nodiscard]] int drawn() const { return drawn_; }
+    [[nodiscard]] bool failed() const { return wrong_.has_value(); }
 
   private:
     bool stop(const Error& error) {
@@ -77,8 +113,27 @@ class Camera {
     std::optional<Feed> feed_;
     render::Picture last_;
     std::optional<Error> wrong_;
-    double next_ = 0.0;
     int drawn_ = 0;
+};
+
+// What is heard of it meanwhile.
+class Microphone {
+  public:
+    Microphone(const Options& options, sound::Soundtrack track)
+        : until_(options.until), track_(std::move(track)) {}
+
+    bool hear(const play::Moment& moment) {
+        if (moment.time > until_ || !kept_) return false;
+        kept_ = track_.hear(moment.setup, moment.output, sound::cues_of(moment.lesson.events), moment.time);
+        return kept_.has_value();
+    }
+    Status finish() { return kept_ ? track_.finish() : kept_; }
+    [[nodiscard]] bool failed() const { return !kept_; }
+
+  private:
+    double until_;
+    sound::Soundtrack track_;
+    Status kept_;
 };
 
 Status say_what_was(const record::Reader& session, const play::Replayed& replayed) {
@@ -94,6 +149,61 @@ Status say_what_was(const record::Reader& session, const play::Replayed& replaye
                            replayed.ticks, static_cast<double>(replayed.ticks) * dt));
 }
 
+// Whoever follows the replay.
+struct Crew {
+    std::unique_ptr<film::Film> film;
+    std::optional<Camera> camera;
+    std::optional<Microphone> microphone;
+
+    bool follow(const play::Moment& moment) {
+        const bool seen = camera && camera->see(moment), heard = microphone && microphone->hear(moment);
+        if ((camera && camera->failed()) || (microphone && microphone->failed())) return false;
+        return seen || heard || (!camera && !microphone);
+    }
+    Status finish() {
+        if (microphone)
+            if (Status kept = microphone->finish(); !kept) return kept;
+        return camera ? camera->finish() : Status();
+    }
+};
+
+Status take_camera(const Options& options, const play::Prepared& at, const std::string& film, Crew& crew) {
+    const Result<VkExtent2D> size = view::parse_size(options.size);
+    if (!size) return fail(size.error());
+    Result<std::unique_ptr<film::Film>> made =
+        film::Film::create(at, {options.view, *size, options.gpu, options.validate});
+    if (!made) return fail(made.error());
+    crew.film = std::move(*made);
+    std::optional<Feed> feed;
+    if (!options.video.empty()) {
+        Result<Feed> started = start_ffmpeg(options, film, *size);
+        if (!started)
+            return fail(ErrorCode::failed, started.error().what,
+                        "FFmpeg (Debian: ffmpeg), which writes the film; --png and --wav need none");
+        feed.emplace(std::move(*started));
+    }
+    crew.camera.emplace(options, *crew.film, std::move(feed));
+    return {};
+}
+
+Status take_microphone(const Options& options, const play::Prepared& at, const std::filesystem::path& wav,
+                       Crew& crew) {
+    Result<sound::Soundtrack> track = sound::Soundtrack::create(
+        wav, at.setup, sound::materials(at.assembly, at.obstacle_names), options.from);
+    if (!track) return fail(track.error());
+    crew.microphone.emplace(options, std::move(*track));
+    return {};
+}
+
+Status say_what_is_there(const Options& options, const Crew& crew) {
+    if (!options.video.empty())
+        if (Status said = say(fmt::format("{}: {} pictures{}\n", options.video, crew.camera->drawn(),
+                                          options.silent ? "" : ", with sound"));
+            !said)
+            return said;
+    return options.wav.empty() ? Status() : say(fmt::format("{}\n", options.wav));
+}
+
 Status run_replay(Options options) {
     (void)std::signal(SIGPIPE, SIG_IGN);  // an FFmpeg that ends is an error that we report
     Result<record::Reader> session = record::Reader::open(options.session);
@@ -102,33 +212,24 @@ Status run_replay(Options options) {
     if (!at) return fail(at.error());
     const double length = static_cast<double>(session->tick_count()) * session->header().dt;
     if (!options.png.empty()) options.at = options.at < 0.0 ? length : std::min(options.at, length);
-    std::optional<Camera> camera;
-    std::unique_ptr<film::Film> film;
-    if (!options.png.empty() || !options.video.empty()) {
-        const Result<VkExtent2D> size = view::parse_size(options.size);
-        if (!size) return fail(size.error());
-        Result<std::unique_ptr<film::Film>> made =
-            film::Film::create(*at, {options.view, *size, options.gpu, options.validate});
-        if (!made) return fail(made.error());
-        film = std::move(*made);
-        std::optional<Feed> feed;
-        if (!options.video.empty()) {
-            Result<Feed> started = start_ffmpeg(options, *size);
-            if (!started)
-                return fail(ErrorCode::failed, started.error().what,
-                            "FFmpeg (Debian: ffmpeg), which writes the film; --png needs none");
-            feed.emplace(std::move(*started));
-        }
-        camera.emplace(options, *film, std::move(feed));
-    }
+    const bool sounds = !options.wav.empty() || (!options.video.empty() && !options.silent);
+    const bool both = sounds && !options.video.empty() && !options.silent;
+    Scratch scratch;
+    if (both) name_beside(options.video, options.wav, scratch);
+    const std::string pictures = both ? scratch.pictures.string() : options.video;
+    const std::string wav = options.wav.empty() ? scratch.sound.string() : options.wav;
+    Crew crew;
+    if (!options.png.empty() || !options.video.empty())
+        if (Status taken = take_camera(options, *at, pictures, crew); !taken) return taken;
+    if (sounds)
+        if (Status taken = take_microphone(options, *at, wav, crew); !taken) return taken;
     const Result<play::Replayed> replayed = play::replay(
-        *session, std::move(*at), [&](const play::Moment& moment) { return !camera || camera->see(moment); });
+        *session, std::move(*at), [&](const play::Moment& moment) { return crew.follow(moment); });
     if (!replayed) return fail(replayed.error());
-    if (camera)
-        if (Status done = camera->finish(); !done) return done;
-    if (camera && !options.video.empty())
-        if (Status said = say(fmt::format("{}: {} pictures\n", options.video, camera->drawn())); !said)
-            return said;
+    if (Status done = crew.finish(); !done) return done;
+    if (both)
+        if (Status done = put_together(pictures, wav, options.video); !done) return done;
+    if (Status said = say_what_is_there(options, crew); !said) return said;
     return say_what_was(*session, *replayed);
 }
 
@@ -144,8 +245,10 @@ void add_replay(CLI::App& app, int& exit_code) {
     auto* png = replay->add_option("--png", options->png, "Picture to write");
     at->needs(png);
     auto* video = replay->add_option("--video", options->video, "Film to write, by FFmpeg")->excludes(png);
-    replay->add_option("--from", options->from, "Second at which the film begins")->needs(video);
-    replay->add_option("--until", options->until, "Second at which it ends")->needs(video);
+    replay->add_option("--wav", options->wav, "Sound of the lesson to write")->excludes(png);
+    replay->add_flag("--silent", options->silent, "A film without sound")->needs(video);
+    auto* from = replay->add_option("--from", options->from, "Second at which film and sound begin");
+    auto* until = replay->add_option("--until", options->until, "Second at which they end");
     replay->add_option("--rate", options->rate, "Pictures a second of the film")
         ->check(CLI::Range(1, 120))
         ->needs(video)
@@ -155,8 +258,11 @@ void add_replay(CLI::App& app, int& exit_code) {
     replay->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     replay->add_flag("--validate", options->validate,
                      "Run under the Vulkan validation layers; any message is an error");
-    replay->callback([options, &exit_code] {
-        const Status done = run_replay(*options);
+    replay->callback([options, from, until, &exit_code] {
+        const bool cut = from->count() + until->count() > 0;
+        const Status done = cut && options->video.empty() && options->wav.empty()
+                                ? fail(ErrorCode::usage, "--from and --until are of a --video or a --wav")
+                                : run_replay(*options);
         exit_code = done ? 0 : complain(done.error());
     });
 }

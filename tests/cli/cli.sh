@@ -115,8 +115,19 @@ expect 0 'all as they were recorded' "$bin/boltwright" replay solid/session.bolt
 film=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright" replay)  # Vulkan drivers keep memory for good
 expect 0 'now.png' "${film[@]}" solid/session.boltwright --at 8 --png now.png --size 160x90 --validate
 check "the picture is there" test -s now.png
-expect 0 'film.mp4: 3 pictures' "${film[@]}" solid/session.boltwright --from 2 --until 2.25 --rate 10 --video film.mp4 --size 64x36
+expect 0 'film.mp4: 3 pictures, with sound' "${film[@]}" solid/session.boltwright --from 2 --until 2.25 --rate 10 --video film.mp4 --size 64x36
 check "the film is there" test -s film.mp4
+check "what it was made of is not" bash -c '! ls film.*.mp4 film.*.wav'
+expect 0 'film.wav' "${film[@]}" solid/session.boltwright --from 4 --until 6 --rate 30 --video film.mp4 --wav film.wav --size 64x36
+lasts() { ffprobe -v error -select_streams "$1" -show_entries stream=duration -of csv=p=0 "$2"; }
+check "pictures and sound last as long as the lesson did" awk -v v="$(lasts v film.mp4)" -v a="$(lasts a film.mp4)" \
+    'BEGIN { exit !(v > 1.99 && v < 2.05 && a > 1.99 && a < 2.05) }'
+expect 0 'part.wav' "$bin/boltwright" replay solid/session.boltwright --from 4 --until 6 --wav part.wav
+check "a sound is the same beside a film and alone" cmp film.wav part.wav
+check "and no silence" bash -c "ffmpeg -nostdin -i part.wav -af volumedetect -f null - 2>&1 | grep -E 'max_volume: -[0-4]?[0-9]\.'"
+expect 0 'silent.mp4: 3 pictures$' "${film[@]}" solid/session.boltwright --silent --from 2 --until 2.25 --rate 10 --video silent.mp4 --size 64x36
+check "a silent film has no sound" test -z "$(lasts a silent.mp4)"
+expect 2 'wav' "$bin/boltwright" replay solid/session.boltwright --from 4
 expect 2 'no view' "$bin/boltwright" replay solid/session.boltwright --at 8 --png now.png --view nowhere
 expect 1 'FFmpeg' env PATH=/nonexistent "$bin/boltwright" replay solid/session.boltwright --video no.mp4 --size 64x36
 expect 3 'format 2' "$bin/boltwright" replay "$sources/tests/data/format-1.boltwright"

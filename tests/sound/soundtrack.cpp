@@ -1,0 +1,69 @@
+// What a replayed session leaves as a file: the lesson's own samples.
+
+#include "game/sound/soundtrack.hpp"
+
+#include "engine/audio/pcm.hpp"
+#include "engine/base/file.hpp"
+#include "game/play/replay.hpp"
+#include "tests/sound/support.hpp"
+
+using namespace bolt;
+
+namespace {
+
+struct Folder {
+    std::filesystem::path path = std::filesystem::temp_directory_path() / "bolt-test-soundtrack";
+    Folder() { std::filesystem::create_directories(path); }
+    ~Folder() { std::filesystem::remove_all(path); }
+};
+
+constexpr std::size_t header = 44;  // bytes
+
+std::vector<std::int16_t> samples_of(const std::filesystem::path& wav) {
+    const auto bytes = read_file(wav, 1U << 28U, ErrorCode::failed);
+    REQUIRE(bytes);
+    REQUIRE(bytes->size() >= header);
+    std::vector<std::int16_t> samples;
+    for (std::size_t i = header; i + 1 < bytes->size(); i += 2)
+        samples.push_back(static_cast<std::int16_t>(static_cast<unsigned char>((*bytes)[i]) |
+                                                    static_cast<unsigned char>((*bytes)[i + 1]) << 8));
+    return samples;
+}
+
+void write_track(const record::Reader& session, const std::filesystem::path& wav, double from) {
+    auto at = play::prepare_again(session);
+    REQUIRE(at);
+    auto track =
+        sound::Soundtrack::create(wav, at->setup, sound::materials(at->assembly, at->obstacle_names), from);
+    REQUIRE(track);
+    const auto replayed = play::replay(session, std::move(*at), [&](const play::Moment& m) {
+        REQUIRE(track->hear(m.setup, m.output, sound::cues_of(m.lesson.events), m.time));
+        return true;
+    });
+    REQUIRE(replayed);
+    CHECK(replayed->wrong == 0);
+    REQUIRE(track->finish());
+}
+
+}  // namespace
+
+TEST_CASE("the sound of a replay is that of the lesson, sample for sample, wherever it begins") {
+    const Folder folder;
+    const std::filesystem::path session = folder.path / "a.boltwright", wav = folder.path / "a.wav";
+    std::vector<std::int16_t> lesson;
+    test::hear_lesson("cover-m8", "expert", 30.0, 0.0, session,
+                      [&](const servo::Output&, const sound::Heard&, std::span<const float> samples) {
+                          for (const float s : samples) lesson.push_back(audio::to_pcm16(s));
+                      });
+    CHECK(std::any_of(lesson.begin(), lesson.end(), [](int s) { return std::abs(s) > 1000; }));
+    const auto reader = record::Reader::open(session);
+    REQUIRE(reader);
+    write_track(*reader, wav, 0.0);
+    CHECK((samples_of(wav) == lesson));
+
+    // From the tick on that ends there; what rings then was struck before.
+    write_track(*reader, wav, 10.0);
+    const std::size_t left_out = (10000 - 1) * 48;
+    CHECK((samples_of(wav) ==
+           std::vector<std::int16_t>(lesson.begin() + static_cast<std::ptrdiff_t>(left_out), lesson.end())));
+}
