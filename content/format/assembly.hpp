@@ -59,6 +59,16 @@ struct WrenchDesign {
     double head_angle = 0.0;      // rad, between jaw and handle
     double handle_length = 0.0;   // m, jaw centre to the grip
     std::string model;            // path of its .glb; empty: none is named
+    // Of a click-type torque wrench; 0 of any other.
+    double click_swing = 0.0;     // rad that its handle swings when it clicks
+    double click_accuracy = 0.0;  // relative, of what it clicks at
+};
+
+// One of the tools that an assembly can be tightened with.
+struct Tool {
+    std::string name;
+    std::map<std::string, std::string> title;  // by language; may be empty
+    WrenchDesign wrench;
 };
 
 // Paths of the .glb files that show an assembly; empty where the file names none.
@@ -104,7 +114,9 @@ struct Assembly {
     std::vector<Variant> variants;         // all that the file has
     std::vector<AssemblyJoint> joints;
     std::vector<Pass> passes;
-    WrenchDesign wrench;
+    std::vector<Tool> tools;  // that there are to choose from, the usual one first
+    std::string tool;         // name of the one that was chosen
+    WrenchDesign wrench;      // and what it is
     FlangeDesign flange;
     ModelFiles models;
     std::vector<View> views;

@@ -124,6 +124,23 @@ Loaded parse_assembly(std::string_view text, std::string_view file, std::string_
     return parse(text, file, variant, {fs::path(file).parent_path(), "tools", {}});
 }
 
+Status choose_tool(Assembly& assembly, std::string_view name) {
+    std::vector<std::string> names;
+    for (const Tool& tool : assembly.tools) {
+        names.push_back(tool.name);
+        if (tool.name != name && !(name.empty() && names.size() == 1)) continue;
+        assembly.tool = tool.name;
+        assembly.wrench = tool.wrench;
+        return {};
+    }
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.file = assembly.file;
+    error.what = fmt::format("there is no tool {} in this file", in_quotes(name));
+    error.expected = suggest(name, names);
+    return fail(error);
+}
+
 Loaded load_assembly(const fs::path& where, std::string_view variant) {
     std::error_code ignored;
     const bool folder = fs::is_directory(where, ignored);

@@ -7,6 +7,7 @@
 
 #include "content/format/assembly.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/result.hpp"
 
 namespace bolt::content {
 
@@ -25,6 +26,10 @@ Loaded parse_assembly(std::string_view text, std::string_view file, std::string_
 // `where` is a folder with an assembly.json, a file, or a name under content/assemblies. The files that it
 // names have to be there, within content/ or, for an assembly that lies elsewhere, within its own folder.
 Loaded load_assembly(const std::filesystem::path& where, std::string_view variant = {});
+
+// Takes another of the assembly's tools into the hand; empty: the usual one. An error: there is none of this
+// name.
+Status choose_tool(Assembly& assembly, std::string_view name);
 
 // Folder that holds content/ (schema/, assemblies/): $BOLTWRIGHT_CONTENT, else beside the program or above it
 // (build tree), else the source tree that it was built from. Empty if none is there.

@@ -52,17 +52,28 @@ void remove_member(std::string& text, const JsonDocument& document, std::string_
     text.erase(begin, end - begin);
 }
 
+// Where the template names files of models: the assembly's own, then those of its tools.
+std::vector<std::string> model_pointers(const std::string& text) {
+    std::vector<std::string> pointers{"/model", "/model_far", "/contact_model", "/tool/model"};
+    std::vector<Error> errors;
+    const auto document = JsonDocument::parse(text, {}, errors);
+    if (!document || !document->root().contains("more_tools")) return pointers;
+    for (const auto& [name, tool] : document->root()["more_tools"].items())
+        pointers.push_back((nlohmann::json::json_pointer("/more_tools") / name / "model").to_string());
+    return pointers;
+}
+
 // The template's models are copied with it, its wrench stays where all wrenches are. What is not there is not
 // named.
 std::vector<fs::path> take_models(std::string& text) {
     std::vector<fs::path> copies;
     const fs::path content = content_folder(), own = content / "assemblies" / template_name();
-    for (const char* pointer : {"/model", "/model_far", "/contact_model", "/tool/model"}) {
+    for (const std::string& pointer : model_pointers(text)) {
         std::vector<Error> errors;
         const auto document = JsonDocument::parse(text, {}, errors);
         const nlohmann::json::json_pointer at(pointer);
         if (!document || !document->root().contains(at)) continue;
-        const bool tool = std::string_view(pointer) == "/tool/model";
+        const bool tool = pointer.find("tool") != std::string::npos;
         const fs::path file = (tool ? content / "tools" : own) / document->root().at(at).get<std::string>();
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored))

@@ -16,6 +16,9 @@ namespace {
 constexpr double mm = 1e-3;
 constexpr double largest_play = 0.6e-3;  // m, of a jaw on its nut
 constexpr double default_head_angle = to_radians(15.0);
+constexpr std::string_view click_kind = "click_torque_wrench", usual_tool = "wrench";
+constexpr double default_click_swing_deg = 4.0;
+constexpr double default_accuracy_percent = 4.0;  // ISO 6789-1: type II, class A, above 10 N·m
 constexpr double default_field_of_view = to_radians(40.0);
 
 std::map<std::string, std::string> read_texts(Reader& reader, const Node& node) {
@@ -26,11 +29,23 @@ std::map<std::string, std::string> read_texts(Reader& reader, const Node& node) 
     return texts;
 }
 
-WrenchDesign read_tool(Reader& reader, const std::vector<AssemblyJoint>& joints) {
-    const Node node = reader.member(reader.root(), "tool");
+// Of a torque wrench alone: what is said of it on another tool is no use, and meant otherwise.
+void read_click(Reader& reader, const Layers& tool, WrenchDesign& wrench) {
+    const bool clicks = tool.text("kind").value_or("") == click_kind;
+    const auto swing = tool.number("click_swing_deg"), accuracy = tool.number("accuracy_percent");
+    for (const auto& value : {swing, accuracy})
+        if (value && !clicks && tool.known({"kind"}))
+            reader.report(value.pointer, "only a torque wrench clicks",
+                          fmt::format("expected the kind {}, or no such value", in_quotes(click_kind)));
+    if (!clicks) return;
+    wrench.click_swing = to_radians(swing.value_or(default_click_swing_deg));
+    wrench.click_accuracy = accuracy.value_or(default_accuracy_percent) / 100.0;
+}
+
+WrenchDesign read_tool(Reader& reader, const Node& node, const std::vector<AssemblyJoint>& joints) {
     const Layers tool(reader, {node});
     WrenchDesign wrench;
-    tool.text("kind");  // only one kind is known, and the schema has checked it
+    read_click(reader, tool, wrench);
     wrench.head_angle = default_head_angle;
     if (const auto angle = tool.number("head_angle_deg")) wrench.head_angle = to_radians(*angle);
     wrench.handle_length = tool.number("handle_length_mm").value_or(0.0) * mm;
@@ -65,6 +80,27 @@ WrenchDesign read_tool(Reader& reader, const std::vector<AssemblyJoint>& joints)
         break;
     }
     return wrench;
+}
+
+// The usual one, and what there is beside it.
+std::vector<Tool> read_tools(Reader& reader, const std::vector<AssemblyJoint>& joints,
+                             const FilePlaces& places) {
+    std::vector<Tool> tools;
+    const auto read = [&](std::string name, const Node& node) {
+        Tool tool{std::move(name), read_texts(reader, reader.member(node, "title")),
+                  read_tool(reader, node, joints)};
+        tool.wrench.model = read_tool_model(reader, node, places);
+        tools.push_back(std::move(tool));
+    };
+    read(std::string(usual_tool), reader.member(reader.root(), "tool"));
+    for (const Node& node : reader.items(reader.member(reader.root(), "more_tools"))) {
+        const std::string name = last_token(node.pointer);
+        if (name == usual_tool)
+            reader.report(node.pointer, fmt::format("{} is what \"tool\" is called", in_quotes(name)),
+                          "expected another name", Part::key);
+        read(name, node);
+    }
+    return tools;
 }
 
 FlangeDesign read_flange(Reader& reader) {
@@ -149,10 +185,11 @@ Assembly read_assembly(Reader& reader, std::string_view variant, const FilePlace
     assembly.variant = choose_variant(reader, variant, assembly.variants);
     // The others are only read for their mistakes. Without a default the plain file can be chosen too.
     for (const Variant& other : assembly.variants)
-        if (other.name != assembly.variant) read_tool(reader, read_joints(reader, other.name));
+        if (other.name != assembly.variant) read_tools(reader, read_joints(reader, other.name), places);
     assembly.joints = read_joints(reader, assembly.variant);
-    assembly.wrench = read_tool(reader, assembly.joints);
-    assembly.wrench.model = read_tool_model(reader, places);
+    assembly.tools = read_tools(reader, assembly.joints, places);
+    assembly.tool = assembly.tools.front().name;
+    assembly.wrench = assembly.tools.front().wrench;
     assembly.passes = read_passes(reader, assembly.joints);
     return assembly;
 }

@@ -26,6 +26,6 @@ double least_share(Reader& reader);
 std::vector<Pass> read_passes(Reader& reader, const std::vector<AssemblyJoint>& joints);
 joint::PublishedParameters read_published(Reader& reader);
 ModelFiles read_model_files(Reader& reader, const FilePlaces& places);
-std::string read_tool_model(Reader& reader, const FilePlaces& places);
+std::string read_tool_model(Reader& reader, const Node& tool, const FilePlaces& places);
 
 }  // namespace bolt::content

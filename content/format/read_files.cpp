@@ -76,9 +76,9 @@ ModelFiles read_model_files(Reader& reader, const FilePlaces& places) {
     return {read("model"), read("model_far"), read("contact_model")};
 }
 
-std::string read_tool_model(Reader& reader, const FilePlaces& places) {
+std::string read_tool_model(Reader& reader, const Node& tool, const FilePlaces& places) {
     // Tools are shared by all assemblies, so their models lie in one place.
-    const Node node = reader.member(reader.member(reader.root(), "tool"), "model");
+    const Node node = reader.member(tool, "model");
     const fs::path root = places.root.empty() ? fs::path{} : fs::weakly_canonical(places.tools);
     return read_file_name(reader, node, places.tools, root, "content/tools");
 }

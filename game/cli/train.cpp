@@ -15,8 +15,8 @@
 #include "game/play/summary.hpp"
 #include "game/play/train.hpp"
 #include "game/report/report.hpp"
-#include "game/station/choice.hpp"
 #include "game/scene/view_help.hpp"
+#include "game/station/choice.hpp"
 #include "game/trainer/window.hpp"
 #include "game/view/result_pictures.hpp"
 #include "game/view/size.hpp"
@@ -29,7 +29,7 @@ namespace {
 
 struct Options {
     std::string assembly = "zq350";
-    std::string variant;
+    std::string variant, tool;
     std::string mode = "guided";
     std::string task = "tighten";
     std::string law;
@@ -224,9 +224,8 @@ Status run_window(const Options& options, const play::TrainOptions& play, const 
     const std::filesystem::path out(options.out);
     if (Status room = make_room(out); !room) return room;
     trainer::AppOptions app_options;
-    app_options.choice = {options.assembly, options.variant, play.course.mode,
-                          play.course.task, options.name,    options.language};
-    app_options.choice.with = with;
+    app_options.choice = {options.assembly, options.variant,  play.course.mode, play.course.task,
+                          options.name,     options.language, options.tool,     with};
     app_options.sound = !options.silent;
     app_options.menu = !options.start;
     app_options.course = play.course;
@@ -274,8 +273,10 @@ int run(const Options& options) {
         return complain(error);
     }
 
-    const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
+    content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
     if (!loaded.ok()) return complain(loaded.errors);
+    if (Status chosen = content::choose_tool(loaded.assembly, options.tool); !chosen)
+        return complain(chosen.error());
     Result<play::TrainOptions> play = play_options(options, loaded.assembly);
     if (!play) return complain(play.error());
     if (options.headless) return run_headless(options, loaded.assembly, *play);
@@ -314,6 +315,7 @@ void add_train(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     train->add_option("--variant", options->variant,
                       "Material variant of the assembly; its default if not given");
+    train->add_option("--tool", options->tool, "One of the assembly's tools; the first if not given");
     train
         ->add_option("--mode", options->mode,
                      "guided: the hand is led to the nut, a step stays until it is done; practice: not led; "

@@ -19,8 +19,8 @@ constexpr int most_level = 3;
 
 // What cannot wait: the torque grows as long as nothing is said.
 bool at_once(Situation s) {
-    return s == Situation::stop || s == Situation::stop_at_yield || s == Situation::stop_too_much ||
-           s == Situation::leave_broken || s == Situation::leave_stripped;
+    return s == Situation::stop || s == Situation::stop_at_yield || s == Situation::stop_at_click ||
+           s == Situation::stop_too_much || s == Situation::leave_broken || s == Situation::leave_stripped;
 }
 
 bool urgent(Situation s) {
@@ -99,6 +99,7 @@ int phase(Situation s) {
         case Situation::run_down_by_wrench:
         case Situation::pull:
         case Situation::pull_to_yield:
+        case Situation::pull_to_click:
         case Situation::check:
         case Situation::break_loose:
         case Situation::turn_off:

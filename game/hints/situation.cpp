@@ -13,6 +13,7 @@ constexpr double worn = 0.2e-3;              // m off its corners
 constexpr double no_room = to_radians(3.0);  // of swing
 constexpr double last_part = 0.8;            // of the least torque: from here on it is pulled slowly
 constexpr double let_go_share = 0.5;         // of the peak: below it the hand has stopped pulling
+constexpr double let_go_clicked = 0.15;      // after a click, which lets the torque fall by itself
 constexpr double given = to_radians(2.0);    // turned off: it has broken loose
 constexpr double turning = 0.02;             // rad/s
 constexpr double fingers_turning = 0.3;      // rad/s
@@ -51,15 +52,18 @@ Situation tightening(const Scene& s, const lesson::Step& due, const joint::Joint
     const bool to_yield = lesson::into_yield(s.lesson, due);
     if (lesson::reached(s.lesson, s.joints)) {
         if (checks) return Situation::checked;
-        if (joint.torque < let_go_share * track.peak_torque) return Situation::take_off;
+        const double still = track.clicked ? let_go_clicked : let_go_share;
+        if (joint.torque < still * track.peak_torque) return Situation::take_off;
         if (track.peak_torque > window.high && track.turned_torque > window.high)
             return Situation::stop_too_much;
+        if (track.clicked) return Situation::stop_at_click;
         return to_yield && track.yielded ? Situation::stop_at_yield : Situation::stop;
     }
     const bool turns_off = joint.torque < -wrong_torque && joint.nut.speed < -turning;
     if (turns_off || joint.torque < -wrong_torque - wrong_share * due.torque) return Situation::other_way_on;
     if (out_of_room(s)) return Situation::set_back;
     if (checks) return Situation::check;
+    if (lesson::setting(s.lesson) > 0.0) return Situation::pull_to_click;
     const bool eases = joint.torque > last_part * window.low;
     if (to_yield) return eases ? Situation::ease_to_yield : Situation::pull_to_yield;
     return eases ? Situation::ease : Situation::pull;

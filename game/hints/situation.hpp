@@ -26,11 +26,13 @@ enum class Situation : std::uint8_t {
     seated,
     pull,
     pull_to_yield,
+    pull_to_click,
     set_back,  // the handle has no more room
     ease,
     ease_to_yield,
     stop,
     stop_at_yield,
+    stop_at_click,
     stop_too_much,
     take_off,
     check,
@@ -51,7 +53,7 @@ enum class Situation : std::uint8_t {
     round_loosen,
     all_done,
 };
-inline constexpr std::size_t situation_count = 38;
+inline constexpr std::size_t situation_count = 40;
 
 // What there is to see of the work after a tick.
 struct Scene {

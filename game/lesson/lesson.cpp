@@ -41,6 +41,7 @@ void begin_step(Lesson& lesson, const servo::State& state) {
     }
     JointTrack& track = lesson.joints[step->joint];
     track.peak_torque = 0.0;
+    track.clicked = false;
     track.begin_angle = state.joints[step->joint].nut.angle;
     lesson.begun.resize(lesson.current);
     lesson.begun.push_back(lesson.joints);
@@ -158,6 +159,10 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     }
     if (track.snug && torque > 0.0) track.result.angle = output.nut_angle - track.snug_angle;
     if (output.stage == joint::Stage::yield) track.yielded = true;
+    if (output.clicked) {
+        track.clicked = true;
+        say(lesson, state.tick, "click", static_cast<int>(joint), torque, "the torque wrench clicks");
+    }
     if (output.stage != track.stage) {
         track.stage = output.stage;
         say(lesson, state.tick, "stage", static_cast<int>(joint), static_cast<double>(output.stage),
@@ -195,6 +200,12 @@ bool into_yield(const Lesson& lesson, const Step& step) {
            spec_of(lesson, step.joint).strategy == content::Strategy::yield;
 }
 
+double setting(const Lesson& lesson) {
+    const Step* step = lesson.due();
+    if (step == nullptr || lesson.assembly->wrench.click_swing <= 0.0) return 0.0;
+    return step->kind == StepKind::tighten || step->kind == StepKind::recheck ? step->torque : 0.0;
+}
+
 bool reached(const Lesson& lesson, std::span<const joint::JointState> joints) {
     const Step* step = lesson.due();
     if (step == nullptr) return false;
@@ -206,7 +217,7 @@ bool reached(const Lesson& lesson, std::span<const joint::JointState> joints) {
             return joint.stage != joint::Stage::navigation;
         case StepKind::tighten:
             if (track.peak_torque < window(lesson, *step).low) return false;
-            return !into_yield(lesson, *step) || track.yielded ||
+            return !into_yield(lesson, *step) || track.yielded || track.clicked ||
                    track.peak_torque > spec_of(lesson, step->joint).torque.high;
         case StepKind::recheck:
             return turned > moved || track.peak_torque >= window(lesson, *step).low;

@@ -6,7 +6,8 @@
 //   run down    the fingers have turned the nut onto its seat
 //   tighten     the torque reached the low edge of the step's window; in full and by strategy `yield` also
 //   the joint
-//               yielded (or the torque is past its window: more of it would not help)
+//               yielded (or the torque is past its window: more of it would not help; or a torque wrench
+//               clicked)
 //   re-check    the wrench moved the nut on, or reached the window without moving it
 //   loosen      the nut is free of clamp force
 // In assessment a joint that is left for the next one counts as done as it was left; in the other modes the
@@ -35,6 +36,7 @@ struct JointTrack {
     double pull_begin = 0.0;     // rad, nut angle where the pull that turns it began
     double begin_angle = 0.0;    // rad, nut angle when the step began
     bool yielded = false;        // the yield stage has been felt
+    bool clicked = false;        // the torque wrench did, in the step that is due
     bool worked = false;         // the hand has done something with the nut in this visit
     bool overdone = false;       // more than its window was said, since it was last off its seat
     int done_in_pass = -1;       // last pass in which a step of this joint was done
@@ -67,6 +69,9 @@ content::Window window(const Lesson& lesson, const Step& step);
 
 // Whether the step goes on until the bolt begins to yield.
 bool into_yield(const Lesson& lesson, const Step& step);
+
+// What a torque wrench is set to for the due step, N·m; 0: the tool is none, or there is nothing to set.
+double setting(const Lesson& lesson);
 
 // Whether the due step is done as soon as the hand lets go.
 bool reached(const Lesson& lesson, std::span<const joint::JointState> joints);

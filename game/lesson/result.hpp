@@ -59,7 +59,7 @@ struct LessonResult {
 enum class Cause : std::uint8_t { none, out_of_turn, done_already, over_torque, slipped, stripped, broken };
 
 // Something that happened, for reports and replay. Kinds: step_begin, step_end, engage, release, stage,
-// mistake, pass_begin, back, note.
+// mistake, pass_begin, back, click, note.
 struct Event {
     std::uint64_t tick = 0;
     std::string kind;

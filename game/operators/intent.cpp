@@ -31,9 +31,18 @@ Intent intend(const Profile& profile, Random& random, const servo::Setup& setup,
         intent.wrong = true;
         intent.joint = (due.joint + 1 + random.bits() % (joints - 1)) % joints;
     }
+    // With a torque wrench nobody needs to feel torques: who means to stop where one should waits for the
+    // click.
+    intent.until_click = !intent.wrong && lesson::setting(lesson) > 0.0;
     double stop = 1.0 + profile.torque_bias + profile.torque_noise * random.normal();
-    if (!retry && random.chance(profile.stops_early)) stop *= 0.75;
-    if (random.chance(profile.overdoes)) stop *= 1.25;
+    if (!retry && random.chance(profile.stops_early)) {
+        stop *= 0.75;
+        intent.until_click = false;
+    }
+    if (random.chance(profile.overdoes)) {
+        stop *= 1.25;
+        intent.until_click = false;
+    }
     stop += 0.04 * intent.tries;  // it was not enough: a little more
     intent.goal = (intent.wrong ? 0.3 : 1.0) * due.torque * stop;
     if (intent.until_seated) intent.goal = 1.3 * drag + 2.0;

@@ -19,6 +19,7 @@ struct Intent {
     bool until_seated = false;    // it runs the nut down until it sits
     bool checks = false;          // it only wants to see the nut begin to move
     bool stops_at_yield = false;  // it means to stop where the resistance stops growing
+    bool until_click = false;     // it means to stop when its torque wrench clicks
     double goal = 0.0;            // N·m at which it means to stop
     double least = 0.0;           // N·m below which it knows that it is not done
     int tries = 0;                // at this step before

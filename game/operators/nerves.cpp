@@ -53,14 +53,15 @@ void Nerves::follow_slope(const Moment& late) {
     mark_ = nut;
 }
 
-const Feeling& Nerves::feel(double torque, double turned, double nut_speed, bool on) {
+const Feeling& Nerves::feel(double torque, double turned, double nut_speed, bool on, bool clicked) {
     const Moment late = line_[at_];
-    line_[at_] = {torque, turned, nut_speed, on};
+    line_[at_] = {torque, turned, nut_speed, on, clicked};
     at_ = (at_ + 1) % line_.size();
     const double rate = (late.torque - now_.torque) / dt_;
     now_.torque_rate += (rate - now_.torque_rate) * std::min(1.0, dt_ / smoothing);
     now_.torque = late.torque;
     now_.nut_speed = late.nut_speed;
+    now_.clicked = late.clicked;
     follow_slope(late);
     return now_;
 }

@@ -19,6 +19,7 @@ struct Feeling {
     double torque_rate = 0.0;  // N·m/s, smoothed over 30 ms
     bool yields = false;       // the resistance no longer grows as it did
     double nut_speed = 0.0;    // rad/s, seen
+    bool clicked = false;      // the torque wrench has given way
 };
 
 class Nerves {
@@ -28,12 +29,12 @@ class Nerves {
 
     // One tick: what is so now goes in, what was so a reaction time ago comes out. `turned`: rad that the
     // hand has turned the wrench; `on`: it has hold of a nut.
-    const Feeling& feel(double torque, double turned, double nut_speed, bool on);
+    const Feeling& feel(double torque, double turned, double nut_speed, bool on, bool clicked = false);
 
   private:
     struct Moment {
         double torque = 0.0, turned = 0.0, nut_speed = 0.0;
-        bool on = false;
+        bool on = false, clicked = false;
     };
     void follow_slope(const Moment& late);
 

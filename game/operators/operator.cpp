@@ -169,7 +169,8 @@ servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
     if (takes && m.on_its_nut()) take_hold(m);
     const force::OutputCommand output{state.output.output.force, state.output.output.torque};
     const double torque = felt_torque(setup.torque, m.nut(), m.hand.orientation * Vec3(1, 0, 0), output);
-    const Feeling& felt = m.nerves.feel(grips ? torque : 0.0, m.handle, m.joint().nut.speed, grips);
+    const Feeling& felt = m.nerves.feel(grips ? torque : 0.0, m.handle, m.joint().nut.speed, grips,
+                                        grips && state.engagement.swung > 0.0);
     Pose pose = move(m, felt, input.grip);
     if (m.phase != Phase::done) {
         pose.position += m.tremor.at(m.time) * m.profile.tremor;

@@ -12,6 +12,7 @@ constexpr double spin_stroke = 200.0;          // degrees of one finger twist
 constexpr double loose_free = 40.0;            // degrees turned at next to no torque: the nut is free
 constexpr double no_torque = 1.0;              // N·m, next to none at a wrench
 constexpr double seen_turn = to_radians(0.5);  // of a nut that can be seen
+constexpr double never_clicks = 1.3;           // of its goal: a wrench that has not clicked by then
 constexpr double unwinding_time = 0.18;        // s to let the wrench spring back before it comes off
 
 }  // namespace
@@ -38,7 +39,8 @@ void pull(Mind& m, const Feeling& felt) {
         m.free_turn = load < no_torque ? m.free_turn + nut_speed * dt : 0.0;
         intent.finished = m.free_turn > to_radians(loose_free);
     } else {
-        intent.finished = load + coming >= intent.goal ||
+        intent.finished = (intent.until_click && felt.clicked) ||
+                          load + coming >= (intent.until_click ? never_clicks : 1.0) * intent.goal ||
                           (intent.stops_at_yield && felt.yields && load >= intent.least) ||
                           (intent.checks && m.joint().nut.angle - m.begin_angle > seen_turn);
     }
@@ -56,8 +58,8 @@ void spin(Mind& m, const Feeling& felt) {
 }
 
 void ease(Mind& m) {
-    m.handle -= m.joint().torque / m.setup->wrench.stiffness * std::min(1.0, m.setup->dt / 0.04) *
-                std::min(1.0, m.elapsed() / 0.03);
+    const double wound = m.joint().torque / m.setup->wrench.stiffness + m.state->engagement.swung;
+    m.handle -= wound * std::min(1.0, m.setup->dt / 0.04) * std::min(1.0, m.elapsed() / 0.03);
 }
 
 void spin_back(Mind& m) {

@@ -25,6 +25,7 @@ record::Header header_of(const Prepared& at, const CourseOptions& options) {
     header.assembly_file = assembly.file;
     header.assembly_text = assembly.text;
     header.variant = assembly.variant;
+    header.tool = assembly.tool;
     header.law = joint::name(options.law);
     header.mode = lesson::name(options.mode);
     header.task = lesson::name(options.task);
@@ -132,6 +133,7 @@ Result<servo::Output> Course::step(const servo::Input& given, std::vector<lesson
     servo::Input input = given;
     const auto back = std::exchange(back_, std::nullopt);
     input.undo = marks() != kept_ ? servo::keep_mark : back ? undo_by(*back) : std::uint8_t{0};
+    input.setting = static_cast<float>(lesson::setting(lesson()));
     return tick(input, std::move(noticed));
 }
 

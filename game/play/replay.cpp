@@ -43,7 +43,9 @@ Result<content::Assembly> assembly_of(const record::Header& header) {
     if (!then.ok()) return fail(then.errors.front());
     then.assembly.name = header.assembly;
     then.assembly.models = now.assembly.models;
-    then.assembly.wrench.model = now.assembly.wrench.model;
+    for (content::Tool& tool : then.assembly.tools)
+        for (const content::Tool& there_now : now.assembly.tools)
+            if (there_now.name == tool.name) tool.wrench.model = there_now.wrench.model;
     return std::move(then.assembly);
 }
 
@@ -68,6 +70,7 @@ Result<Prepared> prepare_again(const record::Reader& session) {
                            "a session of format 2"));
     Result<content::Assembly> assembly = assembly_of(header);
     if (!assembly) return fail(assembly.error());
+    if (Status chosen = content::choose_tool(*assembly, header.tool); !chosen) return fail(chosen.error());
     CourseOptions options;
     options.mode = *mode;
     options.task = *task;

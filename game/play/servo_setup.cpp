@@ -30,6 +30,8 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.head_angle = assembly.wrench.head_angle;
     description.handle_length = assembly.wrench.handle_length;
     description.greatest_torque = greatest;
+    description.click_swing = assembly.wrench.click_swing;
+    description.click_accuracy = assembly.wrench.click_accuracy;
     description.limits = limits;
     description.seed = seed;
     description.dt = dt;

@@ -21,6 +21,7 @@ std::string summary_json(const content::Assembly& assembly, const CourseOptions&
     nlohmann::ordered_json json;
     json["assembly"] = assembly.name;
     json["variant"] = assembly.variant;
+    json["tool"] = assembly.tool;
     json["law"] = joint::name(options.law);
     json["mode"] = lesson::name(options.mode);
     json["task"] = lesson::name(options.task);

@@ -12,7 +12,7 @@ namespace bolt::record {
 
 namespace {
 
-constexpr std::byte version{3};
+constexpr std::byte version{4};
 constexpr std::size_t header_bytes = 1 + 4 + 8;
 constexpr int compression_level = 1;  // level 3 takes a tenth longer and saves nothing on such columns
 
@@ -41,6 +41,8 @@ void for_each_column(std::byte written_by, Visit visit) {
     visit([](auto& tick) -> auto& { return tick.fault; });
     if (written_by < std::byte{3}) return;
     visit([](auto& tick) -> auto& { return tick.undo; });
+    if (written_by < std::byte{4}) return;
+    visit([](auto& tick) -> auto& { return tick.setting; });
 }
 
 std::size_t tick_bytes(std::byte written_by) {

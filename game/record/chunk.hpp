@@ -4,8 +4,8 @@
 // checksum. Inside the frame the ticks stand column by column. A value is kept as the difference of its bits
 // to those of the value before it (the first one to zero), with the sign moved to the lowest bit so that
 // small steps either way have zeros on top; and a column is split into planes: all lowest bytes first, all
-// highest bytes last. Version 1 ended with the clamp force, version 2 with the fault; what came later has its
-// default there.
+// highest bytes last. Version 1 ended with the clamp force, version 2 with the fault, version 3 with
+// the undo; what came later has its default there.
 #pragma once
 
 #include <cstddef>

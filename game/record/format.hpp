@@ -11,8 +11,9 @@
 namespace bolt::record {
 
 inline constexpr std::int64_t application_id = 0x424F4C54;  // "BOLT", in SQLite's header
-// user_version; raised when an older program would misread. 2: contacts, faults, the servo's times; 3: undo.
-inline constexpr std::int64_t format_version = 3, oldest_format = 1;
+// user_version; raised when an older program would misread. 2: contacts, faults, the servo's times; 3: undo;
+// 4: the tool and what it is set to.
+inline constexpr std::int64_t format_version = 4, oldest_format = 1;
 
 // Angles are in radians: the unit that is computed in, so that what is read is what was written.
 inline constexpr const char* schema = R"(
@@ -48,6 +49,7 @@ inline constexpr const char* obstacles = "obstacles";
 inline constexpr const char* device = "device";
 inline constexpr const char* servo = "servo";
 inline constexpr const char* view_help = "view_help";  // not in every session
+inline constexpr const char* tool = "tool";            // since format 4
 inline constexpr const char* state = "state";
 inline constexpr const char* duration = "duration_s";  // this one and those below: complete sessions only
 inline constexpr const char* score = "score";

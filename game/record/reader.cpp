@@ -111,11 +111,11 @@ Result<Header> header_of(Meta meta, const std::string& file) {
             return file_error(file, fmt::format("is damaged: it does not say its {}", name));
         *text = std::move(found->second);
     }
-    const std::pair<const char*, std::string*> since_2[] = {
+    const std::pair<const char*, std::string*> later[] = {
         {key::guide, &header.guide}, {key::obstacles, &header.obstacles}, {key::device, &header.device},
-        {key::servo, &header.servo}, {key::view_help, &header.view_help},
+        {key::servo, &header.servo}, {key::tool, &header.tool},           {key::view_help, &header.view_help},
     };
-    for (const auto& [name, text] : since_2)
+    for (const auto& [name, text] : later)
         if (const auto found = meta.find(name); found != meta.end()) *text = std::move(found->second);
     const auto seed = number<std::uint64_t>(meta[key::seed]);
     const auto dt = number<double>(meta[key::dt]);

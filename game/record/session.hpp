@@ -59,6 +59,7 @@ struct Header {
     std::vector<ObstacleName> obstacle_names;
 
     std::string view_help;  // "on", "off": of a simulated trainee; empty: a person, or it is not said
+    std::string tool;       // its name in the assembly; empty before format 4, which knew the first alone
 };
 
 // Move-only. All errors name the file. After an error everything committed before stays readable, and every

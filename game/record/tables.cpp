@@ -40,6 +40,7 @@ Status put_header(Database& database, const Header& header, Seals& seals) {
         {key::device, header.device},
         {key::servo, header.servo},
         {key::view_help, header.view_help},
+        {key::tool, header.tool},
         {key::state, state_recording},
     };
     for (const auto& [name, value] : values)

@@ -26,6 +26,7 @@ TickRecord make_record(const servo::Input& input, const servo::Output& output) {
     record.touched = output.touched;
     record.fault = static_cast<std::uint8_t>(output.fault);
     record.undo = input.undo;
+    record.setting = input.setting;
     return record;
 }
 
@@ -40,6 +41,7 @@ servo::Input input_of(const TickRecord& record) {
     input.missed = static_cast<std::uint8_t>(record.flags >> 4);
     input.guide = record.guide;
     input.undo = record.undo;
+    input.setting = record.setting;
     return input;
 }
 

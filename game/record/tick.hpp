@@ -26,6 +26,7 @@ struct TickRecord {
     std::uint8_t fault = 0;      // force::Fault of the output stage
 
     std::uint8_t undo = 0;  // Input::undo; since format 3
+    float setting = 0.0F;   // N·m, Input::setting; since format 4
 };
 
 // Of the input's small values; above them four bits of missed deadlines.

@@ -55,6 +55,7 @@ void put_heading(std::string& out, const SessionData& s, std::size_t index) {
     }
     out += fact("law", s.header.law);
     out += fact("variant", s.header.variant);
+    if (!s.header.tool.empty()) out += fact("tool", s.header.tool);
     out += fact("duration", duration_text(s.duration));
     out += fact("seed", fmt::format("{}", s.header.seed));
     if (index > 0) out += path_fact("session", s.file);  // one alone is known by where its report lies

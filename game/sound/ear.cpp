@@ -22,8 +22,6 @@ constexpr double louder = 1.5;
 constexpr double seated = 0.1;       // of full load: from here the thread is under load and does not run
 constexpr double usual_press = 3.0;  // N, where there is no device whose force would tell
 
-constexpr double rearmed = 0.7;  // of its setting, below which a torque wrench can click again
-
 Ear::Ends ends_of(const servo::Setup& setup, const Pose& tool) {
     return {tool.position, tool.position + tool.orientation * Vec3(setup.wrench.handle_length, 0.0, 0.0)};
 }
@@ -135,11 +133,7 @@ Heard hear(Ear& ear, const servo::Setup& setup, const servo::Output& output, con
     Heard heard;
     hear_contact(ear, setup, output, heard);
     hear_nut(ear, setup, output, heard);
-    if (cues.click_at > 0.0) {
-        const double torque = output.joint >= 0 ? output.wrench_torque : 0.0;
-        heard.click = !ear.clicked && torque >= cues.click_at;
-        ear.clicked = (ear.clicked && torque > rearmed * cues.click_at) || heard.click;
-    }
+    heard.click = output.clicked;
     heard.done = cues.done;
     heard.mistake = cues.mistake;
     return heard;

@@ -15,9 +15,8 @@ namespace bolt::sound {
 
 // What the lesson adds to a tick.
 struct Cues {
-    double click_at = 0.0;  // N·m that a torque wrench is set to; 0: it is none
-    bool done = false;      // a step of a joint was done in this tick
-    bool mistake = false;   // a mistake was made in it
+    bool done = false;     // a step of a joint was done in this tick
+    bool mistake = false;  // a mistake was made in it
 };
 
 // Of what the lesson said in a tick (Lesson::events).
@@ -43,7 +42,6 @@ struct Ear {
     std::int16_t joint = -1;
     double nut_angle = 0.0;  // rad
     double load = 0.0;
-    bool clicked = false;  // and not let go of since
 };
 
 Heard hear(Ear& ear, const servo::Setup& setup, const servo::Output& output, const Cues& cues = {});

@@ -38,7 +38,7 @@ std::vector<Listed> list_assemblies() {
         const content::Loaded loaded = content::load_assembly(name);
         if (!loaded.ok() || loaded.assembly.models.model.empty()) continue;
         listed.push_back({name, loaded.assembly.variant, loaded.assembly.title, loaded.assembly.lesson,
-                          loaded.assembly.variants});
+                          loaded.assembly.variants, loaded.assembly.tools});
     }
     return listed;
 }
@@ -116,6 +116,8 @@ Status App::start(view::Painter& painter) {
         for (const auto& [code, text] : listed.lesson) on_->ui->need(text);
         for (const content::Variant& variant : listed.variants)
             for (const auto& [code, title] : variant.title) on_->ui->need(title);
+        for (const content::Tool& tool : listed.tools)
+            for (const auto& [code, title] : tool.title) on_->ui->need(title);
     }
     Result<text::Fonts> fonts = text::load_fonts();
     if (!fonts) return fail(fonts.error());
@@ -178,6 +180,7 @@ Status App::begin_lesson(float aspect) {
                                wanted.seated_height};
     content::Loaded loaded = content::load_assembly(choice.assembly, choice.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
+    if (Status chosen = content::choose_tool(loaded.assembly, choice.tool); !chosen) return chosen;
     assembly_ = std::move(loaded.assembly);
     course_ = options_.course;
     course_.mode = choice.mode;

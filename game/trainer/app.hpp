@@ -24,6 +24,7 @@ struct Choice {
     lesson::Task task = lesson::Task::tighten;
     std::string trainee;
     std::string language;  // empty: that of the desktop, if there is one
+    std::string tool;      // empty: the assembly's first
     Equipment with;        // none: mouse and keyboard
 };
 
@@ -52,6 +53,7 @@ struct Listed {
     std::string name, usual;                           // and its usual variant
     std::map<std::string, std::string> title, lesson;  // by language
     std::vector<content::Variant> variants;
+    std::vector<content::Tool> tools;
 };
 
 // A button as it was drawn last: for whoever presses it without eyes.

@@ -81,6 +81,7 @@ void App::draw_menu(const glm::dvec2& size) {
             !chosen) {
             choice.assembly = listed.name;
             choice.variant.clear();
+            choice.tool.clear();
         }
     }
     ImGui::Separator();
@@ -90,6 +91,12 @@ void App::draw_menu(const glm::dvec2& size) {
         for (const content::Variant& variant : listed->variants)
             radio(in_language(variant.title, words_.language, variant.name).c_str(), choice.variant,
                   variant.name == listed->usual ? std::string() : variant.name);
+        ImGui::NewLine();
+    }
+    if (listed != listed_.end() && listed->tools.size() > 1) {
+        for (const content::Tool& tool : listed->tools)
+            radio(in_language(tool.title, words_.language, tool.name).c_str(), choice.tool,
+                  tool.name == listed->tools.front().name ? std::string() : tool.name);
         ImGui::NewLine();
     }
     if (listed != listed_.end()) {

@@ -132,6 +132,13 @@ expect 2 'no view' "$bin/boltwright" replay solid/session.boltwright --at 8 --pn
 expect 1 'FFmpeg' env PATH=/nonexistent "$bin/boltwright" replay solid/session.boltwright --video no.mp4 --size 64x36
 expect 3 'format 2' "$bin/boltwright" replay "$sources/tests/data/format-1.boltwright"
 expect 2 '' "$bin/boltwright" replay solid/session.boltwright --at 8
+
+# A torque wrench instead of the usual one: it is in the session, and in all that is made of that.
+expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --tool torque_wrench --headless --quiet --out click
+expect 0 '"tool": "torque_wrench"' cat click/summary.json
+check "the report names the tool" grep -q 'torque_wrench' click/report.html
+expect 0 'all as they were recorded' "$bin/boltwright" replay click/session.boltwright
+expect 3 'did you mean "torque_wrench"' "$bin/boltwright" train cover-m8 --tool torque_wrnch --headless --out never
 expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --no-obstacles --no-guide --out alone
 expect 0 '"guide": false' cat alone/summary.json
 bare="$sources/tests/data/cover.json"

@@ -39,7 +39,7 @@ std::string_view everything() {
     "T_max_Nm": 72.126, "kappa1_Nm_per_deg2": 0.0015, "theta_max_turns": 20.05, "yield_width_deg": 90,
     "transition_width_deg": 30, "contact_end_mm2": 0.01
   },
-  "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_thickness_mm": 9, "jaw_depth_mm": 11, "jaw_tip_mm": 12.5, "head_angle_deg": 15, "handle_length_mm": 180, "model": "wrench_18.glb"},
+  "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_thickness_mm": 9, "jaw_depth_mm": 11, "jaw_tip_mm": 12.5, "head_angle_deg": 15, "handle_length_mm": 180, "model": "wrench_18.glb"}, "more_tools": {"clicker": {"title": {"en": "Torque wrench"}, "kind": "click_torque_wrench", "jaw_mm": 18.1, "handle_length_mm": 400, "click_swing_deg": 5, "accuracy_percent": 3}},
   "flange": {"thickness_mm": 20, "E_GPa": 70, "poisson": 0.33, "interface_stiffness_GPa_per_m": 500},
   "materials": {"grey iron": {"E_GPa": 105}},
   "joint_types": {

@@ -10,9 +10,10 @@ using namespace bolt::hints;
 
 // What may be said soon after something else: who has got so far has done what was asked before.
 inline bool at_work(Situation s) {
-    for (const Situation work : {Situation::run_down, Situation::run_down_by_wrench, Situation::pull,
-                                 Situation::pull_to_yield, Situation::check, Situation::break_loose,
-                                 Situation::turn_off, Situation::ease, Situation::ease_to_yield})
+    for (const Situation work :
+         {Situation::run_down, Situation::run_down_by_wrench, Situation::pull, Situation::pull_to_yield,
+          Situation::pull_to_click, Situation::check, Situation::break_loose, Situation::turn_off,
+          Situation::ease, Situation::ease_to_yield})
         if (s == work) return true;
     return false;
 }

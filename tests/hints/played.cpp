@@ -45,9 +45,9 @@ struct Told {
 
 bool urgent(Situation s) {
     for (const Situation u :
-         {Situation::stop, Situation::stop_at_yield, Situation::stop_too_much, Situation::wrong_joint,
-          Situation::other_way_on, Situation::other_way_off, Situation::seated, Situation::checked,
-          Situation::all_done, Situation::leave_broken, Situation::leave_stripped})
+         {Situation::stop, Situation::stop_at_yield, Situation::stop_at_click, Situation::stop_too_much,
+          Situation::wrong_joint, Situation::other_way_on, Situation::other_way_off, Situation::seated,
+          Situation::checked, Situation::all_done, Situation::leave_broken, Situation::leave_stripped})
         if (s == u) return true;
     return false;
 }

@@ -103,6 +103,20 @@ const Case cases[] = {
          b.turn(0, 40.0);
      },
      yield},
+    {Situation::pull_to_click, "hint.pull_to_click", Motion::pull_on,
+     [](Bench& b) {
+         b.assembly.wrench.click_swing = 0.07;
+         b.seat_both();
+         b.turn(0, 30.0);
+     }},
+    {Situation::stop_at_click, "hint.stop_at_click", Motion::lift,
+     [](Bench& b) {
+         b.assembly.wrench.click_swing = 0.07;
+         b.seat_both();
+         b.turn(0, 35.0);
+         b.tick(0, Grip::wrench, 34.0, 0.0, true);
+         b.tick(0, Grip::wrench, 17.0);
+     }},
     {Situation::set_back, "hint.set_back", Motion::set_back,
      [](Bench& b) {
          b.seat_both();

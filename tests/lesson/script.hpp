@@ -35,8 +35,9 @@ struct Script {
         state.joints.resize(2);
     }
 
-    void tick(int joint, servo::Grip grip, double torque, double speed = 0.0) {
+    void tick(int joint, servo::Grip grip, double torque, double speed = 0.0, bool clicked = false) {
         servo::Output output;
+        output.clicked = clicked;
         output.joint = static_cast<std::int16_t>(joint);
         state.engagement.joint = joint;
         state.engagement.grip = joint >= 0 ? grip : servo::Grip::none;

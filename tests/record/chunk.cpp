@@ -45,7 +45,7 @@ TEST_CASE("the bytes of a chunk are the same on every machine") {
     tick.device.position[0] = 1.0F;  // 0x3F800000
     const std::vector<std::byte> bytes = packed(0x0102, {&tick, 1});
     const std::vector<std::byte> header(bytes.begin(), bytes.begin() + 13);
-    const int expected[] = {3, 1, 0, 0, 0, 0x02, 0x01, 0, 0, 0, 0, 0, 0};
+    const int expected[] = {4, 1, 0, 0, 0, 0x02, 0x01, 0, 0, 0, 0, 0, 0};
     for (std::size_t i = 0; i < header.size(); ++i) CHECK(header[i] == static_cast<std::byte>(expected[i]));
     // zstd's magic number and, in the frame header's descriptor, the bit that says that there is a checksum.
     CHECK(bytes[13] == std::byte{0x28});

@@ -54,6 +54,23 @@ TEST_CASE("a session of format 2 too, and nothing was undone in it") {
     CHECK(held);
 }
 
+TEST_CASE("a session of format 3 too, and its wrench was set to nothing") {
+    const auto reader = Reader::open(bolt::test::test_file("data/format-3.boltwright"));
+    REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
+    CHECK(reader->complete());
+    CHECK(reader->header().tool.empty());
+    const std::vector<TickRecord> ticks = all_ticks(*reader);
+    CHECK(ticks.size() > 10'000);
+    bool held = false, marked = false;
+    for (const TickRecord& tick : ticks) {
+        CHECK(tick.setting == 0.0F);
+        held = held || (tick.joint == 0 && tick.wrench_torque > 15.0F);
+        marked = marked || tick.undo == servo::keep_mark;
+    }
+    CHECK(held);
+    CHECK(marked);
+}
+
 TEST_CASE("a device's limits come back from their text to the last bit") {
     Random random(3);
     for (int i = 0; i < 100; ++i) {

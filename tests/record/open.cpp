@@ -61,7 +61,7 @@ TEST_CASE("a session of a newer version is refused with both numbers") {
     const TempFolder folder;
     const auto path = script_session(folder / "a.session", 5);
     run_sql(path, "PRAGMA user_version = 7");
-    CHECK(contains(refusal(path), "newer version (its format is 7, this program reads 3)"));
+    CHECK(contains(refusal(path), "newer version (its format is 7, this program reads 4)"));
     run_sql(path, "PRAGMA user_version = 0");
     CHECK(contains(refusal(path), "unknown format 0"));
 }

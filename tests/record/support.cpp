@@ -57,6 +57,7 @@ TickRecord random_tick(Random& random) {
     tick.fault = static_cast<std::uint8_t>(random.bits() % force::fault_kinds);
     tick.undo = static_cast<std::uint8_t>(random.bits() % (servo::most_marks + 2U));
     if (tick.undo > servo::most_marks) tick.undo = servo::keep_mark;
+    tick.setting = any();
     return tick;
 }
 
@@ -78,7 +79,8 @@ bool same(const TickRecord& a, const TickRecord& b) {
               equal(a.torque[i], b.torque[i]);
     for (int i = 0; i < 4; ++i) all = all && equal(a.device.orientation[i], b.device.orientation[i]);
     return all && a.grip == b.grip && a.flags == b.flags && a.guide == b.guide && a.joint == b.joint &&
-           a.stage == b.stage && a.contacts == b.contacts && a.touched == b.touched && a.fault == b.fault;
+           a.stage == b.stage && a.contacts == b.contacts && a.touched == b.touched && a.fault == b.fault &&
+           a.undo == b.undo && equal(a.setting, b.setting);
 }
 
 bool same(std::span<const TickRecord> a, std::span<const TickRecord> b) {
@@ -94,7 +96,7 @@ bool same(const Header& a, const Header& b) {
            a.mode == b.mode && a.task == b.task && a.operator_name == b.operator_name && a.seed == b.seed &&
            std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) &&
            a.program == b.program && a.guide == b.guide && a.obstacles == b.obstacles &&
-           a.device == b.device && a.servo == b.servo &&
+           a.device == b.device && a.servo == b.servo && a.tool == b.tool &&
            std::ranges::equal(a.obstacle_names, b.obstacle_names,
                               [](const auto& x, const auto& y) { return x.id == y.id && x.name == y.name; });
 }
@@ -147,6 +149,7 @@ Header sample_header(double dt) {
     header.obstacles = "cover.contact.glb 12 bytes, fnv1a 00000000075bcd15";
     header.device = text_of(force::OutputLimits{});
     header.servo = "virtual time";
+    header.tool = "torque_wrench";
     header.obstacle_names = {{0, "housing"}, {1, "a \"lid\", 盖"}, {1003, "B4_nut"}};
     return header;
 }

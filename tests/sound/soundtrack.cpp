@@ -51,7 +51,7 @@ TEST_CASE("the sound of a replay is that of the lesson, sample for sample, where
     const Folder folder;
     const std::filesystem::path session = folder.path / "a.boltwright", wav = folder.path / "a.wav";
     std::vector<std::int16_t> lesson;
-    test::hear_lesson("cover-m8", "expert", 30.0, 0.0, session,
+    test::hear_lesson("cover-m8", "expert", 30.0, "", session,
                       [&](const servo::Output&, const sound::Heard&, std::span<const float> samples) {
                           for (const float s : samples) lesson.push_back(audio::to_pcm16(s));
                       });

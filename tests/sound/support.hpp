@@ -79,10 +79,11 @@ inline std::vector<float> listen(sound::Synth& synth, const sound::Heard& heard,
 // A lesson as boltwright train plays it, listened to and recorded; `visit` gets every tick's output and
 // samples.
 using Visit = std::function<void(const servo::Output&, const sound::Heard&, std::span<const float>)>;
-inline play::Played hear_lesson(const char* name, const char* trainee, double longest, double click_at,
+inline play::Played hear_lesson(const char* name, const char* trainee, double longest, const char* tool,
                                 const std::filesystem::path& session, const Visit& visit) {
-    const content::Loaded loaded = content::load_assembly(name);
+    content::Loaded loaded = content::load_assembly(name);
     REQUIRE(loaded.ok());
+    REQUIRE(content::choose_tool(loaded.assembly, tool));
     play::CourseOptions options;
     options.obstacles = play::Obstacles::required;
     auto begun = play::Course::begin(loaded.assembly, options, session);
@@ -95,9 +96,7 @@ inline play::Played hear_lesson(const char* name, const char* trainee, double lo
     while (!course.over() && course.time() < longest) {
         const auto output = course.step(hand.act(course.setup(), course.state(), course.lesson()));
         REQUIRE(output);
-        sound::Cues cues = sound::cues_of(course.events());
-        cues.click_at = click_at;
-        const sound::Heard heard = sound::hear(ear, course.setup(), *output, cues);
+        const sound::Heard heard = sound::hear(ear, course.setup(), *output, sound::cues_of(course.events()));
         visit(*output, heard, track.next(heard));
     }
     const auto played = course.finish();

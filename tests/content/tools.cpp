@@ -1,0 +1,80 @@
+// An assembly's tools: a usual one and others to choose from.
+
+#include <doctest/doctest.h>
+
+#include "support.hpp"
+
+using namespace bolt;
+using namespace content_test;
+
+namespace {
+
+// The small file with a tool more.
+std::string with(const std::string& more) {
+    return edited(cover(), "\"joint_types\"", "\"more_tools\": {" + more + "}, \"joint_types\"");
+}
+
+constexpr const char* clicker =
+    R"("clicker": { "kind": "click_torque_wrench", "jaw_mm": 13.2, "handle_length_mm": 300 })";
+
+}  // namespace
+
+TEST_CASE("a torque wrench beside the usual wrench: it is there, and used when it is chosen") {
+    content::Loaded loaded = content::parse_assembly(with(clicker), "f");
+    for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
+    content::Assembly& a = loaded.assembly;
+    REQUIRE(a.tools.size() == 2);
+    CHECK(a.tool == "wrench");
+    CHECK(a.wrench.click_swing == 0.0);
+    REQUIRE(content::choose_tool(a, "clicker"));
+    CHECK(a.tool == "clicker");
+    CHECK(a.wrench.handle_length == doctest::Approx(0.3));
+    CHECK(a.wrench.click_swing == doctest::Approx(to_radians(4.0)));
+    CHECK(a.wrench.click_accuracy == doctest::Approx(0.04));
+    REQUIRE(content::choose_tool(a, ""));
+    CHECK(a.tool == "wrench");
+    CHECK(a.wrench.click_swing == 0.0);
+}
+
+TEST_CASE("a tool that there is not is named, with the nearest that there is") {
+    content::Loaded loaded = content::parse_assembly(with(clicker), "f");
+    REQUIRE(loaded.ok());
+    const Status chosen = content::choose_tool(loaded.assembly, "cliker");
+    REQUIRE_FALSE(chosen);
+    CHECK(chosen.error().code == ErrorCode::bad_content);
+    CHECK(chosen.error().message().find("did you mean \"clicker\"?") != std::string::npos);
+    CHECK(loaded.assembly.tool == "wrench");
+}
+
+TEST_CASE("mistakes of a tool are told, each with its place") {
+    const auto one = [](const std::string& text) {
+        const std::vector<std::string> all = messages(text);
+        REQUIRE(all.size() == 1);
+        return all[0].substr(all[0].find("/more_tools"));
+    };
+    CHECK(
+        one(with(edited(clicker, "13.2", "10"))) ==
+        "/more_tools/clicker/jaw_mm: a jaw of 10 mm does not fit M8, 13 mm across flats; expected 13 to 13.6 "
+        "mm");
+    CHECK(
+        one(with(edited(clicker, "300", R"(300, "accuracy_percent": 30)"))) ==
+        "/more_tools/clicker/accuracy_percent: 30 is too large; expected a number >= 0 and <= 20 (percent)");
+    CHECK(one(with(edited(edited(clicker, "click_torque_wrench", "open_end_wrench"), "300",
+                          R"(300, "click_swing_deg": 3)"))) ==
+          "/more_tools/clicker/click_swing_deg: only a torque wrench clicks; expected the kind "
+          "\"click_torque_wrench\", or no such value");
+    CHECK(one(with(edited(clicker, "clicker", "wrench"))) ==
+          "/more_tools/wrench: \"wrench\" is what \"tool\" is called; expected another name");
+}
+
+TEST_CASE("every assembly that is shipped has a torque wrench, and a name for each tool in each language") {
+    for (const char* name : {"zq350", "dn200-pn16", "cover-m8"}) {
+        CAPTURE(name);
+        content::Loaded loaded = content::load_assembly(name);
+        REQUIRE(loaded.ok());
+        for (const content::Tool& tool : loaded.assembly.tools) CHECK(tool.title.size() == 3);
+        REQUIRE(content::choose_tool(loaded.assembly, "torque_wrench"));
+        CHECK(loaded.assembly.wrench.click_swing > 0.0);
+        CHECK_FALSE(loaded.assembly.wrench.model.empty());
+    }
+}
