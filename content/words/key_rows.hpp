@@ -80,7 +80,7 @@ inline constexpr KeyRow key_rows[] = {
     {"control.device.put_away", "key"},
     {"control.device.twist_back", "key"},
     {"control.device.button", "number"},
-        {"control.puck.move", "key"},
+    {"control.puck.move", "key"},
     {"control.keys.move", "key"},
     {"control.keys.turn", ""},
     {"control.glove.take", ""},

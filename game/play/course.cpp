@@ -53,9 +53,10 @@ Result<std::optional<TouchModels>> obstacles_of(const content::Assembly& assembl
 
 // To the bit, also what no session keeps.
 bool same(const servo::Input& input, const servo::Output& a, const servo::Output& b) {
-    return record::same(record::make_record(input, a), record::make_record(input, b)) &&
+    return record::same_output(record::make_record(input, a), record::make_record(input, b)) &&
            std::memcmp(&a.tool, &b.tool, sizeof a.tool) == 0 && a.slipped == b.slipped &&
-           a.undone == b.undone && std::memcmp(&a.rounded, &b.rounded, sizeof a.rounded) == 0;
+           a.clicked == b.clicked && a.undone == b.undone &&
+           std::memcmp(&a.rounded, &b.rounded, sizeof a.rounded) == 0;
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ Result<Replayed> replay(const record::Reader& session, Prepared at,
             const servo::Input input = record::input_of(recorded);
             const servo::Output output = servo::tick(at.setup, at.state, input);
             follow(following, at.state, output);
-            if (!record::same(record::make_record(input, output), recorded) && replayed.wrong++ == 0)
+            if (!record::same_output(record::make_record(input, output), recorded) && replayed.wrong++ == 0)
                 replayed.first_wrong = replayed.ticks;
             ++replayed.ticks;
             const double time = static_cast<double>(at.state.tick) * at.setup.dt;

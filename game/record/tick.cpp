@@ -45,7 +45,7 @@ servo::Input input_of(const TickRecord& record) {
     return input;
 }
 
-bool same(const TickRecord& a, const TickRecord& b) {
+bool same_output(const TickRecord& a, const TickRecord& b) {
     const auto equal = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
     return equal(a.force, b.force) && equal(a.torque, b.torque) && a.joint == b.joint && a.stage == b.stage &&
            equal(a.wrench_torque, b.wrench_torque) && equal(a.nut_angle, b.nut_angle) &&

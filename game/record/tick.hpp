@@ -36,7 +36,7 @@ TickRecord make_record(const servo::Input& input, const servo::Output& output);
 servo::Input input_of(const TickRecord& record);
 
 // Whether the servo put out the same, bit by bit: what is not a number is the same as itself.
-bool same(const TickRecord& a, const TickRecord& b);
+bool same_output(const TickRecord& a, const TickRecord& b);
 
 // Whether every enumeration and index holds a value that its type has. A record that does not is neither
 // written nor handed out, so that nobody has to check again before using a stage as an index.

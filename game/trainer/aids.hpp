@@ -10,8 +10,8 @@
 
 namespace bolt::trainer {
 
-// Towards the work, and away from it.
-inline constexpr glm::vec4 forth_color = scene::due_color, back_color{0.3F, 0.72F, 1.0F, 1.0F};
+// Towards the work, and away from it; amber and blue are two colours also with no red or green cones.
+inline constexpr glm::vec4 forth_color{1.0F, 0.78F, 0.1F, 1.0F}, back_color{0.3F, 0.72F, 1.0F, 1.0F};
 
 // Where a motion is made.
 struct MotionPlace {

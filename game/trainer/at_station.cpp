@@ -82,6 +82,7 @@ void wish(AtStation& at, const play::Course& course, const Asked& asked) {
     const auto drawn =
         leads ? std::optional(due->joint) : nearest_nut(course, at.now.output.tool.position, draws_from);
     w.glide = drawn && closes ? static_cast<std::int16_t>(*drawn) : std::int16_t{-1};
+    w.setting = static_cast<float>(lesson::setting(course.lesson()));
     w.marks = course.marks();
     const std::uint8_t back =
         asked.undo && at.now.output.joint < 0 ? course.undo_by(*asked.undo) : std::uint8_t{0};

@@ -205,6 +205,7 @@ servo::Input hear(const Layout& layout, const servo::Setup& setup, State& s, con
     input.device = servo::sample_of(s.workspace.tool);
     input.grip = grip;
     input.undo = undo_of(s, wishes);
+    input.setting = wishes.setting;
 
     input.enabled = wishes.held;
     input.guide = wishes.guide;

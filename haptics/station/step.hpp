@@ -18,6 +18,7 @@ struct Wishes {
     bool held = false;                     // the dead-man, besides the devices' buttons
     bool clutch = false, stop = false, reset = false;
     std::int16_t guide = -1;
+    float setting = 0.0F;  // N·m, of a wrench that clicks
     // How whoever pushes looks at it: what they push goes by their right, up and nearer to them.
     Quat looks{1.0, 0.0, 0.0, 0.0};
     // Nobody works: no servo tick, no force, and the tool stays where it is while the hand goes where it

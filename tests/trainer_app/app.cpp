@@ -153,6 +153,24 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     CHECK(desk.app().closed());
 }
 
+TEST_CASE("what is pressed in a frame is done in that frame's ticks, and its picture shows it") {
+    Desk desk(options("cover-m8", false));
+    desk.frame();
+    desk.frame();
+    const Vec3 before = desk.playing().hand.pose.position;
+    const auto shown = [&] {
+        glm::vec3 all(0.0F);
+        for (const render::Object& object : desk.playing().scene.objects)
+            if (object.deformation) all += glm::vec3(object.world[3]);
+        return all;
+    };
+    const glm::vec3 picture = shown();
+    desk.frame({platform::KeyEvent{platform::Key::t, true, false, {}}});
+    CHECK(desk.playing().hand.doing == Doing::reaching);
+    CHECK(glm::distance(desk.playing().hand.pose.position, before) > 1e-4);
+    CHECK(shown() != picture);
+}
+
 TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
     Desk desk(options("cover-m8", false));
     desk.frame();

@@ -74,6 +74,18 @@ TEST_CASE(
     CHECK(reader->tick_count() == static_cast<std::uint64_t>(std::lround(paused * 1000.0)));
 }
 
+TEST_CASE("what is pressed at a station goes out with that frame, and the next picture shows it") {
+    AtBench at;
+    Desk desk(at.options(false));
+    desk.frame();
+    for (int i = 0; i < 3; ++i) at.frame(desk);
+    const Vec3 before = desk.playing().hand.pose.position;
+    desk.frame({down(platform::Key::e)});
+    at.bench->pass(0.02);
+    desk.frame();
+    CHECK(desk.playing().hand.pose.position.y > before.y + 1e-3);
+}
+
 TEST_CASE("a station that does not come up is told of in the menu, and the mouse is still there") {
     AtBench at;
     at.refuses.emplace();
