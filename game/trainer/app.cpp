@@ -218,6 +218,12 @@ Status App::begin_lesson(float aspect) {
     p.postures = scene::make_postures(state.touch ? &state.touch->wrench : nullptr,
                                       setup.wrench.handle_length, worker.side);
     p.shoulder = scene::shoulder_at(p.place.machine, worker);
+    if (p.station) {
+        const hand::Skeleton& open = p.postures.open;
+        const Pose fingers = scene::towards(p.station->home, p.shoulder, 0.0);
+        p.station->bare_wrist =
+            inverse(p.station->home) * fingers * Pose{open.position[hand::wrist], open.rotation[hand::wrist]};
+    }
     apply_preferences();
     p.close_up.wished = course_.mode == lesson::Mode::guided;
     p.camera.jump(first_view(p, shelf_->machine, setup.wrench.handle_length, aspect, worker));

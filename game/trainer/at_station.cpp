@@ -6,7 +6,6 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double wrench_reach = 0.10;  // m from the handle's middle line
 constexpr double nut_reach = 0.06;     // m
 constexpr double let_go_reach = 0.08;  // m, of a nut that the hand is at
 constexpr double draws_from = 0.06;    // m, where no lesson leads: a tool that is only pushed is drawn on
@@ -52,7 +51,7 @@ void look(AtStation& at, const play::Course& course) {
     const double within = at.near ? let_go_reach : nut_reach;
     at.near = nearest_nut(course, at.now.output.tool.position, within);
     at.near_wrench = at.now.lies && off_handle(at.now.tool.position, *at.now.lies,
-                                               course.setup().wrench.handle_length) < wrench_reach;
+                                               course.setup().wrench.handle_length) < station::at_handle;
 }
 
 }  // namespace
@@ -72,6 +71,7 @@ void wish(AtStation& at, const play::Course& course, const Asked& asked) {
     const bool closes = at.keys.closes() || at.now.pressed || (at.gloved && !held && pinches(at.fingers));
     w.pause = asked.paused || course.over();
     w.rest = at.rest;
+    w.bare_wrist = at.bare_wrist;
     w.grip = grip_of(at, closes, asked);
     w.held = !has_dead_man(at.bench->layout()) || held || at.keys.closes();
     w.looks = asked.looks;

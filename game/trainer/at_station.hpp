@@ -18,7 +18,8 @@ namespace bolt::trainer {
 
 struct AtStation {
     std::unique_ptr<station::Bench> bench;
-    Pose home, rest;  // where the tool begins, and where the wrench lies
+    Pose home, rest;                 // where the tool begins, and where the wrench lies
+    std::optional<Pose> bare_wrist;  // station::Wishes
     Pushing keys;
 
     station::Ticked now;  // the newest

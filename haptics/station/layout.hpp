@@ -24,6 +24,7 @@ struct Layout {
     Buttons wheel_buttons;
     force::Workspace workspace;  // of the mover; of one that gives rates only the turn counts
     Pose home;                   // of the tool in the assembly's frame, when it begins
+    std::optional<Pose> wrist;   // of a gloved hand that holds the tool, in its frame
 };
 
 // An error: no device at all, or one that cannot do what it is meant for.

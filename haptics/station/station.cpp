@@ -46,7 +46,9 @@ struct Station::Shared {
         count(counted.mover, mapped.mover, answer.mover);
         count(counted.wheel, mapped.wheel, answer.wheel);
         passed.write(counted);
-        if (hand) hand->place({mapped.workspace.tool, mapped.lies.value_or(mapped.output.tool)});
+        if (hand)
+            hand->place(
+                {in_hand(layout, setup, mapped, heard.wishes), mapped.lies.value_or(mapped.output.tool)});
         const Ticked now{beat.number,           mapped.input, mapped.output,
                          mapped.workspace.tool, mapped.lies,  mapped.pressed};
         ticked.write(now);
@@ -88,6 +90,7 @@ Result<Station> Station::start(Plan plan) {
     if (Status ok = check(s.layout); !ok) return fail(ok.error());
     if (plan.hand && plan.glove.empty())
         return fail(ErrorCode::no_device, "a hand without a glove", "the port that its glove is on");
+    if (plan.hand) s.layout.wrist = plan.hand->wrist;
     if (plan.hand)
         s.hand = HandLine::start(glove::Driver::start(plan.glove), std::move(*plan.hand));
     else if (!plan.glove.empty())

@@ -125,7 +125,8 @@ void turn(const Layout& layout, const servo::Setup& setup, State& s, const Told&
 }
 
 // Taken, the wrench is where it lay; let go of on a nut it stays there, elsewhere it is put where it lies.
-void take_or_leave(const Layout& layout, State& s, servo::Grip grip, const std::optional<Pose>& rest) {
+void take_or_leave(const Layout& layout, State& s, servo::Grip grip, const Wishes& wishes) {
+    const std::optional<Pose>& rest = wishes.rest;
     if (!rest) return;
     const bool had = s.input.grip == servo::Grip::wrench, has = grip == servo::Grip::wrench;
     if (has && !had && s.lies) {
@@ -133,6 +134,9 @@ void take_or_leave(const Layout& layout, State& s, servo::Grip grip, const std::
         s.workspace.share = 0.0;
     }
     if (has) s.lies.reset();
+    // The hand stays where it is; what the device moves is its fingertips from now on.
+    if (had && !has && layout.wrist && wishes.bare_wrist)
+        put(layout, s, s.workspace.tool * *layout.wrist * inverse(*wishes.bare_wrist));
     if (!has && !s.lies) s.lies = had && s.output.joint >= 0 ? s.output.tool : *rest;
 }
 
@@ -199,7 +203,7 @@ servo::Input hear(const Layout& layout, const servo::Setup& setup, State& s, con
         s.workspace.share = 0.0;
     }
     const servo::Grip grip = grip_of(heard);
-    take_or_leave(layout, s, grip, wishes.rest);
+    take_or_leave(layout, s, grip, wishes);
 
     servo::Input input;
     input.device = servo::sample_of(s.workspace.tool);
@@ -277,6 +281,16 @@ Answer tick(const Layout& layout, const servo::Setup& setup, State& state, servo
     servo::Input input = hear(layout, setup, state, heard);
     glide(layout, setup, state, servo, heard, input);
     return answer(layout, setup, state, servo::tick(setup, servo, input));
+}
+
+Pose in_hand(const Layout& layout, const servo::Setup& setup, const State& s, const Wishes& wishes) {
+    const bool bare = s.lies && layout.wrist && wishes.bare_wrist;
+    if (bare) {
+        const Vec3 tip = inverse(*s.lies) * s.workspace.tool.position;
+        const Vec3 nearest(std::clamp(tip.x, 0.0, setup.wrench.handle_length), 0.0, 0.0);
+        if (glm::distance(tip, nearest) < at_handle) return *s.lies;
+    }
+    return bare ? s.workspace.tool * *wishes.bare_wrist * inverse(*layout.wrist) : s.workspace.tool;
 }
 
 Answer pause(const Layout& layout, const servo::Setup& setup, State& s, const Heard& heard) {

@@ -26,6 +26,9 @@ struct Wishes {
     bool pause = false;
     // Where the wrench lies while it is in no hand; none: it comes along in the open one.
     std::optional<Pose> rest{};
+    // Of a gloved hand that holds nothing, and whose fingertips are what the device moves: its wrist in their
+    // frame; none: it is moved as if it held the tool.
+    std::optional<Pose> bare_wrist{};
     // Joint whose nut draws the tool of a hand that only pushes it and feels nothing; −1: none. Such a tool
     // glides there by itself, as a guiding force would lead a hand.
 
@@ -91,6 +94,12 @@ servo::Input hear(const Layout& layout, const servo::Setup& setup, State& state,
 void glide(const Layout& layout, const servo::Setup& setup, State& state, const servo::State& servo,
            const Heard& heard, servo::Input& input);
 Answer answer(const Layout& layout, const servo::Setup& setup, State& state, const servo::Output& output);
+
+// Where a gloved hand would have the tool, were it in it (ToolPlace::wished). A bare one that comes near the
+// wrench lies at its handle: nobody can fit fingers around it to the millimetre with a hand that they only
+// see.
+Pose in_hand(const Layout& layout, const servo::Setup& setup, const State& state, const Wishes& wishes);
+inline constexpr double at_handle = 0.10;  // m, from its middle line to the fingertips
 
 // Instead of a tick while Wishes::pause is wished: devices are listened to, and get no force; that comes back
 // slowly.

@@ -74,16 +74,16 @@ TEST_CASE("without a setting, with another wrench, and with fingers nothing clic
     SUBCASE("no setting") {
         Bench bench(with_torque_wrench());
         bench.scale = 0.0;
-        CHECK(bench.pull(40.0) > 1.5 * setting);
+        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(setting));
     }
     SUBCASE("a setting that is none") {
         Bench bench(with_torque_wrench());
         bench.scale = std::numeric_limits<double>::quiet_NaN();
-        CHECK(bench.pull(40.0) > 1.5 * setting);
+        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(setting));
     }
     SUBCASE("a plain wrench") {
         Bench bench(test::two_joints());
-        CHECK(bench.pull(40.0) > 1.5 * setting);
+        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(setting));
     }
     SUBCASE("fingers") {
         Bench bench(with_torque_wrench());

@@ -571,3 +571,33 @@ TEST_CASE("what bears torque turns the more slowly when it is pushed round") {
     CHECK(last >= 150.0);
     CHECK(fastest < 0.2);  // N·m in a millisecond: a hand can stop within a second of the target
 }
+
+TEST_CASE("a gloved hand that lets go stays where it is: what moves on is its fingertips") {
+    Layout layout = with_arm();
+    layout.wrist = Pose{Vec3(0.12, 0.02, -0.03), rotation(Vec3(0.1, 0.2, 1.5))};
+    Rig rig(layout);
+    rig.heard.wishes.rest = Pose{Vec3(0.0, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
+    rig.heard.wishes.bare_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
+    const auto wrist = [&] {
+        return in_hand(layout, rig.setup, rig.state, rig.heard.wishes) * *layout.wrist;
+    };
+    rig.heard.hand = servo::Grip::none;
+    rig.ticks(5);
+    const Pose bare = rig.tool() * *rig.heard.wishes.bare_wrist;
+    CHECK(glm::distance(wrist().position, bare.position) < 1e-12);
+    rig.heard.hand = servo::Grip::wrench;
+    rig.ticks(5);
+    CHECK(glm::distance(rig.tool().position, rig.heard.wishes.rest->position) < 1e-9);
+    const Pose holding = wrist();
+    CHECK(glm::distance(holding.position, (rig.tool() * *layout.wrist).position) < 1e-12);
+    rig.heard.hand = servo::Grip::none;
+    rig.ticks(2);
+    CHECK(glm::distance(wrist().position, holding.position) < 1e-9);
+    CHECK(std::abs(glm::dot(wrist().orientation, holding.orientation)) > 1.0 - 1e-9);
+    CHECK(glm::distance(rig.tool().position, rig.heard.wishes.rest->position) > 0.01);
+    // Beside the wrench that lies there it has its hand about the handle.
+    rig.heard.wishes.put = *rig.state.lies * Pose{Vec3(0.1, 0.03, 0.02), rotation(Vec3(0.3, 0.0, 0.0))};
+    rig.heard.wishes.put_number = 1;
+    rig.ticks(2);
+    CHECK(glm::distance(wrist().position, (*rig.state.lies * *layout.wrist).position) < 1e-9);
+}
