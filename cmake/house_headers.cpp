@@ -1,0 +1,1 @@
+// Nothing: what is wanted are the headers (house_headers.hpp), parsed.
