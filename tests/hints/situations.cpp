@@ -290,7 +290,9 @@ TEST_CASE("a guided lesson has a hint in every state, of the due joint, in every
                 CHECK_FALSE(said.empty());
                 CHECK(said.find('{') == std::string::npos);
                 for (const Controls& controls :
-                     {mouse_controls(language, "T"), device_controls(language, "A")}) {
+                     {mouse_controls(language, "T"), device_controls(language, "A", "T"),
+                      puck_controls(language, "A", "T"), keyboard_controls(language, "Space", "T"),
+                      glove_controls(language)}) {
                     const std::string motion = say_motion(language, at, controls);
                     CHECK(motion.empty() == (level < 3 || c.motion == Motion::none));
                     CHECK(motion.find('{') == std::string::npos);
