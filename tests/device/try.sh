@@ -8,7 +8,7 @@ program=$(mktemp)
 trap 'rm -f "$program"' EXIT
 # As CMake compiles the keeper's test: compiler, warnings, sanitizers.
 flags=$(grep -oE '"command": ".* -o tests/[^ ]*/device/keeper\.cpp\.o ' "$build/compile_commands.json" |
-    sed -E 's/^"command": "//; s/ -o .*//; s/\\"/"/g')
+    sed -E 's/^"command": "//; s/ -o .*//; s/ -Winvalid-pch//; s, -include [^ ]*cmake_pch[^ ]*,,g; s/\\"/"/g')
 [[ -n $flags ]] || { echo "nothing is built in $build"; exit 1; }
 libraries=(tests/libtest_main.a haptics/device/libdevice.a haptics/force/libforce.a haptics/glove/libglove.a engine/base/libbase.a)
 $flags -o "$program" "$1" "${libraries[@]/#/$build/}" -lfmt -lhidapi-hidraw -pthread

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <fstream>
 
 #include "engine/assets/image.hpp"
 #include "engine/base/file.hpp"
@@ -77,7 +79,27 @@ Verdict failed(const Gallery& gallery, const std::string& name, const std::strin
 
 }  // namespace
 
-std::string driver_of(const gpu::Device& device) { return device.name() + ", " + device.driver(); }
+namespace {
+
+// Of drivers that draw with the processor: reciprocals and roots are approximated, and each make of
+// processors has approximations of its own.
+std::string processor() {
+    std::ifstream cpuinfo("/proc/cpuinfo");
+    const std::array<std::string, 3> wanted{"vendor_id", "cpu family", "model"};
+    std::string named;
+    for (std::string line; std::getline(cpuinfo, line) && !line.empty();) {  // of the first one
+        const std::string key = line.substr(0, line.find_last_not_of("\t ", line.find(':') - 1) + 1);
+        if (std::find(wanted.begin(), wanted.end(), key) != wanted.end())
+            named += line.substr(line.find(':') + 1);
+    }
+    return named;
+}
+
+}  // namespace
+
+std::string driver_of(const gpu::Device& device) {
+    return device.name() + ", " + device.driver() + "," + processor();
+}
 
 Gallery gallery(const gpu::Device& device) {
     Gallery here{fs::path(BOLT_GOLDEN) / "pictures", BOLT_GOLDEN_FAILURES, driver_of(device), "", false};
