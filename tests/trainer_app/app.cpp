@@ -117,6 +117,7 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     REQUIRE(desk.push("menu.start"));
     desk.frame();
     REQUIRE(desk.app().shows() == Shows::lesson);
+    desk.key(platform::Key::i);  // the close-up has tests of its own, and costs as much as the picture
     Person person(desk);
     if (test::sanitized) {  // ten times slower: a nut is run down
         person.play(400.0, 1);
@@ -202,6 +203,7 @@ TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
 TEST_CASE("a step is taken back: the nut is where it was, the step due again, and the session replays so") {
     Desk desk(options("cover-m8", false));
     desk.frame();
+    desk.key(platform::Key::i);  // as above
     Person person(desk);
     person.play(100.0, 1);
     const play::Course& course = *desk.playing().course;
