@@ -60,10 +60,14 @@ function(house_library name)
     endif()
 endfunction()
 
-# house_program(NAME SOURCES a.cpp ... LINK targets...)
+# house_program(NAME SOURCES a.cpp ... LINK targets... [TOGETHER]): TOGETHER compiles all sources as one, for programs of
+# many commands: every file that reads a command line brings all of CLI11's code along, and takes ten seconds for it.
 function(house_program name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "TOGETHER" "" "SOURCES;LINK" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})
     target_link_libraries(${name} PRIVATE house_options ${ARG_LINK})
     house_parsed_headers(${name})
+    if(ARG_TOGETHER)
+        set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    endif()
 endfunction()

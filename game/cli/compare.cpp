@@ -13,11 +13,11 @@ namespace bolt::cli {
 
 namespace {
 
-struct Options {
+struct CompareOptions {
     std::string session, measured, joint, html = "out/compare.html";
 };
 
-int run(const Options& options) {
+int run_compare(const CompareOptions& options) {
     for (const std::string& input : {options.session, options.measured})
         if (Status apart = keep_apart(input, options.html); !apart) return complain(apart.error());
     Result<record::Reader> reader = record::Reader::open(options.session);
@@ -40,7 +40,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareOptions>();
     CLI::App* compare =
         app.add_subcommand("compare", "Hold a session against a measured torque-angle record");
     compare->add_option("session", options->session, "Session file")->required();
@@ -49,7 +49,7 @@ void add_compare(CLI::App& app, int& exit_code) {
     compare->add_option("--joint", options->joint,
                         "Id of one joint; all that were turned that way if not given");
     compare->add_option("--html", options->html, "Page with the plots to write")->capture_default_str();
-    compare->callback([options, &exit_code] { exit_code = run(*options); });
+    compare->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 
 }  // namespace bolt::cli

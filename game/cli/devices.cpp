@@ -27,7 +27,7 @@ namespace {
 
 constexpr double device_patience = 3.0;  // s
 
-struct Options {
+struct DevicesOptions {
     std::string device, glove, rig;
     bool others = false;
     double seconds = 1.0;
@@ -77,7 +77,7 @@ std::string ports(const std::vector<std::filesystem::path>& found) {
 }
 
 // Opens it and hears what it says for a while.
-Result<std::string> examine_device(const Options& options) {
+Result<std::string> examine_device(const DevicesOptions& options) {
     if (const auto found = station::find(device::list(true), options.device); !found)
         return fail(found.error());
     device::Rig rig;
@@ -129,7 +129,7 @@ Result<std::string> examine_glove(const std::string& port, double seconds) {
     return text;
 }
 
-int run(const Options& options) {
+int run_devices(const DevicesOptions& options) {
     std::string text;
     if (!options.device.empty()) {
         const Result<std::string> found = examine_device(options);
@@ -159,7 +159,7 @@ std::string devices_line() {
 }
 
 void add_devices(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DevicesOptions>();
     CLI::App* devices = app.add_subcommand(
         "devices", "Say which devices are there, what they can, what is wrong with them and how to mend it");
     devices->add_option("--device", options->device, "Open this one, by its id, and say what it can");
@@ -171,7 +171,7 @@ void add_devices(CLI::App& app, int& exit_code) {
     devices->add_option("--seconds", options->seconds, "how long a named one is listened to")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
-    devices->callback([options, &exit_code] { exit_code = run(*options); });
+    devices->callback([options, &exit_code] { exit_code = run_devices(*options); });
 }
 
 }  // namespace bolt::cli

@@ -30,7 +30,7 @@ constexpr double patience = 10.0;      // s for a glove to give its first frame
 constexpr double port_patience = 1.0;  // s for its port to open
 constexpr auto look_again = std::chrono::milliseconds(5);
 
-struct Options {
+struct GloveOptions {
     std::string port, trainee, folder, file, hand = "right";
     std::size_t sensors = 18;
     double hand_length_mm = 1e3 * hand::skeleton_length;
@@ -43,7 +43,7 @@ double now() {
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr))); }
 
-Result<fs::path> kept_in(const Options& options) {
+Result<fs::path> kept_in(const GloveOptions& options) {
     return options.folder.empty() ? station::calibrations_folder() : fs::path(options.folder);
 }
 
@@ -60,7 +60,7 @@ struct Reader {
 };
 
 // On the port that is named, or on the only one there is, and streaming.
-Result<Reader> open(Options& options) {
+Result<Reader> open(GloveOptions& options) {
     if (options.port.empty()) {
         const std::vector<fs::path> ports = glove::serial_ports();
         if (ports.size() != 1)
@@ -83,7 +83,7 @@ Result<Reader> open(Options& options) {
                 report.open ? "is the glove switched on and plugged into its box?" : "");
 }
 
-Result<std::string> keep(const Options& options, content::GloveCalibration calibration) {
+Result<std::string> keep(const GloveOptions& options, content::GloveCalibration calibration) {
     calibration.trainee = options.trainee;
     calibration.date = today();
     calibration.hand_length = 1e-3 * options.hand_length_mm;
@@ -122,7 +122,7 @@ Result<glove::Calibrated> ask_for_postures(Reader& reader) {
     return std::move(*session.result);
 }
 
-Status calibrate(Options options) {
+Status calibrate(GloveOptions options) {
     Result<Reader> reader = open(options);
     if (!reader) return fail(reader.error());
     const glove::Identity identity = reader->driver.report().identity;
@@ -144,7 +144,7 @@ Status calibrate(Options options) {
     return kept ? say(*kept) : fail(kept.error());
 }
 
-Status take_over(const Options& options) {
+Status take_over(const GloveOptions& options) {
     const Result<std::string> text = read_file(options.file, std::size_t{1} << 20U, ErrorCode::bad_content);
     if (!text) return fail(text.error());
     const Result<glove::Calibration> calibration = glove::parse_cal(*text, options.file);
@@ -173,7 +173,7 @@ std::string line_of(const hand::Angles& a) {
     return text + "\n";
 }
 
-Status show(Options options) {
+Status show(GloveOptions options) {
     const Result<content::GloveCalibration> kept = content::load_glove_calibration(options.file);
     if (!kept) return fail(kept.error());
     Result<Reader> reader = open(options);
@@ -205,8 +205,8 @@ Status show(Options options) {
 void add_glove(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("glove", "Calibrate a CyberGlove for a trainee, and look at it");
     command->require_subcommand(1);
-    const auto options = std::make_shared<Options>();
-    const auto run = [&exit_code, options](CLI::App* sub, Status (*work)(Options)) {
+    const auto options = std::make_shared<GloveOptions>();
+    const auto run = [&exit_code, options](CLI::App* sub, Status (*work)(GloveOptions)) {
         sub->callback([&exit_code, options, work] {
             const Status done = work(*options);
             exit_code = done ? 0 : complain(done.error());
@@ -238,7 +238,7 @@ void add_glove(CLI::App& app, int& exit_code) {
         ->check(CLI::IsMember({18, 22}))
         ->capture_default_str();
     whose(taken);
-    run(taken, [](Options o) { return take_over(o); });
+    run(taken, [](GloveOptions o) { return take_over(o); });
 
     CLI::App* shown = command->add_subcommand("show", "What the glove measures, in degrees");
     shown->add_option("FILE", options->file, "The calibration that was kept")->required();

@@ -21,7 +21,7 @@ namespace bolt::cli {
 
 namespace {
 
-struct Options {
+struct ReplayOptions {
     std::string session, png, video, wav, view, size = "1280x720", gpu;
     double at = -1.0, from = 0.0, until = 1e9;
     int rate = 30;
@@ -46,7 +46,7 @@ void name_beside(const std::filesystem::path& film, const std::string& wav, Scra
 }
 
 // H.264 where FFmpeg has it, what every player reads.
-Result<Feed> start_ffmpeg(const Options& options, const std::string& film, VkExtent2D size) {
+Result<Feed> start_ffmpeg(const ReplayOptions& options, const std::string& film, VkExtent2D size) {
     return Feed::start({"ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba", "-s",
                         fmt::format("{}x{}", size.width, size.height), "-r", std::to_string(options.rate),
                         "-i", "-", "-pix_fmt", "yuv420p", "-movflags", "+faststart", film});
@@ -67,7 +67,7 @@ Status put_together(const std::string& pictures, const std::string& sound, const
 // What is drawn of the session while it is played again.
 class Camera {
   public:
-    Camera(const Options& options, film::Film& film, std::optional<Feed> feed)
+    Camera(const ReplayOptions& options, film::Film& film, std::optional<Feed> feed)
         : options_(options), film_(film), feed_(std::move(feed)) {}
 
     // Whether to go on.
@@ -108,7 +108,7 @@ class Camera {
         wrong_ = error;
         return false;
     }
-    const Options& options_;
+    const ReplayOptions& options_;
     film::Film& film_;
     std::optional<Feed> feed_;
     render::Picture last_;
@@ -119,7 +119,7 @@ class Camera {
 // What is heard of it meanwhile.
 class Microphone {
   public:
-    Microphone(const Options& options, sound::Soundtrack track)
+    Microphone(const ReplayOptions& options, sound::Soundtrack track)
         : until_(options.until), track_(std::move(track)) {}
 
     bool hear(const play::Moment& moment) {
@@ -167,7 +167,8 @@ struct Crew {
     }
 };
 
-Status take_camera(const Options& options, const play::Prepared& at, const std::string& film, Crew& crew) {
+Status take_camera(const ReplayOptions& options, const play::Prepared& at, const std::string& film,
+                   Crew& crew) {
     const Result<VkExtent2D> size = view::parse_size(options.size);
     if (!size) return fail(size.error());
     Result<std::unique_ptr<film::Film>> made =
@@ -186,8 +187,8 @@ Status take_camera(const Options& options, const play::Prepared& at, const std::
     return {};
 }
 
-Status take_microphone(const Options& options, const play::Prepared& at, const std::filesystem::path& wav,
-                       Crew& crew) {
+Status take_microphone(const ReplayOptions& options, const play::Prepared& at,
+                       const std::filesystem::path& wav, Crew& crew) {
     Result<sound::Soundtrack> track = sound::Soundtrack::create(
         wav, at.setup, sound::materials(at.assembly, at.obstacle_names), options.from);
     if (!track) return fail(track.error());
@@ -195,7 +196,7 @@ Status take_microphone(const Options& options, const play::Prepared& at, const s
     return {};
 }
 
-Status say_what_is_there(const Options& options, const Crew& crew) {
+Status say_what_is_there(const ReplayOptions& options, const Crew& crew) {
     if (!options.video.empty())
         if (Status said = say(fmt::format("{}: {} pictures{}\n", options.video, crew.camera->drawn(),
                                           options.silent ? "" : ", with sound"));
@@ -204,7 +205,7 @@ Status say_what_is_there(const Options& options, const Crew& crew) {
     return options.wav.empty() ? Status() : say(fmt::format("{}\n", options.wav));
 }
 
-Status run_replay(Options options) {
+Status run_replay(ReplayOptions options) {
     (void)std::signal(SIGPIPE, SIG_IGN);  // an FFmpeg that ends is an error that we report
     Result<record::Reader> session = record::Reader::open(options.session);
     if (!session) return fail(session.error());
@@ -236,7 +237,7 @@ Status run_replay(Options options) {
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReplayOptions>();
     CLI::App* replay = app.add_subcommand(
         "replay", "Play a session again, tick by tick; say whether it comes out the same, draw or film it");
     replay->add_option("session", options->session, "Session file")->required();

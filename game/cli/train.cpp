@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 
@@ -12,6 +11,7 @@
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
+#include "game/cli/interruption.hpp"
 #include "game/play/summary.hpp"
 #include "game/play/train.hpp"
 #include "game/report/report.hpp"
@@ -27,7 +27,7 @@ namespace bolt::cli {
 
 namespace {
 
-struct Options {
+struct TrainArguments {
     std::string assembly = "zq350";
     std::string variant, tool;
     std::string mode = "guided";
@@ -47,22 +47,20 @@ struct Options {
     std::string out = "out";
 };
 
-volatile std::sig_atomic_t interrupted = 0;
-
 // One line that is rewritten on a terminal, one line a pass elsewhere (a log does not want thousands).
 class ProgressLine {
   public:
     explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
     bool show(const content::Assembly& assembly, const play::Progress& progress) {
-        if (quiet_) return interrupted == 0;
+        if (quiet_) return !interrupted();
         if (progress.event != nullptr) note(assembly, progress);
         if (terminal_)
             (void)std::fputs(fmt::format("\r\033[K{:6.1f} s  step {:>3} of {}  {}", progress.time,
                                          progress.step, progress.steps, doing_)
                                  .c_str(),
                              stderr);
-        return interrupted == 0;
+        return !interrupted();
     }
     void end() const {
         if (!quiet_ && terminal_) (void)std::fputs("\r\033[K", stderr);
@@ -96,7 +94,7 @@ bool is_word(const std::string& device) {
 }
 
 // What was asked for and is not there is an error and not a silent fallback.
-Result<trainer::Equipment> equipment_of(const Options& options) {
+Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
     if (options.hmd) return fail(ErrorCode::no_device, "this build has no headset output", "leave out --hmd");
     trainer::Equipment with;
     const std::string first = options.devices.empty() ? "auto" : options.devices.front();
@@ -123,7 +121,7 @@ Result<trainer::Equipment> equipment_of(const Options& options) {
     return with;
 }
 
-Result<play::TrainOptions> play_options(const Options& options, const content::Assembly& assembly) {
+Result<play::TrainOptions> play_options(const TrainArguments& options, const content::Assembly& assembly) {
     play::TrainOptions play;
     play.course.mode = options.mode == "guided"     ? lesson::Mode::guided
                        : options.mode == "practice" ? lesson::Mode::practice
@@ -166,7 +164,7 @@ Status leave(const content::Assembly& assembly, const play::CourseOptions& cours
                            (out / "report.html").string());
     if (Status said = say(closing); !said) return said;
     // What cannot be drawn takes nothing from what was recorded.
-    if (pictures && interrupted == 0)
+    if (pictures && !interrupted())
         if (Status drawn = view::draw_result(assembly, played.result, out, {1280, 720}); !drawn)
             (void)complain(drawn.error());
     return {};
@@ -190,11 +188,8 @@ void remove_stale(const std::filesystem::path& out) {
     for (const char* stale : {"summary.json", "report.html"}) std::filesystem::remove(out / stale, gone);
 }
 
-void end_orderly() {
-    for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, [](int) { interrupted = 1; });
-}
-
-int run_headless(const Options& options, const content::Assembly& assembly, const play::TrainOptions& play) {
+int run_headless(const TrainArguments& options, const content::Assembly& assembly,
+                 const play::TrainOptions& play) {
     const std::filesystem::path out(options.out);
     if (Status room = make_room(out); !room) return complain(room.error());
     if (!options.quiet)
@@ -204,7 +199,7 @@ int run_headless(const Options& options, const content::Assembly& assembly, cons
                 .c_str(),
             stderr);
     remove_stale(out);
-    end_orderly();
+    catch_interruption();
     ProgressLine line(options.quiet);
     const Result<play::Played> played =
         play::train(assembly, play, out / "session.boltwright",
@@ -215,12 +210,12 @@ int run_headless(const Options& options, const content::Assembly& assembly, cons
         (void)std::fputs("Nothing could be bumped into: the assembly names no contact model.\n", stderr);
     if (Status left = leave(assembly, play.course, *played, out, !options.no_pictures); !left)
         return complain(left.error());
-    return interrupted != 0 || !played->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
+    return interrupted() || !played->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
 }
 
 // In a window, with whatever the hand has.
-Status run_window(const Options& options, const play::TrainOptions& play, const trainer::Equipment& with,
-                  platform::Desktop& desktop) {
+Status run_window(const TrainArguments& options, const play::TrainOptions& play,
+                  const trainer::Equipment& with, platform::Desktop& desktop) {
     const std::filesystem::path out(options.out);
     if (Status room = make_room(out); !room) return room;
     trainer::AppOptions app_options;
@@ -255,14 +250,14 @@ Status run_window(const Options& options, const play::TrainOptions& play, const 
     const Result<gpu::Instance> instance = gpu::Instance::create(instance_options);
     if (!instance) return fail(instance.error());
     trainer::App app(std::move(app_options));
-    end_orderly();
-    const trainer::WindowChoice choice{options.gpu, [] { return interrupted != 0; }};
+    catch_interruption();
+    const trainer::WindowChoice choice{options.gpu, [] { return interrupted(); }};
     if (Status run = trainer::run_in_window(app, *window, *instance, choice); !run) return run;
     if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
     return {};
 }
 
-int run(const Options& options) {
+int run_train(const TrainArguments& options) {
     const Result<trainer::Equipment> with = equipment_of(options);
     if (!with) return complain(with.error());
     if (options.headless && (!with->glove.empty() || !with->devices.empty())) {
@@ -308,7 +303,7 @@ const CLI::Validator whole_number(
 }  // namespace
 
 void add_train(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<TrainArguments>();
     CLI::App* train =
         app.add_subcommand("train", "Play a lesson in a window; without a display a simulated trainee does");
     train->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
@@ -369,7 +364,7 @@ void add_train(CLI::App& app, int& exit_code) {
         "A simulated trainee asks for views, as V does in the window; else it looks round by itself");
     train->add_flag("--no-pictures", options->no_pictures, "Without pictures of how the lesson ended");
     train->add_flag("--quiet", options->quiet, "No progress");
-    train->callback([options, &exit_code] { exit_code = run(*options); });
+    train->callback([options, &exit_code] { exit_code = run_train(*options); });
 }
 
 }  // namespace bolt::cli

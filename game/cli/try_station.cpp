@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <csignal>
-
 #include "content/format/load.hpp"
 #include "engine/base/console.hpp"
+#include "game/cli/interruption.hpp"
 #include "game/station/trial.hpp"
 #include "haptics/device/puck.hpp"
 #include "haptics/device/timer.hpp"
@@ -15,8 +14,6 @@
 namespace bolt::cli {
 
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
 
 std::string begins(const StationOptions& options, const content::Assembly& assembly,
                    const station::Planned& planned, const station::Station& station) {
@@ -52,10 +49,10 @@ int try_station(const StationOptions& options) {
     if (Status said = say(begins(options, loaded.assembly, *planned, *station)); !said)
         return complain(said.error());
 
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
+    catch_interruption();
     Status said;
     const station::Trial trial = station::try_station(
-        *station, *planned, options.seconds, [&] { return interrupted != 0 || !said; },
+        *station, *planned, options.seconds, [&] { return interrupted() || !said; },
         [&](double time, const std::string& words) {
             if (said) said = say(fmt::format("  {:5.1f} s  {}\n", time, words));
         });

@@ -6,6 +6,7 @@ namespace bolt::trainer {
 
 namespace {
 
+constexpr double believed = 0.5;       // s without a picture, then nobody holds the dead-man
 constexpr double nut_reach = 0.06;     // m
 constexpr double let_go_reach = 0.08;  // m, of a nut that the hand is at
 constexpr double draws_from = 0.06;    // m, where no lesson leads: a tool that is only pushed is drawn on
@@ -47,6 +48,7 @@ void look(AtStation& at, const play::Course& course) {
     at.troubles = at.bench->troubles();
     const station::ShownHand* hand = at.bench->hand();
     at.gloved = hand != nullptr;
+    at.glove_lost = hand != nullptr && hand->lost;
     if (hand != nullptr && hand->any) at.fingers = hand->joints;
     const double within = at.near ? let_go_reach : nut_reach;
     at.near = nearest_nut(course, at.now.output.tool.position, within);
@@ -73,7 +75,10 @@ void wish(AtStation& at, const play::Course& course, const Asked& asked) {
     w.rest = at.rest;
     w.bare_wrist = at.bare_wrist;
     w.grip = grip_of(at, closes, asked);
-    w.held = !has_dead_man(at.bench->layout()) || held || at.keys.closes();
+    // A glove that tells nothing any more holds the wrench, but no dead-man.
+    const bool hand_closed = at.gloved && !at.glove_lost && (held || closes);
+    w.held = !has_dead_man(at.bench->layout()) || hand_closed || at.keys.closes();
+    w.lasts = believed;
     w.looks = asked.looks;
     const lesson::Step* due = course.lesson().due();
     const bool leads = due != nullptr && course.lesson().guides;

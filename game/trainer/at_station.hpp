@@ -30,6 +30,7 @@ struct AtStation {
     std::vector<std::string> troubles;
     hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench in the hand or where that lies
     bool gloved = false;
+    bool glove_lost = false;
 };
 
 // What is wished of the station after a picture. `looks`: how whoever pushes looks at the machine.

@@ -126,10 +126,14 @@ void coloured(const std::string& line, const ImVec4& color, float width) {
 // What is to be done, and what went wrong: in the middle above, where it hides the least of the work.
 void draw_hint(const Playing& p, const Said& said, const glm::dvec2& size, float scale) {
     const words::Words& w = *said.words;
-    const float width = std::min(560.0F * scale, 0.56F * static_cast<float>(size.x));
+    // Beside the step's plate, also in a small window.
+    const float whole = static_cast<float>(size.x), beside = whole - 240.0F * scale;
+    const float width = std::min({560.0F * scale, 0.56F * whole, beside});
     const bool wrong = p.mistakes.shown.has_value();
     if (!wrong && !p.hints.shown && p.output.fault == force::Fault::none) return;
-    plate("##hint", {static_cast<float>(0.5 * size.x), 12.0F * scale}, {0.5F, 0.0F});
+    const bool narrow = 0.5F * (whole + width) > beside;
+    plate("##hint", {narrow ? whole - 12.0F * scale : 0.5F * whole, 12.0F * scale},
+          {narrow ? 1.0F : 0.5F, 0.0F});
     const ImVec4 warm(1.0F, 0.6F, 0.5F, 1.0F), white(0.96F, 0.97F, 0.98F, 1.0F),
         pale(0.75F, 0.85F, 0.95F, 1.0F);
     if (p.output.fault != force::Fault::none) coloured(w[hints::term(p.output.fault)], warm, width);

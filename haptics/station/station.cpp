@@ -23,6 +23,7 @@ struct Station::Shared {
     std::optional<glove::Driver> glove;
     std::optional<HandLine> hand;
     TripleBuffer<Wishes> wishes;
+    double age = 0.0;  // s, of the newest of them
     TripleBuffer<Ticked> ticked;
     Passed counted;
     TripleBuffer<Passed> passed;
@@ -34,8 +35,9 @@ struct Station::Shared {
         Heard heard;
         if (mover) heard.mover = mover->told();
         if (wheel) heard.wheel = wheel->told();
-        wishes.update();
+        age = wishes.update() ? 0.0 : age + setup.dt * (1.0 + static_cast<double>(beat.missed));
         heard.wishes = wishes.latest();
+        heard.age = age;
         if (hand) heard.hand = hand->grip();
         heard.missed = beat.missed;
         const bool works = !heard.wishes.pause;

@@ -143,6 +143,7 @@ void take_or_leave(const Layout& layout, State& s, servo::Grip grip, const Wishe
 // What is new of the devices, and what is wished with their buttons too.
 Wishes listen(const Layout& layout, State& s, const Heard& heard, double elapsed) {
     Wishes wishes = heard.wishes;
+    wishes.held &= heard.age <= wishes.lasts;
     wishes.stop |= std::exchange(s.stopped, false);
     s.pressed = false;
     const auto press = [&](const Port& port, const Told& told, const Buttons& buttons) {

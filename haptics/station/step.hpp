@@ -6,6 +6,8 @@
 // back the hand may be anywhere, so the tool stays where it is and follows from there, as after a clutch.
 #pragma once
 
+#include <limits>
+
 #include "haptics/device/line.hpp"
 #include "haptics/servo/tick.hpp"
 #include "haptics/station/layout.hpp"
@@ -16,6 +18,8 @@ namespace bolt::station {
 struct Wishes {
     servo::Grip grip = servo::Grip::none;  // `wrench` counts where there is no gloved hand
     bool held = false;                     // the dead-man, besides the devices' buttons
+    // s for which that is believed without a new wish: a window that hangs holds nothing.
+    double lasts = std::numeric_limits<double>::infinity();
     bool clutch = false, stop = false, reset = false;
     std::int16_t guide = -1;
     float setting = 0.0F;  // N·m, of a wrench that clicks
@@ -46,6 +50,8 @@ struct Wishes {
 struct Heard {
     device::Told mover, wheel;
     Wishes wishes;
+    double age = 0.0;  // s, of the wishes
+
     std::optional<servo::Grip> hand;  // of the gloved hand, if there is one
     std::uint64_t missed = 0;         // deadlines of the servo without a tick since the one before
 };

@@ -601,3 +601,20 @@ TEST_CASE("a gloved hand that lets go stays where it is: what moves on is its fi
     rig.ticks(2);
     CHECK(glm::distance(wrist().position, (*rig.state.lies * *layout.wrist).position) < 1e-9);
 }
+
+TEST_CASE("a window that hangs holds no dead-man, a button of the device does") {
+    Rig rig = on_nut(with_arm());
+    rig.hand().position.z += 2e-3;
+    rig.heard.wishes.lasts = 0.5;
+    REQUIRE(glm::length(rig.ticks(50).mover.force) > 1.0);
+    rig.heard.age = 0.51;
+    CHECK(nothing(rig.ticks(25).mover));
+    CHECK_FALSE(rig.state.input.enabled);
+    rig.heard.mover.sample.buttons = 1;
+    rig.tick();
+    CHECK(rig.state.input.enabled);
+    rig.heard.mover.sample.buttons = 0;
+    rig.heard.age = 0.0;
+    rig.tick();
+    CHECK(rig.state.input.enabled);
+}

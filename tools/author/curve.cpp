@@ -16,7 +16,7 @@ namespace bolt::author {
 
 namespace {
 
-struct Options {
+struct CurveOptions {
     std::string assembly, variant, joint, law, direction = "tighten", csv, svg;
 };
 
@@ -32,7 +32,7 @@ Result<std::size_t> find_joint(const content::Assembly& assembly, const std::str
                              : fmt::format("did you mean {}?", best));
 }
 
-int run_curve(const Options& options) {
+int run_curve(const CurveOptions& options) {
     if (options.csv.empty() && options.svg.empty()) {
         Error error;
         error.code = ErrorCode::usage;
@@ -82,7 +82,7 @@ int run_curve(const Options& options) {
 }  // namespace
 
 void add_curve(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CurveOptions>();
     CLI::App* curve =
         app.add_subcommand("curve", "The torque-angle curve of a joint, turned at 30 degrees a second");
     curve->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")

@@ -12,7 +12,7 @@ namespace bolt::author {
 
 namespace {
 
-struct Options {
+struct TorqueOptions {
     std::string size, property_class;
     double mu = 0.12;
     double pitch_mm = 0.0;
@@ -20,7 +20,7 @@ struct Options {
     bool json = false;
 };
 
-int run(const Options& options) {
+int run_torque(const TorqueOptions& options) {
     const std::string name =
         options.pitch_mm > 0.0 ? fmt::format("{}x{:g}", options.size, options.pitch_mm) : options.size;
     Result<joint::ThreadSize> size = joint::parse_thread(name);
@@ -57,7 +57,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_torque(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<TorqueOptions>();
     CLI::App* torque =
         app.add_subcommand("torque", "Assembly preload and tightening torque after VDI 2230 table A1");
     torque->add_option("--size", options->size, "Thread: M4 to M39, or with its pitch, M16x1.5")->required();
@@ -72,7 +72,7 @@ void add_torque(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0.01, 1.0))
         ->capture_default_str();
     torque->add_flag("--json", options->json, "One JSON object");
-    torque->callback([options, &exit_code] { exit_code = run(*options); });
+    torque->callback([options, &exit_code] { exit_code = run_torque(*options); });
 }
 
 }  // namespace bolt::author
