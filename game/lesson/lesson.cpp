@@ -10,7 +10,8 @@ namespace bolt::lesson {
 namespace {
 
 constexpr double moved = to_radians(0.2);  // of nut angle: the wrench has moved it
-constexpr double past_breakaway = to_radians(2.0);
+constexpr double past_breakaway = 0.37;    // of the breakaway is left: it is the torque that turns the nut
+
 constexpr double turning_speed = 0.01;  // rad/s
 
 constexpr std::uint64_t hand_in_ticks = 3000;
@@ -117,19 +118,16 @@ void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
     work_out_of_turn(lesson, joint, state);
 }
 
-// What the nut was turned with, whichever step it was: once past the breakaway of the pull. Taken off its
-// seat, a nut begins anew.
+// What the nut was turned with, whichever step it was: once past breakaway, also where a hand turns it by
+// fits and starts. Taken off its seat, a nut begins anew.
 void note_turning(const Lesson& lesson, JointTrack& track, const joint::JointState& joint, double work) {
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
         track.snug = track.yielded = track.overdone = false;
         track.turned_torque = track.result.torque = track.result.angle = 0.0;
     }
-    if (joint.nut.speed < turning_speed) {
-        track.pull_begin = joint.nut.angle;
-    } else if (joint.nut.angle - track.pull_begin > past_breakaway) {
+    if (joint.nut.speed > turning_speed && joint.breakaway < past_breakaway)
         track.turned_torque = std::max(track.turned_torque, work);
-    }
 }
 
 // Once until the nut is off its seat again. Breakaway turns nothing, and is not too much.

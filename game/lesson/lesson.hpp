@@ -33,13 +33,13 @@ struct JointTrack {
     double snug_angle = 0.0;     // rad, nut angle when it was reached first
     double peak_torque = 0.0;    // N·m, of the step that is due
     double turned_torque = 0.0;  // N·m, highest with which the nut turned on since it was last off its seat
-    double pull_begin = 0.0;     // rad, nut angle where the pull that turns it began
-    double begin_angle = 0.0;    // rad, nut angle when the step began
-    bool yielded = false;        // the yield stage has been felt
-    bool clicked = false;        // the torque wrench did, in the step that is due
-    bool worked = false;         // the hand has done something with the nut in this visit
-    bool overdone = false;       // more than its window was said, since it was last off its seat
-    int done_in_pass = -1;       // last pass in which a step of this joint was done
+
+    double begin_angle = 0.0;  // rad, nut angle when the step began
+    bool yielded = false;      // the yield stage has been felt
+    bool clicked = false;      // the torque wrench did, in the step that is due
+    bool worked = false;       // the hand has done something with the nut in this visit
+    bool overdone = false;     // more than its window was said, since it was last off its seat
+    int done_in_pass = -1;     // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };
 

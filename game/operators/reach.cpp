@@ -60,10 +60,11 @@ double look_for_nut(Mind& m) {
         m.sight.eye = m.looks_from = m.view_help({*m.setup, touch, m.intent.joint, nut, wrench, m.sight.eye});
         seconds = glance + gliding;
     }
-    const auto better = look_round(m.sight, *m.setup, touch, m.intent.joint, wrench, m.profile.content);
+    const auto better =
+        look_round(m.sight, *m.setup, touch, m.intent.joint, wrench, m.profile.content, m.random);
     if (!better) return seconds;
     m.looks_from = better->eye;
-    return seconds + glance + better->turn / head_speed;
+    return seconds + better->glances * glance + better->turn / head_speed;
 }
 
 // How far off the centre it puts the tool, from what it will see there.

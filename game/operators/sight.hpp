@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/random.hpp"
 #include "haptics/contact/visibility.hpp"
 #include "haptics/servo/setup.hpp"
 #include "haptics/servo/touch.hpp"
@@ -26,13 +27,16 @@ double place_seen(Sight& sight, const servo::Setup& setup, const servo::Touch& t
 
 struct HeadMove {
     Vec3 eye{0.0};
-    double turn = 0.0;  // rad about the place that is looked at
+    double turn = 0.0;  // rad about the place that is looked at, with all ways that were gone in vain
+    int glances = 0;
 };
 
-// Where to put the head: not far, and where as much as `content` of the place is seen; where more is seen
-// than anywhere else if that is nowhere. None: it is well where it is.
+// Looks for a place for the head from where as much as `content` of the place is seen, by going there: nobody
+// knows what is seen from where they are not. It goes on one way about the place while more is seen, else
+// back and another way, and is content with the best if it is worse wherever it goes. None: it is well where
+// it is.
 std::optional<HeadMove> look_round(Sight& sight, const servo::Setup& setup, const servo::Touch& touch,
-                                   std::size_t joint, const Pose& wrench, double content);
+                                   std::size_t joint, const Pose& wrench, double content, Random& random);
 
 // Standard deviation, m, of where a tool is placed by who sees that share of the place: sight and touch each
 // count by their precision (van Beers, Sittig and Denier van der Gon, J. Neurophysiol. 81 (1999) 1355).

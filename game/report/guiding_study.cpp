@@ -59,9 +59,12 @@ constexpr Factor view{
     "gliding "
     "the eye is where the program's search puts it, and what is still not seen to their content is looked "
     "for by "
-    "hand. By hand the eye begins in the assembly's first view and goes about the place in steps of 15°, at "
-    "60° "
-    "a second after a glance, as far as it takes. The hand waits meanwhile; who sees less places the wrench "
+    "hand. By hand the eye begins in the assembly's first view and is moved about the place at 60° a second: "
+    "up, down or "
+    "aside by chance and after a glance of 0.3 s, on while more is seen, back after 30° in vain and another "
+    "way, "
+    "until they are content or it is worse everywhere. The hand waits meanwhile; who sees less places the "
+    "wrench "
     "worse. Nothing else differs: that people forget the key, tire, or lose their way in a view is not "
     "modelled."};
 

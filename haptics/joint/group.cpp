@@ -16,6 +16,8 @@ double neighbour_closure(const CouplingMatrix& c, std::span<const JointState> jo
 
 void publish(JointState& joint) {
     joint.clamp = joint.mechanistic.clamp;
+    joint.breakaway = joint.mechanistic.dwell;
+
     joint.stage = joint.mechanistic.stage;
     joint.condition = joint.mechanistic.condition;
 }

@@ -22,6 +22,8 @@ struct JointState {
     NutMotion nut;
     double torque = 0.0;  // N·m that the wrench or the fingers give now, tightening positive
     double clamp = 0.0;   // N
+    // 0…1, how much of what friction has more at rest than sliding is there: wears off as the nut turns.
+    double breakaway = 0.0;
     Stage stage = Stage::navigation;
     Condition condition = Condition::sound;
     MechanisticState mechanistic;

@@ -24,7 +24,14 @@ Life live(const Person& who, const content::Assembly& assembly, Met& met) {
         play::Course& course = **begun;
         Watch watch(course, met);
         Desk desk(course, watch);
-        (who.at_mouse ? meddle_at_mouse : meddle_at_device)(desk, who.seed, who.span, who.rough);
+        if (who.overdoes) {
+            desk.sets = who.sets;
+            (who.at_mouse ? overdo_at_mouse : overdo_at_device)(desk, who.seed, who.span);
+            desk.sets = 1.0;
+        } else {
+            (who.at_mouse ? meddle_at_mouse : meddle_at_device)(desk, who.seed, who.span, who.rough);
+        }
+
         life.random_time = course.time();
         life.done_by_random = course.over();
         life.restarts = who.at_mouse ? finish_at_mouse(desk) : finish_at_device(desk, who.seed);

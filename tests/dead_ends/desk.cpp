@@ -18,7 +18,8 @@ Desk::Desk(play::Course& c, Watch& w) : course(c), watch(w) {
     last.device = servo::sample_of(player.hand.pose);
 }
 
-bool Desk::tick(const servo::Input& input, bool wrench_in_hand, double room, bool asks) {
+bool Desk::tick(servo::Input input, bool wrench_in_hand, double room, bool asks) {
+    input.setting = static_cast<float>(sets * lesson::setting(course.lesson()));
     const auto stepped = course.step(input);
     if (!stepped) {
         watch.trouble(stepped.error().message());

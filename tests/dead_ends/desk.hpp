@@ -19,11 +19,12 @@ struct Desk {
     trainer_test::Player player;
     std::optional<std::size_t> undo;
     double undo_for = 0.0;
+    double sets = 1.0;  // a torque wrench to this share of what is right
 
     Desk(play::Course& c, Watch& w);
 
     // One tick; false where the lesson is over.
-    bool tick(const servo::Input& input, bool wrench_in_hand, double room, bool asks = false);
+    bool tick(servo::Input input, bool wrench_in_hand, double room, bool asks = false);
     // A frame at the mouse: wishes and undos as the trainer's systems treat them.
     void frame(trainer::Wish wish, std::optional<std::size_t> takes_back = std::nullopt, bool asks = false);
     [[nodiscard]] bool stuck() const { return !watch.troubles().empty(); }
@@ -32,6 +33,10 @@ struct Desk {
 // Somebody who does anything, for that long.
 void meddle_at_mouse(Desk& desk, std::uint64_t seed, double span, bool rough);
 void meddle_at_device(Desk& desk, std::uint64_t seed, double span, bool rough);
+
+// Somebody who knows how it is done, and not when it is enough.
+void overdo_at_mouse(Desk& desk, std::uint64_t seed, double span);
+void overdo_at_device(Desk& desk, std::uint64_t seed, double span);
 
 // Somebody competent from here to the end. How often a step was begun anew or taken back; a dead end is a
 // trouble.

@@ -11,9 +11,12 @@ struct Person {
     std::string assembly = "cover-m8";
     std::string variant;
     play::CourseOptions course;
-    bool at_mouse = true;  // else at a device: poses and grips
-    double span = 10.0;    // s of doing anything
-    bool rough = false;    // pulls at one nut for long, and hard
+    std::string tool;       // empty: the usual one
+    double sets = 1.0;      // a torque wrench to this share of what is right
+    bool at_mouse = true;   // else at a device: poses and grips
+    double span = 10.0;     // s of doing anything
+    bool rough = false;     // pulls at one nut for long, and hard
+    bool overdoes = false;  // knows how it is done, and not when it is enough
 };
 
 // Anybody, by their number. The same number is the same person.

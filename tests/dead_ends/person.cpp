@@ -37,23 +37,31 @@ Person person(std::uint64_t seed) {
     p.course.operator_name = "person";
     p.at_mouse = random.chance(0.65);
     p.rough = random.chance(0.3);
-    p.span = random.uniform(2.0, p.rough ? 45.0 : 25.0);
+    p.overdoes = random.chance(0.25);
+    p.span = p.overdoes ? random.uniform(40.0, 150.0) : random.uniform(2.0, p.rough ? 45.0 : 25.0);
     const bool among = random.chance(p.at_mouse ? among_obstacles : 0.5 * among_obstacles);
     p.course.obstacles = among ? play::Obstacles::required : play::Obstacles::none;
     if (among && !p.at_mouse) p.span = std::min(p.span, longest_in_walls);
+    if (random.chance(0.25)) p.tool = "torque_wrench";
+    if (random.chance(0.3)) p.sets = random.uniform(0.4, 2.5);
     return p;
 }
 
 std::string describe(const Person& p) {
-    return fmt::format("seed {}: {} {}, {}, {}, {} law, {}, {}{}, {:.1f} s", p.seed, p.assembly, p.variant,
+    return fmt::format("seed {}: {} {}, {}, {}, {} law, {}, {}{}{}, {:.1f} s", p.seed, p.assembly, p.variant,
                        lesson::name(p.course.mode), lesson::name(p.course.task), joint::name(p.course.law),
                        p.course.obstacles == play::Obstacles::none ? "no obstacles" : "obstacles",
-                       p.at_mouse ? "mouse" : "device", p.rough ? ", rough" : "", p.span);
+                       p.at_mouse ? "mouse" : "device",
+                       p.overdoes ? ", overdoes"
+                       : p.rough  ? ", rough"
+                                  : "",
+                       p.tool.empty() ? "" : ", torque wrench", p.span);
 }
 
 content::Assembly assembly_of(const Person& p) {
     content::Loaded loaded = content::load_assembly(p.assembly, p.variant);
     REQUIRE(loaded.ok());
+    REQUIRE(content::choose_tool(loaded.assembly, p.tool));
     std::vector<content::Pass>& passes = loaded.assembly.passes;
     if (passes.front().order.size() <= most_joints + 1) return std::move(loaded.assembly);
     const std::vector<std::size_t> few(passes.front().order.begin(),

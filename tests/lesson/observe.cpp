@@ -99,10 +99,22 @@ TEST_CASE("a nut that is taken off its seat begins anew: torque, snug and yield"
     CHECK(judge_joint(s.lesson, 0, s.state).torque == doctest::Approx(70.0));
 }
 
+TEST_CASE("a nut that is turned by fits and starts is turned") {
+    Script s;
+    s.seat_both();
+    for (int frame = 0; frame < 60; ++frame)  // as a mouse moves a hand: then and now, less than a degree
+        for (int i = 0; i < 16; ++i) s.tick(0, servo::Grip::wrench, 95.0, i < 8 ? 0.8 : 0.0);
+    s.tick(0, servo::Grip::wrench, 10.0);
+    s.idle();
+    CHECK(s.lesson.joints[0].turned_torque == doctest::Approx(95.0));
+    CHECK(s.count("mistake") == 1);
+}
+
 TEST_CASE("breakaway alone does not count as tightening torque") {
     Script s;
     s.seat_both();
     s.pull(0, 70.0);
+    s.idle(2000);
     for (int i = 0; i < 20; ++i) s.tick(0, servo::Grip::wrench, 84.0, 1.0);  // a degree
     s.tick(0, servo::Grip::wrench, 10.0);
     s.idle();
@@ -229,6 +241,7 @@ TEST_CASE("breakaway alone is not told as too much") {
     Script s;
     s.seat_both();
     s.pull(0, 62.0);
+    s.idle(2000);
     for (int i = 0; i < 20; ++i) s.tick(0, servo::Grip::wrench, 90.0, 1.0);  // a degree
     s.idle();
     CHECK(s.count("mistake") == 1);  // it was done already

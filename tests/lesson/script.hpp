@@ -1,6 +1,7 @@
 // A lesson fed with ticks written by hand.
 #pragma once
 
+#include <cmath>
 #include <initializer_list>
 
 #include "game/lesson/lesson.hpp"
@@ -41,17 +42,27 @@ struct Script {
         output.joint = static_cast<std::int16_t>(joint);
         state.engagement.joint = joint;
         state.engagement.grip = joint >= 0 ? grip : servo::Grip::none;
+        const joint::JointState* turned = nullptr;
+
         if (joint >= 0) {
             joint::JointState& j = state.joints[static_cast<std::size_t>(joint)];
+            turned = &j;
             j.nut.speed = speed;
+
             j.nut.angle += speed * 1e-3;
+
             j.torque = output.wrench_torque = torque;
             output.nut_angle = j.nut.angle;
             output.stage = j.stage;
             output.clamp = j.clamp;
         }
+        for (joint::JointState& j : state.joints) wear_breakaway(j, &j == turned ? speed : 0.0);
         ++state.tick;
         observe(lesson, state, output);
+    }
+    static void wear_breakaway(joint::JointState& j, double speed) {
+        j.breakaway = speed != 0.0 ? j.breakaway * std::exp(-std::abs(speed) * 1e-3 / to_radians(2.0))
+                                   : 1.0 + (j.breakaway - 1.0) * std::exp(-1e-3 / 0.3);
     }
     void idle(int ticks = 1) {
         for (int i = 0; i < ticks; ++i) tick(-1, servo::Grip::none, 0.0);
