@@ -33,6 +33,9 @@ struct Mind {
     bool flipped = false;
     double handle = 0.0;         // rad, handle angle about the bolt now
     double stroke_begin = 0.0;   // rad, where this pull began
+    double nut_at_stroke = 0.0;  // rad, likewise
+    int vain = 0;                // pulls in a row that neither turned the nut nor made it tight
+
     double begin_angle = 0.0;    // rad, of the nut when it came to it
     double free_turn = 0.0;      // rad turned without resistance, loosening
     Vec3 placed{0.0};            // m, how far off the centre it put the tool

@@ -29,6 +29,8 @@ constexpr double worth_telling = 0.02;
 void settle(Mind& m, const Pose& pose) {
     if (m.on_its_nut()) {
         m.stroke_begin = m.handle;
+        m.nut_at_stroke = m.joint().nut.angle;
+
         m.misses = 0;
         m.enter(m.intent.fingers ? Phase::spin : Phase::pull);
     } else if (m.over()) {

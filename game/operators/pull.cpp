@@ -13,7 +13,10 @@ constexpr double loose_free = 40.0;            // degrees turned at next to no t
 constexpr double no_torque = 1.0;              // N·m, next to none at a wrench
 constexpr double seen_turn = to_radians(0.5);  // of a nut that can be seen
 constexpr double never_clicks = 1.3;           // of its goal: a wrench that has not clicked by then
-constexpr double unwinding_time = 0.18;        // s to let the wrench spring back before it comes off
+constexpr double worth_a_pull = to_radians(1.0);
+constexpr double tight_share = 0.7;  // of the goal, that a pull has come to
+
+constexpr double unwinding_time = 0.18;  // s to let the wrench spring back before it comes off
 
 }  // namespace
 
@@ -44,8 +47,14 @@ void pull(Mind& m, const Feeling& felt) {
                           (intent.stops_at_yield && felt.yields && load >= intent.least) ||
                           (intent.checks && m.joint().nut.angle - m.begin_angle > seen_turn);
     }
-    if (intent.finished || std::abs(m.handle - m.stroke_begin) >= m.room)
-        m.enter(Phase::ease, unwinding_time);
+    const bool no_room = std::abs(m.handle - m.stroke_begin) >= m.room;
+    if (!intent.finished && !no_room) return;
+    // A handle that comes up against something feels like a nut that is tight, and the nut has not turned.
+    const bool turned = std::abs(m.joint().nut.angle - m.nut_at_stroke) > worth_a_pull;
+    const bool tight = std::abs(m.joint().torque) > tight_share * intent.goal;
+    m.vain = turned || tight ? 0 : m.vain + 1;
+
+    m.enter(Phase::ease, unwinding_time);
 }
 
 void spin(Mind& m, const Feeling& felt) {

@@ -14,7 +14,9 @@ constexpr double arc = 0.05;           // m, height of a reach between joints, a
 constexpr double caught_at = 0.02;     // m that a wrench stays behind the hand's meaning: it is caught
 constexpr double caught_after = 0.5;   // s
 constexpr double retreat = 0.06;       // m
-constexpr int patient_misses = 3;
+constexpr int patient_misses = 3, patient_pulls = 3, most_higher = 4;
+constexpr double higher_by = 1e-3;  // m
+
 // A glance, and a head that turns. Chosen.
 constexpr double glance = 0.3;                   // s
 constexpr double head_speed = to_radians(60.0);  // rad/s
@@ -73,7 +75,10 @@ Vec3 place(Mind& m) {
     const double seen = m.obstacles() == nullptr ? 1.0
                                                  : place_seen(m.sight, *m.setup, *m.obstacles(),
                                                               m.intent.joint, m.at_nut(hover), m.looks_from);
-    return m.off_centre(placing_noise(m.profile.position_noise, seen, m.misses));
+    // A head that lies against something beside the nut turns it with difficulty: the next time it sits
+    // higher.
+    const Vec3 higher = higher_by * std::clamp(m.vain - patient_pulls, 0, most_higher) * m.nut().axis;
+    return higher + m.off_centre(placing_noise(m.profile.position_noise, seen, m.misses));
 }
 
 // A short way takes less time than a long one, but never none (Fitts).
@@ -135,8 +140,9 @@ void set_off(Mind& m) {
 
 void choose_grip_angle(Mind& m) {
     const double sign = m.intent.loosening ? -1.0 : 1.0;
-    // Where it does not get on again and again, it tries from another side.
-    const double aside = m.misses > patient_misses ? m.random.uniform(-1.0, 1.0) * pi : 0.0;
+    // Where it does not get on again and again, or its pulls come to nothing, it tries from another side.
+    const double aside =
+        m.misses > patient_misses || m.vain > patient_pulls ? m.random.uniform(-1.0, 1.0) * pi : 0.0;
     const GripAngle grip = choose_grip(*m.setup, m.obstacles(), m.intent.joint, m.joint().nut.angle,
                                        0.5 * pi - 0.5 * sign + aside, sign, m.profile.stroke);
     m.handle = grip.handle + m.profile.angle_noise * m.random.normal();

@@ -10,8 +10,12 @@ namespace dead_ends {
 
 namespace {
 
-constexpr double patience = 60.0;  // s without progress, before a step is begun anew
-constexpr double progress = to_radians(20.0);
+// s without progress, before a step is begun anew. A simulated expert whose handle comes up against something
+// pulls 4 % harder each time, and begins at the beginning when it is taken away from there.
+constexpr double patience = 60.0, experts_patience = 120.0;
+
+constexpr double progress = to_radians(20.0), tighter_by = 0.05;  // of what is due
+
 constexpr int most_restarts = 4;
 
 void dead_end(Desk& desk) {
@@ -23,22 +27,29 @@ void dead_end(Desk& desk) {
                     1e3 * desk.course.state().rounded[due->joint], joint.clamp));
 }
 
-// How long nothing has come of a step: it is the same, and its nut has not been turned on. A nut that is far
-// off its seat takes a wrench many pulls.
+// How long nothing has come of a step: it is the same, and its nut has neither been turned on nor become
+// tighter. A nut that is far off its seat takes a wrench many pulls, and one among others that are in the way
+// does too.
 struct Patience {
     std::size_t step = SIZE_MAX;
-    double since = 0.0, furthest = 0.0;
+    double since = 0.0, furthest = 0.0, tightest = 0.0;
+    double lasts = patience;  // s
+
     bool over(const play::Course& course) {
         const lesson::Step* due = course.lesson().due();
         if (due == nullptr) return false;
         const double sense = due->kind == lesson::StepKind::loosen ? -1.0 : 1.0;
         const double turned = sense * course.state().joints[due->joint].nut.angle;
-        if (course.lesson().current != step || turned > furthest + progress) {
+        const double torque = sense * course.state().joints[due->joint].torque;
+        const bool tighter = torque > tightest + tighter_by * due->torque;
+        if (course.lesson().current != step || turned > furthest + progress || tighter) {
+            if (course.lesson().current != step) tightest = 0.0;
             step = course.lesson().current;
             since = course.time();
             furthest = turned;
+            tightest = std::max(tightest, torque);
         }
-        return course.time() - since > patience;
+        return course.time() - since > lasts;
     }
     // The step anew, then one back, then more.
     std::size_t back(const play::Course& course, int restarts) {
@@ -96,6 +107,7 @@ int finish_at_device(Desk& desk, std::uint64_t seed) {
     for (const servo::NutPlace& nut : setup.nuts) rest += nut.seat / static_cast<double>(setup.nuts.size());
     int restarts = 0;
     Patience patient;
+    patient.lasts = experts_patience;
     while (!desk.course.over() && !desk.stuck()) {
         come_to_rest(desk, rest);
         if (restarts > 0) desk.course.go_back(patient.back(desk.course, restarts));
