@@ -1,7 +1,10 @@
 #include "game/operators/around.hpp"
 
 #include <array>
+#include <functional>
 #include <optional>
+
+#include "game/operators/mind.hpp"
 
 namespace bolt::operators {
 
@@ -16,6 +19,7 @@ constexpr double keeps_off = 0.012;                          // m, from what it 
 constexpr std::array rises{0.05, 0.1, 0.15, 0.2, 0.3, 0.4};  // m
 constexpr std::array lifts{0.06, 0.12, 0.2, 0.35};           // m, straight up before it goes across
 constexpr std::array heights{0.03, 0.08, 0.15};              // m above a nut, where a wrench comes down to it
+constexpr double least_above = 0.015, above_step = 2e-3;     // m
 constexpr double cramped = 2.0;  // rad that it would rather turn away than squeeze by
 
 struct Seen {
@@ -102,6 +106,25 @@ struct Seen {
     }
 };
 
+// Into a gap that is not open above: straight in from the side, and to there over the top.
+std::optional<Way> from_beside(const Seen& seen, const Pose& from, const Pose& to, const Vec3& up,
+                               const std::function<Vec3(int)>& aside) {
+    for (const double far : {0.25, 0.4, 0.6})
+        for (int i = 0; i < 8; ++i) {
+            const Pose beside{to.position + far * aside(i), to.orientation};
+            if (!seen.way_is_free(beside, to, Vec3(0.0))) continue;
+            for (const double high : lifts) {
+                const Pose lifted{from.position + high * up, from.orientation};
+                const Pose over{beside.position + glm::dot(lifted.position - beside.position, up) * up,
+                                to.orientation};
+                if (seen.way_is_free(from, lifted, Vec3(0.0)) && seen.way_is_free(lifted, over, Vec3(0.0)) &&
+                    seen.way_is_free(over, beside, Vec3(0.0)))
+                    return Way{Vec3(0.0), {lifted, over, beside}};
+            }
+        }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Way way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& from, const Pose& to,
@@ -140,6 +163,7 @@ Way way_round(const servo::Setup& setup, const servo::Touch& touch, const Pose& 
                     seen.way_is_free(as_it_is, turned, Vec3(0.0)) && seen.way_is_free(turned, to, Vec3(0.0)))
                     return {Vec3(0.0), {as_it_is, turned}};
             }
+    if (std::optional<Way> way = from_beside(seen, from, to, up, aside)) return *std::move(way);
     return over_it(lifts.back());
 }
 
@@ -168,6 +192,18 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::Touch* touch, std:
         }
     }
     return best;
+}
+
+double room_above(const servo::Setup& setup, const servo::Touch& touch, std::size_t joint, double nut_angle,
+                  const GripAngle& grip, double most) {
+    const Seen seen(setup, touch);
+    const servo::NutPlace& nut = setup.nuts[joint];
+    const Quat held = orientation_of(nut, grip.handle, grip.flipped);
+    for (double above = most; above > least_above; above -= above_step) {
+        const Pose pose{servo::nut_centre(nut, nut_angle) + above * nut.axis, held};
+        if (seen.step_is_free(pose, pose, 0.5 * above_step)) return above;
+    }
+    return most;
 }
 
 Pose give_way(const Pose& wanted, const Pose& wrench) {

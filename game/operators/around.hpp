@@ -34,6 +34,11 @@ struct GripAngle {
 GripAngle choose_grip(const servo::Setup& setup, const servo::Touch* touch, std::size_t joint,
                       double nut_angle, double wanted, double sign, double stroke);
 
+// m above its nut where a wrench that is to go onto it waits: at most `most`, less where something stands
+// over the nut.
+double room_above(const servo::Setup& setup, const servo::Touch& touch, std::size_t joint, double nut_angle,
+                  const GripAngle& grip, double most);
+
 // A hand is not stronger than this: where the wrench stays behind, it does too.
 Pose give_way(const Pose& wanted, const Pose& wrench);
 

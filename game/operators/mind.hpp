@@ -42,6 +42,8 @@ struct Mind {
     Vec3 bulge{0.0};             // m, how far the reach goes off the straight way
     std::vector<Pose> stations;  // that it still goes to after `to`, the last first
     double room = 0.0;           // rad that the handle may swing in this pull
+    double above = 0.0;          // m over the nut, where the wrench waits
+
     bool holds_wrench = false;
     double caught = 0.0;  // s that the wrench has been kept from where the hand means to be
     int bumps = 0;        // times in a row that it was
@@ -86,9 +88,9 @@ struct Mind {
         length = seconds;
     }
 
-    // The tool over the nut, `above` it.
-    [[nodiscard]] Pose at_nut(double above) const {
-        return {servo::nut_centre(nut(), joint().nut.angle) + nut().axis * above + placed,
+    // The tool over the nut, that `high`.
+    [[nodiscard]] Pose at_nut(double high) const {
+        return {servo::nut_centre(nut(), joint().nut.angle) + nut().axis * high + placed,
                 orientation_of(nut(), handle, flipped)};
     }
 };

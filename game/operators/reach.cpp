@@ -51,7 +51,7 @@ double look_for_nut(Mind& m) {
     m.looks_from = m.sight.eye;
     if (m.obstacles() == nullptr || m.intent.fingers) return 0.0;
     m.placed = Vec3(0.0);
-    const Pose wrench = m.at_nut(hover);
+    const Pose wrench = m.at_nut(m.above);
     const servo::Touch& touch = *m.obstacles();
     double seconds = 0.0;
     const auto content = [&] {
@@ -72,9 +72,10 @@ double look_for_nut(Mind& m) {
 // How far off the centre it puts the tool, from what it will see there.
 Vec3 place(Mind& m) {
     if (m.intent.fingers) return m.off_centre(3.0 * m.profile.position_noise);
-    const double seen = m.obstacles() == nullptr ? 1.0
-                                                 : place_seen(m.sight, *m.setup, *m.obstacles(),
-                                                              m.intent.joint, m.at_nut(hover), m.looks_from);
+    const double seen =
+        m.obstacles() == nullptr
+            ? 1.0
+            : place_seen(m.sight, *m.setup, *m.obstacles(), m.intent.joint, m.at_nut(m.above), m.looks_from);
     // A head that lies against something beside the nut turns it with difficulty: the next time it sits
     // higher.
     const Vec3 higher = higher_by * std::clamp(m.vain - patient_pulls, 0, most_higher) * m.nut().axis;
@@ -105,6 +106,7 @@ void decide(Mind& m) {
     if (m.intent.fingers) {
         m.flipped = false;
         m.handle = m.random.uniform(0.0, 2.0 * pi);
+        m.above = hover;
     } else {
         choose_grip_angle(m);
     }
@@ -133,7 +135,7 @@ void set_off(Mind& m) {
         m.from = m.hand;
         m.turned_back = true;
     }
-    m.to = m.at_nut(hover);
+    m.to = m.at_nut(m.above);
     plan_reach(m);
     m.enter(Phase::reach, reach_time(m) * m.random.uniform(0.85, 1.2));
 }
@@ -148,6 +150,9 @@ void choose_grip_angle(Mind& m) {
     m.handle = grip.handle + m.profile.angle_noise * m.random.normal();
     m.flipped = grip.flipped;
     m.room = grip.room;
+    m.above = m.obstacles() == nullptr
+                  ? hover
+                  : room_above(*m.setup, *m.obstacles(), m.intent.joint, m.joint().nut.angle, grip, hover);
 }
 
 bool goes_on(Mind& m, Phase reaching) {
@@ -161,7 +166,7 @@ bool goes_on(Mind& m, Phase reaching) {
 
 void lift_off(Mind& m, const Pose& pose, double seconds) {
     m.from = pose;
-    m.to = m.at_nut(hover);
+    m.to = m.at_nut(m.above);
     m.enter(Phase::lift, seconds);
 }
 

@@ -91,6 +91,9 @@ void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State&
     hand.handle = grip.handle;
     hand.flipped = grip.flipped;
     hand.room = grip.room;
+    hand.above = state.touch ? operators::room_above(setup, *state.touch, *hand.nut,
+                                                     state.joints[*hand.nut].nut.angle, grip, hover)
+                             : hover;
 }
 
 void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
@@ -101,20 +104,29 @@ void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& s
     } else {
         hand.flipped = false;
         hand.handle = 0.0;
+        hand.above = hover;
     }
-    reach(hand, at_nut(hand, setup, state, hover), MouseHand::Then::lower, setup, state,
+    reach(hand, at_nut(hand, setup, state, hand.above), MouseHand::Then::lower, setup, state,
           nut_of(hand, setup).axis);
 }
 
 void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.pose = hand.wrench && state.touch && state.touch->in_hand ? state.touch->god_object.tool : hand.pose;
-    Pose up = at_nut(hand, setup, state, hover);
+    Pose up = at_nut(hand, setup, state, hand.above);
     up.orientation = hand.pose.orientation;
     // Caught on the way there: off what holds it, not on through that.
     const servo::NutPlace& nut = nut_of(hand, setup);
     if (hand.missed && glm::distance(hand.pose.position, nut.seat) > caught)
         up.position = hand.pose.position + hover * nut.axis;
     go(hand, up, lifting, Doing::lifting);
+}
+
+// To whoever works, with what it holds.
+void withdraw(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+    hand.nut.reset();
+    const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
+    const Vec3 nearer = hand.rest * Vec3(0.0, hand.nearer * retreat, 0.0);
+    reach(hand, {nearer + retreat * up, hand.rest.orientation}, MouseHand::Then::rest, setup, state, up);
 }
 
 void arrive(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
@@ -226,10 +238,7 @@ void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo
     if (!free) return;
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
     if (w.retreat) {
-        hand.nut.reset();
-        const Vec3 nearer = hand.rest * Vec3(0.0, hand.nearer * retreat, 0.0);  // to whoever works
-        const Pose above{nearer + retreat * up, hand.rest.orientation};
-        reach(hand, above, MouseHand::Then::rest, setup, state, up);
+        withdraw(hand, setup, state);
     } else if (w.wrench && !hand.wrench) {
         hand.nut.reset();
         reach(hand, hand.rest, MouseHand::Then::take, setup, state, up);
@@ -291,6 +300,11 @@ servo::Input move(MouseHand& hand, const servo::Setup& setup, const servo::State
             travel(hand, setup.dt);
             if (hand.time < hand.length) break;
             hand.doing = Doing::resting;
+            // Caught again and again, it gets out of there: from where it begins all nuts can be reached.
+            if (hand.missed && hand.misses > 2 && hand.wrench && state.touch) {
+                withdraw(hand, setup, state);
+                break;
+            }
             if (hand.next && hand.held) {
                 hand.nut = std::exchange(hand.next, std::nullopt);
                 go_to_nut(hand, setup, state);

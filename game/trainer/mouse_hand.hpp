@@ -44,7 +44,9 @@ struct MouseHand {
     double nearer = -1.0;            // along the y of `rest`: the way to whoever works
     double handle = 0.0;             // rad, of the handle about the bolt
     bool flipped = false;
-    double room = 0.0;        // rad that the handle may swing in this pull
+    double room = 0.0;   // rad that the handle may swing in this pull
+    double above = 0.0;  // m over the nut, where it waits
+
     double begun_at = 0.0;    // rad, where the pull or the twist began
     double twisted_to = 0.0;  // rad, where the fingers go back from
     bool held = false, loosens = false;
