@@ -9,6 +9,7 @@ namespace bolt::scene {
 namespace {
 
 constexpr float ghost_opacity = 0.4F, most_pale = 0.4F;
+constexpr double around_work = 0.9, around_waiting = 3.0;  // of a nut's width, around its middle, kept free
 constexpr glm::vec3 pale{0.95F, 0.80F, 0.74F};
 constexpr glm::vec4 ghost_tint{0.2F, 0.75F, 1.0F, 0.7F};
 
@@ -115,13 +116,16 @@ void outline_tool(World& world, const glm::vec4& color) {
 }
 
 void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup, const servo::State& state,
-                   std::size_t joint) {
-    constexpr double kept_free = 0.9;  // of the nut's width, around its middle
+                   std::size_t joint, Hides hides) {
     const servo::NutPlace& nut = setup.nuts[joint];
+    const bool all = hides == Hides::all;
+    const double kept_free = all ? around_work : around_waiting;
     scene.cut_away = {glm::vec3(servo::nut_centre(nut, state.joints[joint].nut.angle)),
                       static_cast<float>(kept_free * nut.across_flats), 1.0F};
+    world.view<CanFade>().each([&](CanFade& can) { can.fades = all; });
     world.view<const OfJoint, CanFade>().each(
-        [&](const OfJoint& of, CanFade& can) { can.fades = of.joint != joint; });
+        [&](const OfJoint& of, CanFade& can) { can.fades = all && of.joint != joint; });
+    world.view<const Fingers, CanFade>().each([](const Fingers&, CanFade& can) { can.fades = true; });
 }
 
 render::Scene lit(const Workplace& place, const render::EnvironmentLight& light) {

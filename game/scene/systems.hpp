@@ -34,9 +34,11 @@ void hide_ghosts(World& world);
 void outline_joint(World& world, std::size_t joint, const glm::vec4& color);
 void outline_tool(World& world, const glm::vec4& color);
 
-// What hides a nut fades: the machine, other joints, the hand.
+// What hides a nut fades: the machine, other joints and the hand, or only a hand that waits, and more of
+// that.
+enum class Hides : std::uint8_t { all, hand };
 void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup, const servo::State& state,
-                   std::size_t joint);
+                   std::size_t joint, Hides hides = Hides::all);
 
 // A scene without anything in it yet, in the workshop's light and a lamp's over the left shoulder.
 render::Scene lit(const Workplace& place, const render::EnvironmentLight& light);

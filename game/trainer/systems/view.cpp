@@ -85,8 +85,12 @@ void view_system(scene::World& world, Frame& frame) {
     if (frame.wanted.wants(Action::close_up)) p.close_up.wished = !p.close_up.wished;
     update_close_up(p);
     p.scene.cut_away.strength = 0.0F;
-    if (p.hand.nut && p.hand.doing != Doing::resting && helps)
-        scene::keep_in_sight(world, p.scene, p.course->setup(), p.course->state(), *p.hand.nut);
+    if (!helps) return;
+    const bool works = p.hand.nut && p.hand.doing != Doing::resting;
+    // A hand that waits above the last nut fills the picture of the next one.
+    if (const auto joint = works ? p.hand.nut : at_work(p))
+        scene::keep_in_sight(world, p.scene, p.course->setup(), p.course->state(), *joint,
+                             works ? scene::Hides::all : scene::Hides::hand);
 }
 
 }  // namespace bolt::trainer
