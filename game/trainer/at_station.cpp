@@ -1,6 +1,8 @@
 #include "game/trainer/at_station.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace bolt::trainer {
 
@@ -57,6 +59,12 @@ void look(AtStation& at, const play::Course& course) {
 }
 
 }  // namespace
+
+double room_to_twist(const AtStation& at) {
+    const bool twists = at.gloved && at.now.output.joint >= 0 && at.now.input.grip == servo::Grip::fingers;
+    if (!twists) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, forearm_turns - std::abs(at.now.output.nut_angle - at.taken_at));
+}
 
 bool has_dead_man(const station::Layout& layout) {
     const auto pulls = [](const std::optional<device::Description>& d) {

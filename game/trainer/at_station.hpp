@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/math.hpp"
 #include "game/play/course.hpp"
 #include "game/station/bench.hpp"
 #include "game/trainer/controls.hpp"
@@ -31,7 +32,14 @@ struct AtStation {
     hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench in the hand or where that lies
     bool gloved = false;
     bool glove_lost = false;
+    double taken_at = 0.0;  // rad, of the nut in the hand when it was taken
 };
+
+// rad that the fingers of a gloved hand can still turn the nut that they hold; infinite in any other hand. A
+// forearm turns by 80° either way (American Academy of Orthopaedic Surgeons, Joint motion, 1965): of that,
+// what is no strain.
+inline constexpr double forearm_turns = to_radians(120.0);
+double room_to_twist(const AtStation& at);
 
 // What is wished of the station after a picture. `looks`: how whoever pushes looks at the machine.
 struct Asked {

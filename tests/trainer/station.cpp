@@ -2,6 +2,7 @@
 // plays by the keys that a keyboard has.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -283,4 +284,26 @@ TEST_CASE("paused, a station's lesson stands still; a step is taken back there a
     REQUIRE(replayed);
     CHECK(replayed->wrong == 0);
     CHECK(current == 0);
+}
+
+TEST_CASE("a gloved hand that twists a nut runs out of forearm, other hands do not") {
+    AtStation at;
+    at.gloved = true;
+    at.now.output.joint = 0;
+    at.now.input.grip = servo::Grip::fingers;
+    at.taken_at = 40.0;
+    at.now.output.nut_angle = 40.0;
+    CHECK(room_to_twist(at) == doctest::Approx(forearm_turns));
+    at.now.output.nut_angle = 40.0 + to_radians(119.0);
+    CHECK(room_to_twist(at) == doctest::Approx(to_radians(1.0)));
+    at.now.output.nut_angle = 40.0 - to_radians(150.0);
+    CHECK(room_to_twist(at) == 0.0);
+    at.now.input.grip = servo::Grip::wrench;
+    CHECK(std::isinf(room_to_twist(at)));
+    at.now.input.grip = servo::Grip::fingers;
+    at.gloved = false;
+    CHECK(std::isinf(room_to_twist(at)));
+    at.gloved = true;
+    at.now.output.joint = -1;
+    CHECK(std::isinf(room_to_twist(at)));
 }

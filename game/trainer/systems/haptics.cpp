@@ -83,6 +83,7 @@ void follow_station(Frame& frame) {
     AtStation& at = *p.station;
     for (station::Ticked tick; !p.course->over() && frame.status && at.bench->next(tick);) {
         frame.status = p.course->take(tick.input, tick.output);
+        if (tick.output.joint >= 0 && p.output.joint < 0) at.taken_at = tick.output.nut_angle;
         if (frame.status) note(p, tick.output);
     }
     if (at.bench->lost() > 0 && !p.course->over() && frame.status)
