@@ -26,6 +26,7 @@
 #include "game/view/picture_file.hpp"
 #include "game/view/size.hpp"
 #include "game/view/stage.hpp"
+#include "game/view/stereo.hpp"
 
 namespace bolt::cli {
 
@@ -43,8 +44,6 @@ struct RenderOptions {
     bool stereo = false, validate = false, no_key = false, labels = false;
 };
 
-constexpr float eye_distance = 0.063F;  // m, the mean of adults
-
 Result<glm::vec3> parse_point(const std::string& text, const char* option) {
     glm::vec3 v(0.0F);
     char rest = 0;
@@ -59,20 +58,6 @@ std::string file_of(const RenderOptions& options, const view::Viewpoint& view, s
     return (path.parent_path() /
             fmt::format("{}-{}{}", path.stem().string(), view.name, path.extension().string()))
         .string();
-}
-
-// Pictures side by side.
-render::Picture joined(const std::vector<render::Picture>& pictures) {
-    render::Picture all{0, pictures.front().height, {}};
-    for (const render::Picture& picture : pictures) all.width += picture.width;
-    for (std::uint32_t y = 0; y < all.height; ++y)
-        for (const render::Picture& picture : pictures) {
-            const auto row =
-                picture.rgba.begin() + static_cast<std::ptrdiff_t>(std::size_t{4} * picture.width * y);
-            all.rgba.insert(all.rgba.end(), row,
-                            row + static_cast<std::ptrdiff_t>(std::size_t{4} * picture.width));
-        }
-    return all;
 }
 
 // By its name, or else by its index.
@@ -262,8 +247,8 @@ Status render_all(RenderOptions options) {
     for (const view::Viewpoint& view : *views) {
         if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");
         std::vector<render::Eye> eyes;
-        for (const float side : options.stereo ? std::vector{-0.5F, 0.5F} : std::vector{0.0F})
-            eyes.push_back(eye_of(options, view, (*stage)->box, aspect, side * eye_distance));
+        for (const float aside : view::eyes_aside(options.stereo))
+            eyes.push_back(eye_of(options, view, (*stage)->box, aspect, aside));
         (*stage)->scene.labels = labels;
         if (fonts)
             view::move_apart(*fonts, (*stage)->scene.labels, eyes.front(), {extent->width, extent->height});
@@ -278,7 +263,9 @@ Status render_all(RenderOptions options) {
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
             times.push_back({spent.count(), painter->frames->timings()});
         }
-        if (Status kept = view::write_picture(joined(pictures), file_of(options, view, views->size())); !kept)
+        if (Status kept =
+                view::write_picture(view::side_by_side(pictures), file_of(options, view, views->size()));
+            !kept)
             return kept;
         if (!options.timings.empty())
             if (Status kept = write_file(options.timings,

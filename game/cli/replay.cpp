@@ -25,7 +25,7 @@ struct ReplayOptions {
     std::string session, png, video, wav, view, size = "1280x720", gpu;
     double at = -1.0, from = 0.0, until = 1e9;
     int rate = 30;
-    bool validate = false, silent = false;
+    bool validate = false, silent = false, stereo = false;
 };
 
 // What is there on the way to a film; gone in the end, however it ends.
@@ -167,17 +167,18 @@ struct Crew {
     }
 };
 
-Status take_camera(const ReplayOptions& options, const play::Prepared& at, const std::string& film,
-                   Crew& crew) {
+Status take_camera(const ReplayOptions& options, const play::Prepared& at, hand::Side hand,
+                   const std::string& film, Crew& crew) {
     const Result<VkExtent2D> size = view::parse_size(options.size);
     if (!size) return fail(size.error());
     Result<std::unique_ptr<film::Film>> made =
-        film::Film::create(at, {options.view, *size, options.gpu, options.validate});
+        film::Film::create(at, {hand, options.view, *size, options.gpu, options.stereo, options.validate});
     if (!made) return fail(made.error());
     crew.film = std::move(*made);
     std::optional<Feed> feed;
     if (!options.video.empty()) {
-        Result<Feed> started = start_ffmpeg(options, film, *size);
+        const VkExtent2D whole{size->width * (options.stereo ? 2U : 1U), size->height};
+        Result<Feed> started = start_ffmpeg(options, film, whole);
         if (!started)
             return fail(ErrorCode::failed, started.error().what,
                         "FFmpeg (Debian: ffmpeg), which writes the film; --png and --wav need none");
@@ -219,9 +220,11 @@ Status run_replay(ReplayOptions options) {
     if (both) name_beside(options.video, options.wav, scratch);
     const std::string pictures = both ? scratch.pictures.string() : options.video;
     const std::string wav = options.wav.empty() ? scratch.sound.string() : options.wav;
+    const hand::Side hand = session->header().hand == "left" ? hand::Side::left : hand::Side::right;
     Crew crew;
+
     if (!options.png.empty() || !options.video.empty())
-        if (Status taken = take_camera(options, *at, pictures, crew); !taken) return taken;
+        if (Status taken = take_camera(options, *at, hand, pictures, crew); !taken) return taken;
     if (sounds)
         if (Status taken = take_microphone(options, *at, wav, crew); !taken) return taken;
     const Result<play::Replayed> replayed = play::replay(
@@ -256,6 +259,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     replay->add_option("--view", options->view, "Named view of the assembly; follows the work if not given");
     replay->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
+    replay->add_flag("--stereo", options->stereo, "Both eyes, side by side");
     replay->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     replay->add_flag("--validate", options->validate,
                      "Run under the Vulkan validation layers; any message is an error");

@@ -5,6 +5,7 @@
 #include "game/scene/labels.hpp"
 #include "game/scene/resting_place.hpp"
 #include "game/scene/strain.hpp"
+#include "game/view/stereo.hpp"
 
 namespace bolt::film {
 
@@ -37,7 +38,7 @@ Result<std::unique_ptr<Film>> Film::create(const play::Prepared& at, const FilmO
     film->assembly_ = at.assembly;
     film->on_ = std::make_unique<OnGpu>();
     OnGpu& on = *film->on_;
-    Result<scene::Shelf> shelf = scene::load_shelf(at.assembly);
+    Result<scene::Shelf> shelf = scene::load_shelf(at.assembly, options.hand);
     if (!shelf) return fail(shelf.error());
     view::Viewpoint first = view::framed({}, view::usual_fov, 1.0F);
     if (!options.view.empty()) {
@@ -65,8 +66,8 @@ Result<std::unique_ptr<Film>> Film::create(const play::Prepared& at, const FilmO
     film->place_ = std::move(*place);
     film->scene_ = scene::lit(film->place_, on.shelf->light);
     film->postures_ = scene::make_postures(at.state.touch ? &at.state.touch->wrench : nullptr,
-                                           at.setup.wrench.handle_length);
-    film->rest_ = scene::resting_place(film->place_.machine, at.assembly.wrench.head_thickness);
+                                           at.setup.wrench.handle_length, options.hand);
+    film->rest_ = scene::resting_place(film->place_.machine, at.assembly.wrench.head_thickness, options.hand);
     if (options.view.empty() && shelf->machine.views.empty())
         first =
             view::framed(film->place_.machine, view::usual_fov,
@@ -93,7 +94,7 @@ Result<render::Picture> Film::draw(const play::Moment& moment, double seconds) {
     held.wrench = wrench;
     held.rest = rest_;
     held.pinches = moment.input.grip == servo::Grip::fingers;
-    const Vec3 shoulder = scene::shoulder_at(place_.machine);
+    const Vec3 shoulder = scene::shoulder_at(place_.machine, {options_.hand, std::nullopt});
     held.fingers = scene::towards(held.tool, shoulder, 0.0);
     held.grip = scene::natural_grip(postures_, held.tool, Vec3(0, 1, 0), shoulder);
     held.strain = std::abs(scene::effort(moment.output, moment.setup, wrench));
@@ -112,12 +113,15 @@ Result<render::Picture> Film::draw(const play::Moment& moment, double seconds) {
             scene::work_label(moment.lesson, moment.setup, moment.state, moment.output, wrench))
         scene_.labels.push_back(*label);
     const float aspect = static_cast<float>(options_.size.width) / static_cast<float>(options_.size.height);
-    const render::Eye eye = view::eye_of(camera_.shown, render::bounds(scene_), aspect);
+    std::vector<render::Eye> eyes;
+    for (const float aside : view::eyes_aside(options_.stereo))
+        eyes.push_back(view::eye_of(camera_.shown, render::bounds(scene_), aspect, aside));
+
     OnGpu& on = *on_;
     auto pictures = render::take_pictures(*on.painter.device, *on.painter.frames, *on.painter.renderer,
-                                          scene_, std::span(&eye, 1), options_.size);
+                                          scene_, eyes, options_.size);
     if (!pictures) return fail(pictures.error());
-    return std::move(pictures->front());
+    return view::side_by_side(*pictures);
 }
 
 Status Film::no_messages() const {

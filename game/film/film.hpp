@@ -12,9 +12,12 @@
 namespace bolt::film {
 
 struct FilmOptions {
+    hand::Side hand = hand::Side::right;  // that worked
+
     std::string view;  // of the assembly; empty: follows the work
     VkExtent2D size{1280, 720};
     std::string gpu;
+    bool stereo = false;  // both eyes, side by side: twice as wide
     bool validate = false;
 };
 

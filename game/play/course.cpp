@@ -30,6 +30,8 @@ record::Header header_of(const Prepared& at, const CourseOptions& options) {
     header.mode = lesson::name(options.mode);
     header.task = lesson::name(options.task);
     header.operator_name = options.operator_name;
+    header.hand = options.hand;
+
     header.seed = options.seed;
     header.dt = options.dt;
     header.program = "boltwright " BOLTWRIGHT_VERSION;

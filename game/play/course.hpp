@@ -26,8 +26,10 @@ struct CourseOptions {
     double dt = 0.001;
     // Whether the wrench meets casing, bolts and nuts (touch_models.hpp); `if_any`: where they are modelled.
     Obstacles obstacles = Obstacles::none;
-    bool guide = true;                   // a guided lesson leads the hand to the nut
-    std::string operator_name;           // "expert", …, or "person"
+    bool guide = true;          // a guided lesson leads the hand to the nut
+    std::string operator_name;  // "expert", …, or "person"
+    std::string hand;           // "left", "right", that they work with; empty: it is not said
+
     std::string view_help;               // "on", "off", of who is simulated; empty: a person has it
     std::string servo = "virtual time";  // who has the ticks, for the session (record::Header)
     force::OutputLimits device;  // what a 6-DoF arm of the Virtuose class renders, unless said otherwise

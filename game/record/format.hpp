@@ -50,6 +50,8 @@ inline constexpr const char* device = "device";
 inline constexpr const char* servo = "servo";
 inline constexpr const char* view_help = "view_help";  // not in every session
 inline constexpr const char* tool = "tool";            // since format 4
+inline constexpr const char* hand = "hand";            // not in every session
+
 inline constexpr const char* state = "state";
 inline constexpr const char* duration = "duration_s";  // this one and those below: complete sessions only
 inline constexpr const char* score = "score";

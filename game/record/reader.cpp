@@ -114,6 +114,8 @@ Result<Header> header_of(Meta meta, const std::string& file) {
     const std::pair<const char*, std::string*> later[] = {
         {key::guide, &header.guide}, {key::obstacles, &header.obstacles}, {key::device, &header.device},
         {key::servo, &header.servo}, {key::tool, &header.tool},           {key::view_help, &header.view_help},
+        {key::hand, &header.hand},
+
     };
     for (const auto& [name, text] : later)
         if (const auto found = meta.find(name); found != meta.end()) *text = std::move(found->second);

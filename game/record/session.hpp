@@ -60,6 +60,7 @@ struct Header {
 
     std::string view_help;  // "on", "off": of a simulated trainee; empty: a person, or it is not said
     std::string tool;       // its name in the assembly; empty before format 4, which knew the first alone
+    std::string hand;       // "left", "right": that worked; empty: it is not said
 };
 
 // Move-only. All errors name the file. After an error everything committed before stays readable, and every

@@ -41,6 +41,8 @@ Status put_header(Database& database, const Header& header, Seals& seals) {
         {key::servo, header.servo},
         {key::view_help, header.view_help},
         {key::tool, header.tool},
+        {key::hand, header.hand},
+
         {key::state, state_recording},
     };
     for (const auto& [name, value] : values)

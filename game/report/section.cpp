@@ -46,6 +46,8 @@ void put_heading(std::string& out, const SessionData& s, std::size_t index) {
             "done.</div>\n");
     out += "<dl class=\"facts\">\n";
     out += fact("operator", s.header.operator_name);
+    if (s.header.hand == "left") out += fact("hand", s.header.hand);
+
     out += fact("task", s.header.task);
     out += fact("mode", s.header.mode);
     if (s.feel.recorded) {

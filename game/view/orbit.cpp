@@ -51,16 +51,17 @@ Viewpoint viewpoint_of(const Orbit& o) {
             static_cast<float>(o.fov)};
 }
 
-render::Eye eye_of(const Orbit& o, const render::Box& box, float aspect) {
+render::Eye eye_of(const Orbit& o, const render::Box& box, float aspect, float aside) {
     const Axes a = axes(o);
-    const Vec3 eye = o.target + o.distance * a.back;
+    const Vec3 beside = static_cast<double>(aside) * a.right;
+    const Vec3 eye = o.target + o.distance * a.back + beside;
     // Columns; the rows are the axes.
     const glm::dmat4 turn(glm::dvec4(a.right.x, a.up.x, a.back.x, 0.0),
                           glm::dvec4(a.right.y, a.up.y, a.back.y, 0.0),
                           glm::dvec4(a.right.z, a.up.z, a.back.z, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
     const glm::mat4 view(glm::translate(turn, -eye));
     const render::Perspective through =
-        lens(box, glm::vec3(eye), glm::vec3(o.target), static_cast<float>(o.fov), aspect);
+        lens(box, glm::vec3(eye), glm::vec3(o.target + beside), static_cast<float>(o.fov), aspect);
     return {glm::vec3(eye), render::perspective(through) * view};
 }
 

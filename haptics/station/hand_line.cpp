@@ -55,6 +55,10 @@ HandLine::~HandLine() = default;
 
 HandLine HandLine::start(glove::Driver driver, HandPlan plan) {
     auto shared = std::make_unique<Shared>(std::move(driver), std::move(plan));
+    ShownHand first;
+    first.side = shared->plan.wearer.hand.side;  // known before the glove has said anything
+    shared->shown.write(first);
+
     shared->thread = std::jthread([s = shared.get()](const std::stop_token& stop) { s->run(stop); });
     return HandLine(std::move(shared));
 }

@@ -59,6 +59,8 @@ TEST_CASE("a session of format 3 too, and its wrench was set to nothing") {
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     CHECK(reader->complete());
     CHECK(reader->header().tool.empty());
+    CHECK(reader->header().hand.empty());
+
     const std::vector<TickRecord> ticks = all_ticks(*reader);
     CHECK(ticks.size() > 10'000);
     bool held = false, marked = false;
@@ -119,7 +121,7 @@ bool same(const servo::Histogram& a, const servo::Histogram& b) {
 }  // namespace
 
 TEST_CASE("how a servo thread kept its time is in the session, as last told") {
-    const TempFolder folder;
+    const Folder folder;
     auto writer = Writer::create(folder / "a.session", sample_header(0.1));
     REQUIRE(writer);
     REQUIRE(writer->keep(servo::Timing{}));

@@ -1,7 +1,6 @@
 #include "tests/record/support.hpp"
 
 #include <stdlib.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,30 +11,6 @@
 #include "game/record/device_text.hpp"
 
 namespace bolt::record::test {
-
-namespace {
-
-// In memory if there is such a place: thousands of sessions are made, and each would wait for a disk that
-// others keep busy.
-std::filesystem::path place_for_folders() {
-    constexpr const char* in_memory = "/dev/shm";
-    if (std::getenv("TMPDIR") == nullptr && ::access(in_memory, R_OK | W_OK | X_OK) == 0) return in_memory;
-    return std::filesystem::temp_directory_path();
-}
-
-}  // namespace
-
-TempFolder::TempFolder() {
-    std::string name = (place_for_folders() / "boltwright-record-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) std::abort();
-    path_ = name;
-}
-
-TempFolder::~TempFolder() {
-    std::error_code ignored;
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
-    std::filesystem::remove_all(path_, ignored);
-}
 
 TickRecord random_tick(Random& random) {
     const auto any = [&] { return std::bit_cast<float>(random.bits()); };
@@ -96,7 +71,8 @@ bool same(const Header& a, const Header& b) {
            a.mode == b.mode && a.task == b.task && a.operator_name == b.operator_name && a.seed == b.seed &&
            std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) &&
            a.program == b.program && a.guide == b.guide && a.obstacles == b.obstacles &&
-           a.device == b.device && a.servo == b.servo && a.tool == b.tool &&
+           a.device == b.device && a.servo == b.servo && a.tool == b.tool && a.view_help == b.view_help &&
+           a.hand == b.hand &&
            std::ranges::equal(a.obstacle_names, b.obstacle_names,
                               [](const auto& x, const auto& y) { return x.id == y.id && x.name == y.name; });
 }
@@ -150,6 +126,9 @@ Header sample_header(double dt) {
     header.device = text_of(force::OutputLimits{});
     header.servo = "virtual time";
     header.tool = "torque_wrench";
+    header.view_help = "on";
+    header.hand = "left";
+
     header.obstacle_names = {{0, "housing"}, {1, "a \"lid\", 盖"}, {1003, "B4_nut"}};
     return header;
 }

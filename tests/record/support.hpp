@@ -11,20 +11,14 @@
 
 #include "engine/base/random.hpp"
 #include "game/record/session.hpp"
+#include "tests/support/folder.hpp"
 
 namespace bolt::record::test {
 
-class TempFolder {
+// In memory if there is such a place: thousands of sessions are made.
+class Folder : public bolt::test::Folder {
   public:
-    TempFolder();
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
-    ~TempFolder();
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
+    Folder() : bolt::test::Folder(bolt::test::place_in_memory()) {}
 };
 
 TickRecord random_tick(Random& random);  // any bits, NaNs too
