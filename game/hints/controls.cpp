@@ -8,22 +8,22 @@ using words::Key;
 
 struct Row {
     Motion motion;
-    Key mouse, device, glove;
+    Key mouse, device;
 };
 constexpr Row rows[] = {
-    {Motion::take, "control.mouse.take", "control.device.take", "control.glove.take"},
-    {Motion::put_away, "control.mouse.put_away", "control.device.put_away", "control.glove.put_away"},
-    {Motion::approach, "control.mouse.go", "control.device.move", "control.device.move"},
-    {Motion::reach, "control.mouse.go", "control.device.move", "control.device.move"},
-    {Motion::set_on, "control.mouse.go", "control.device.move", "control.device.move"},
-    {Motion::grip_nut, "control.mouse.go", "control.device.grip", "control.glove.grip"},
-    {Motion::spin, "control.mouse.spin", "control.device.turn", "control.device.turn"},
-    {Motion::twist_back, "control.mouse.again", "control.device.twist_back", "control.glove.twist_back"},
-    {Motion::let_go, "control.mouse.let_go", "control.device.release", "control.glove.release"},
-    {Motion::pull_on, "control.mouse.pull", "control.device.turn", "control.device.turn"},
-    {Motion::pull_off, "control.mouse.pull", "control.device.turn", "control.device.turn"},
-    {Motion::lift, "control.mouse.let_go", "control.device.move", "control.device.move"},
-    {Motion::set_back, "control.mouse.again", "control.device.move", "control.device.move"},
+    {Motion::take, "control.mouse.take", "control.device.take"},
+    {Motion::put_away, "control.mouse.put_away", "control.device.put_away"},
+    {Motion::approach, "control.mouse.go", "control.device.move"},
+    {Motion::reach, "control.mouse.go", "control.device.move"},
+    {Motion::set_on, "control.mouse.go", "control.device.move"},
+    {Motion::grip_nut, "control.mouse.go", "control.device.grip"},
+    {Motion::spin, "control.mouse.spin", "control.device.turn"},
+    {Motion::twist_back, "control.mouse.again", "control.device.twist_back"},
+    {Motion::let_go, "control.mouse.let_go", "control.device.release"},
+    {Motion::pull_on, "control.mouse.pull", "control.device.turn"},
+    {Motion::pull_off, "control.mouse.pull", "control.device.turn"},
+    {Motion::lift, "control.mouse.let_go", "control.device.move"},
+    {Motion::set_back, "control.mouse.again", "control.device.move"},
 };
 static_assert(std::size(rows) == motion_count - 1);  // all but none
 
@@ -70,6 +70,23 @@ Controls keyboard_controls(const words::Words& words, const std::string& button,
     return pushed(words, button, tool_key, "control.keys.move", "control.keys.turn");
 }
 
-Controls glove_controls(const words::Words& words) { return controls(words, &Row::glove, {}); }
+namespace {
+
+struct ByFingers {
+    Motion motion;
+    Key said;
+};
+constexpr ByFingers by_fingers[] = {{Motion::take, "control.glove.take"},
+                                    {Motion::put_away, "control.glove.put_away"},
+                                    {Motion::grip_nut, "control.glove.grip"},
+                                    {Motion::twist_back, "control.glove.twist_back"},
+                                    {Motion::let_go, "control.glove.release"}};
+
+}  // namespace
+
+Controls glove_controls(const words::Words& words, Controls moved_by) {
+    for (const ByFingers& row : by_fingers) at(moved_by, row.motion) = words::say(words, row.said, {});
+    return moved_by;
+}
 
 }  // namespace bolt::hints

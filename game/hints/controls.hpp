@@ -16,7 +16,7 @@ Controls device_controls(const words::Words& words, const std::string& button, c
 Controls puck_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
 Controls keyboard_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
 
-// With a hand in a glove.
-Controls glove_controls(const words::Words& words);
+// With a hand in a glove: it moves as it would without, and does the rest with its fingers.
+Controls glove_controls(const words::Words& words, Controls moved_by);
 
 }  // namespace bolt::hints

@@ -56,7 +56,7 @@ void show_hand(scene::World& world, Playing& p, Motion motion) {
 const Pose& wrench_for(Playing& p, const lesson::Step& due) {
     const std::size_t step = p.course->lesson().current;
     if (!p.ghost || p.ghost->first != step)
-        p.ghost = {step, wrench_on(p.hand, p.course->setup(), p.course->state(), due.joint,
+        p.ghost = {step, wrench_on(p.hand.rest, p.course->setup(), p.course->state(), due.joint,
                                    due.kind == lesson::StepKind::loosen)};
     return p.ghost->second;
 }

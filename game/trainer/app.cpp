@@ -169,6 +169,13 @@ view::Orbit first_view(const Playing& p, const view::Subject& machine, double ha
     return eyes ? view::framing(view::from_at_most(orbit, *eyes), all, aspect) : orbit;
 }
 
+// The hand in the glove, or the one that somebody says they work with.
+hand::Side hand_at_work(const Playing& p, const content::Settings& wanted) {
+    if (p.station)
+        if (const station::ShownHand* gloved = p.station->bench->hand()) return gloved->side;
+    return wanted.left_handed ? hand::Side::left : hand::Side::right;
+}
+
 }  // namespace
 
 Status App::begin_lesson(float aspect) {
@@ -176,8 +183,7 @@ Status App::begin_lesson(float aspect) {
     keep_preferences();
     const Choice& choice = options_.choice;
     const content::Settings& wanted = preferences_.settings;
-    const scene::Worker worker{wanted.left_handed ? hand::Side::left : hand::Side::right,
-                               wanted.seated_height};
+
     content::Loaded loaded = content::load_assembly(choice.assembly, choice.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     if (Status chosen = content::choose_tool(loaded.assembly, choice.tool); !chosen) return chosen;
@@ -188,11 +194,21 @@ Status App::begin_lesson(float aspect) {
     course_.law = options_.law.value_or(assembly_.law);
     course_.operator_name = choice.trainee.empty() ? "person" : choice.trainee;
     course_.device = force::scaled(options_.course.device, wanted.force_scale);
+    Result<play::Prepared> prepared = play::prepare(assembly_, course_);
+    if (!prepared) return fail(prepared.error());
+    Playing next;
+    if (Status started = start_station(next, *prepared); !started) return started;
+    const scene::Worker worker{hand_at_work(next, wanted), wanted.seated_height};
+    course_.hand = worker.side == hand::Side::left ? "left" : "right";
     Result<scene::Shelf> shelf = scene::load_shelf(assembly_, worker.side);
+
     if (!shelf) return fail(shelf.error());
     for (const std::string& missing : shelf->missing) tell("left out: " + missing);
-    Playing next;
-    if (Status begun = begin_course(next); !begun) return begun;
+    Result<std::unique_ptr<play::Course>> course =
+        play::Course::begin(std::move(*prepared), course_, options_.out / "session.boltwright");
+    if (!course) return fail(course.error());
+    next.course = std::move(*course);
+
     if (playing_) {
         if (Status idle = on_->painter->device->idle(); !idle) return idle;
         playing_.reset();
@@ -204,8 +220,10 @@ Status App::begin_lesson(float aspect) {
     if (Status placed = place_on_gpu(); !placed) return placed;
     const servo::Setup& setup = p.course->setup();
     const servo::State& state = p.course->state();
-    p.hand = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness, worker.side),
-                       worker.side);
+    p.mouse = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness, worker.side),
+                        worker.side);
+    p.hand = hand_of(p.mouse);
+
     take_place();
     p.ear.still = sound::materials(p.course->assembly(), p.course->obstacle_names());
     if (options_.sound) {
@@ -234,26 +252,19 @@ Status App::begin_lesson(float aspect) {
     return {};
 }
 
-// The lesson, and the station that it is played at: each with a servo of its own that begins as the other's.
-Status App::begin_course(Playing& p) {
-    const std::filesystem::path file = options_.out / "session.boltwright";
-    Result<play::Prepared> prepared = play::prepare(assembly_, course_);
-    if (!prepared) return fail(prepared.error());
-    if (!options_.choice.with.none()) {
-        if (playing_) playing_->station.reset();  // that has the devices
-        Equipment with = options_.choice.with;
-        with.force_scale = preferences_.settings.force_scale;
-        auto bench = options_.station(assembly_, course_, with, options_.choice.trainee);
-        if (!bench) return fail(bench.error());
-        p.station.emplace();
-        p.station->bench = std::move(*bench);
-        course_.device = p.station->bench->setup().limits;
-        course_.servo = fmt::format("{:.0f} Hz", 1.0 / course_.dt);
-        play::use_device(course_, *prepared);
-    }
-    Result<std::unique_ptr<play::Course>> course = play::Course::begin(std::move(*prepared), course_, file);
-    if (!course) return fail(course.error());
-    p.course = std::move(*course);
+// The station that the lesson is played at, if any: with a servo of its own that begins as the lesson's.
+Status App::start_station(Playing& p, play::Prepared& prepared) {
+    if (options_.choice.with.none()) return {};
+    if (playing_) playing_->station.reset();  // that has the devices
+    Equipment with = options_.choice.with;
+    with.force_scale = preferences_.settings.force_scale;
+    auto bench = options_.station(assembly_, course_, with, options_.choice.trainee);
+    if (!bench) return fail(bench.error());
+    p.station.emplace();
+    p.station->bench = std::move(*bench);
+    course_.device = p.station->bench->setup().limits;
+    course_.servo = fmt::format("{:.0f} Hz", 1.0 / course_.dt);
+    play::use_device(course_, prepared);
     return {};
 }
 
@@ -284,10 +295,10 @@ void App::name_controls() {
                           {{"number", words::Number{static_cast<double>(std::countr_zero(held) + 1), 0}}});
     const auto& mover = at->bench->layout().mover;
     const bool feels = mover && station::renders_force(*mover);
-    controls_ = at->bench->hand() != nullptr           ? hints::glove_controls(words_)
-                : options_.choice.with.devices.empty() ? hints::keyboard_controls(words_, closes, tool)
-                : feels                                ? hints::device_controls(words_, closes, tool)
-                                                       : hints::puck_controls(words_, closes, tool);
+    controls_ = options_.choice.with.devices.empty() ? hints::keyboard_controls(words_, closes, tool)
+                : feels                              ? hints::device_controls(words_, closes, tool)
+                                                     : hints::puck_controls(words_, closes, tool);
+    if (at->bench->hand() != nullptr) controls_ = hints::glove_controls(words_, std::move(controls_));
 }
 
 Status App::unseen() {

@@ -105,7 +105,8 @@ class App {
   private:
     struct OnGpu;
     Status begin_lesson(float aspect);
-    Status begin_course(Playing& playing);
+    Status start_station(Playing& playing, play::Prepared& prepared);
+
     void take_place();
     void name_controls();
     Status place_on_gpu();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace bolt::trainer {
 
@@ -60,10 +59,17 @@ void look(AtStation& at, const play::Course& course) {
 
 }  // namespace
 
-double room_to_twist(const AtStation& at) {
-    const bool twists = at.gloved && at.now.output.joint >= 0 && at.now.input.grip == servo::Grip::fingers;
-    if (!twists) return std::numeric_limits<double>::infinity();
-    return std::max(0.0, forearm_turns - std::abs(at.now.output.nut_angle - at.taken_at));
+Hand hand_of(const AtStation& at) {
+    const bool engaged = at.now.output.joint >= 0;
+    Hand hand;
+    hand.wrench = at.now.input.grip == servo::Grip::wrench;
+    hand.nut = engaged ? std::optional(static_cast<std::size_t>(at.now.output.joint)) : at.near;
+    hand.doing = engaged ? Doing::holding : hand.nut ? Doing::lowering : Doing::resting;
+    hand.pose = hand.to = at.now.tool;
+    hand.rest = at.now.lies.value_or(at.rest);
+    if (at.gloved && engaged && at.now.input.grip == servo::Grip::fingers)
+        hand.room = std::max(0.0, forearm_turns - std::abs(at.now.output.nut_angle - at.taken_at));
+    return hand;
 }
 
 bool has_dead_man(const station::Layout& layout) {

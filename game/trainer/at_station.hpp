@@ -13,6 +13,8 @@
 #include "game/play/course.hpp"
 #include "game/station/bench.hpp"
 #include "game/trainer/controls.hpp"
+#include "game/trainer/hand.hpp"
+
 #include "game/trainer/pushing.hpp"
 
 namespace bolt::trainer {
@@ -35,11 +37,12 @@ struct AtStation {
     double taken_at = 0.0;  // rad, of the nut in the hand when it was taken
 };
 
-// rad that the fingers of a gloved hand can still turn the nut that they hold; infinite in any other hand. A
+// rad that the fingers of a gloved hand turn the nut that they hold, before they let go and turn back. A
 // forearm turns by 80° either way (American Academy of Orthopaedic Surgeons, Joint motion, 1965): of that,
-// what is no strain.
+// what is no strain. Any other hand has no end.
 inline constexpr double forearm_turns = to_radians(120.0);
-double room_to_twist(const AtStation& at);
+
+Hand hand_of(const AtStation& at);
 
 // What is wished of the station after a picture. `looks`: how whoever pushes looks at the machine.
 struct Asked {

@@ -53,7 +53,8 @@ void choose_eye(Playing& p, std::size_t joint) {
     Pose tool = p.close_up.tool;
     tool.position = nut;
     if (p.hand.wrench) of.wrench = tool;
-    const double sense = p.hand.loosens ? 1.0 : -1.0;
+    const double sense = p.course->lesson().task == lesson::Task::loosen ? 1.0 : -1.0;
+
     const double through = p.hand.wrench ? sense * std::min(p.hand.room, swing) : 0.0;
     const scene::CloseUpEye eye = scene::close_up_eye(of, tool, through, p.sight);
     p.close_up.eye = eye.at;

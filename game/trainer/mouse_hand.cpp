@@ -229,6 +229,23 @@ MouseHand make_hand(const Pose& rest, hand::Side side) {
     return hand;
 }
 
+Hand hand_of(const MouseHand& mouse) {
+    Hand hand;
+    hand.doing = mouse.doing;
+    hand.wrench = mouse.wrench;
+    hand.nut = mouse.nut;
+    hand.pose = mouse.pose;
+    hand.to = mouse.stations.empty() ? mouse.to : mouse.stations.front();
+    hand.rest = mouse.rest;
+    const bool has = mouse.doing == Doing::holding || mouse.doing == Doing::returning;
+    const double turned = has ? mouse.handle - mouse.begun_at : 0.0;
+    if (mouse.wrench)
+        hand.room = mouse.room - std::abs(turned);
+    else
+        hand.twisted = turned;
+    return hand;
+}
+
 void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo::State& state) {
     hand.held = w.held;
     hand.spin = std::clamp(w.spin, -1.0, 1.0);
@@ -252,9 +269,10 @@ void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo
     }
 }
 
-Pose wrench_on(const MouseHand& hand, const servo::Setup& setup, const servo::State& state, std::size_t joint,
+Pose wrench_on(const Pose& rest, const servo::Setup& setup, const servo::State& state, std::size_t joint,
                bool loosens) {
-    MouseHand other = make_hand(hand.rest);
+    MouseHand other = make_hand(rest);
+
     other.nut = joint;
     other.loosens = loosens;
     choose_side(other, setup, state);

@@ -8,20 +8,12 @@
 #include <vector>
 
 #include "game/lesson/plan.hpp"
+#include "game/trainer/hand.hpp"
+
 #include "haptics/hand/kinematics.hpp"
 #include "haptics/servo/tick.hpp"
 
 namespace bolt::trainer {
-
-enum class Doing : std::uint8_t {
-    resting,   // the hand waits where it is
-    reaching,  // on its way: to a nut, to the wrench, to where that is laid down
-    lowering,  // onto a nut
-    holding,   // of a nut, by the wrench or the fingers: it is pulled
-    easing,    // the wrench springs back before it comes off
-    lifting,
-    returning,  // fingers go back for the next twist
-};
 
 // What the mouse wants; filled in once a frame.
 struct Wish {
@@ -64,10 +56,12 @@ struct MouseHand {
 // The hand at rest where the wrench lies: the left one where that lies for it (scene::resting_place).
 MouseHand make_hand(const Pose& rest, hand::Side side = hand::Side::right);
 
+Hand hand_of(const MouseHand& hand);
+
 void wish(MouseHand& hand, const Wish& wish, const servo::Setup& setup, const servo::State& state);
 
-// Where this hand would put the wrench on a nut now.
-Pose wrench_on(const MouseHand& hand, const servo::Setup& setup, const servo::State& state, std::size_t joint,
+// Where the wrench that lies there would be put on a nut now.
+Pose wrench_on(const Pose& rest, const servo::Setup& setup, const servo::State& state, std::size_t joint,
                bool loosens);
 
 // One tick. Without the guiding force: `guide` is the lesson's to fill in.

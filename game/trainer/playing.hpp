@@ -34,7 +34,9 @@ struct PlotPoint {
 struct Playing {
     std::unique_ptr<play::Course> course;
     std::optional<AtStation> station;  // none: the hand is at the mouse
-    MouseHand hand;                    // at a station: what that one does, for whoever shows it
+    MouseHand mouse;                   // that moves the hand, unless there is a station
+    Hand hand;
+
     scene::Workplace place;
     scene::Postures postures;
     view::Glide camera;

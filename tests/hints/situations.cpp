@@ -292,7 +292,7 @@ TEST_CASE("a guided lesson has a hint in every state, of the due joint, in every
                 for (const Controls& controls :
                      {mouse_controls(language, "T"), device_controls(language, "A", "T"),
                       puck_controls(language, "A", "T"), keyboard_controls(language, "Space", "T"),
-                      glove_controls(language)}) {
+                      glove_controls(language, puck_controls(language, "A", "T"))}) {
                     const std::string motion = say_motion(language, at, controls);
                     CHECK(motion.empty() == (level < 3 || c.motion == Motion::none));
                     CHECK(motion.find('{') == std::string::npos);
@@ -353,4 +353,18 @@ TEST_CASE("what is said has the numbers of the step") {
     start.wait(12.0);
     CHECK(say_motion(en, *start.hints.shown, mouse_controls(en, "T")) ==
           "Move the hand to the wrench and close it on the handle: press T or click on the wrench.");
+}
+
+TEST_CASE("who wears a glove is told how what they hold is moved, and closes the hand itself") {
+    const auto loaded = words::load_words(words::words_folder(), "en");
+    REQUIRE(loaded.ok());
+    const Controls keys = keyboard_controls(loaded.words, "Space", "T"),
+                   gloved = glove_controls(loaded.words, keys);
+    const auto of = [](const Controls& controls, Motion motion) {
+        return controls[static_cast<std::size_t>(motion)];
+    };
+    CHECK(of(gloved, Motion::set_on) == of(keys, Motion::set_on));
+    CHECK(of(gloved, Motion::pull_on) == of(keys, Motion::pull_on));
+    CHECK(of(gloved, Motion::take).find("close your hand") != std::string::npos);
+    CHECK(of(gloved, Motion::grip_nut).find("pinch") != std::string::npos);
 }

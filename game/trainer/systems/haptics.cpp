@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace bolt::trainer {
 
@@ -15,7 +14,7 @@ constexpr double longest_step = 0.25;  // s of lesson that one frame catches up 
 constexpr std::size_t most_plotted = 4000;
 
 void plot(Playing& p, const servo::Output& output) {
-    if (output.joint < 0 || !p.hand.wrench) return;
+    if (output.joint < 0) return;
     if (output.joint != p.plotted) p.plot.clear();
     p.plotted = output.joint;
     const PlotPoint now{static_cast<float>(to_degrees(output.nut_angle)),
@@ -32,10 +31,12 @@ void say(Playing& p, std::span<const lesson::Event> events) {
     }
 }
 
-void note(Playing& p, const servo::Output& output) {
+void note(Playing& p, servo::Grip grip, const servo::Output& output) {
+    const bool wrench = grip == servo::Grip::wrench;
     p.output = output;
-    plot(p, output);
-    scene::strain(p.strain, output, p.course->setup(), p.hand.wrench);
+    if (wrench) plot(p, output);
+    scene::strain(p.strain, output, p.course->setup(), wrench);
+
     say(p, p.course->events());
     if (p.sound) p.sound->tick(output, sound::cues_of(p.course->events()));
     if (p.captions)
@@ -52,29 +53,20 @@ void step_ticks(Frame& frame) {
     p.owed = std::min(p.owed, longest_step);
     const servo::Setup& setup = course.setup();
     for (; p.owed >= setup.dt && !course.over() && frame.status; p.owed -= setup.dt) {
-        servo::Input input = move(p.hand, setup, course.state());
+        servo::Input input = move(p.mouse, setup, course.state());
         if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
-        if (p.undo && p.hand.doing == Doing::resting && !p.hand.nut) course.go_back(*p.undo);
+        if (p.undo && p.mouse.doing == Doing::resting && !p.mouse.nut) course.go_back(*p.undo);
         const Result<servo::Output> output = course.step(input);
         if (!output) {
             frame.status = fail(output.error());
             break;
         }
-        note(p, *output);
+        note(p, input.grip, *output);
     }
-}
-
-// What a mouse hand would be that does the same.
-void show(MouseHand& hand, const AtStation& at) {
-    const bool engaged = at.now.output.joint >= 0;
-    hand.wrench = at.now.input.grip == servo::Grip::wrench;
-    hand.nut = engaged ? std::optional(static_cast<std::size_t>(at.now.output.joint)) : at.near;
-    hand.doing = engaged ? Doing::holding : hand.nut ? Doing::lowering : Doing::resting;
-    hand.pose = at.now.tool;
-    hand.rest = at.now.lies.value_or(at.rest);
-    hand.room = std::numeric_limits<double>::infinity();
-    hand.handle = hand.begun_at = 0.0;
+    p.hand = hand_of(p.mouse);
+    if (p.hand.doing == Doing::reaching)
+        p.grip = scene::natural_grip(p.postures, p.hand.to, Vec3(0, 1, 0), p.shoulder);
 }
 
 // What the station has done since the last picture, done again beside it.
@@ -84,7 +76,7 @@ void follow_station(Frame& frame) {
     for (station::Ticked tick; !p.course->over() && frame.status && at.bench->next(tick);) {
         frame.status = p.course->take(tick.input, tick.output);
         if (tick.output.joint >= 0 && p.output.joint < 0) at.taken_at = tick.output.nut_angle;
-        if (frame.status) note(p, tick.output);
+        if (frame.status) note(p, tick.input.grip, tick.output);
     }
     if (at.bench->lost() > 0 && !p.course->over() && frame.status)
         frame.status = fail(ErrorCode::failed,
@@ -95,25 +87,20 @@ void follow_station(Frame& frame) {
          {p.paused || p.finished, frame.wanted.wants(Action::tool), frame.wanted.wants(Action::recentre),
           p.undo, glm::angleAxis(p.camera.shown.yaw, Vec3(0, 1, 0))});
     const bool had = p.hand.wrench;
-    show(p.hand, at);
+    p.hand = hand_of(at);
+
     if (p.hand.wrench && !had)
         p.grip = scene::natural_grip(p.postures, p.output.tool, Vec3(0, 1, 0), p.shoulder);
 }
 
-scene::Held held_of(Playing& p, double seconds) {
+scene::Held held_of(const Playing& p, double seconds) {
     const bool pinches = !p.hand.wrench && p.hand.nut && p.hand.doing == Doing::holding;
-    if (p.hand.doing == Doing::reaching)
-        p.grip =
-            scene::natural_grip(p.postures, p.hand.stations.empty() ? p.hand.to : p.hand.stations.front(),
-                                Vec3(0, 1, 0), p.shoulder);
-    const bool returning = p.hand.doing == Doing::returning || p.hand.doing == Doing::holding;
-    const double twisted = returning ? -twist_shown * (p.hand.handle - p.hand.begun_at) : 0.0;
     const bool gloved = p.station && p.station->gloved;
     return {p.hand.wrench ? p.output.tool : p.hand.pose,
             p.hand.wrench,
             p.hand.rest,
             pinches,
-            gloved ? p.hand.rest : scene::towards(p.hand.pose, p.shoulder, twisted),
+            gloved ? p.hand.rest : scene::towards(p.hand.pose, p.shoulder, -twist_shown * p.hand.twisted),
             p.grip,
             seconds,
             p.strain.share,

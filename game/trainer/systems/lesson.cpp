@@ -17,10 +17,8 @@ hints::Scene hint_scene(const Playing& p) {
     hints::Scene scene{course.lesson(), course.setup(), course.state().joints, p.output,
                        course.state().rounded};
     scene.wrench_in_hand = p.hand.wrench;
-    if (p.hand.wrench && p.hand.doing == Doing::holding)
-        scene.room = p.hand.room - std::abs(p.hand.handle - p.hand.begun_at);
-    else if (p.station)
-        scene.room = room_to_twist(*p.station);
+    if (p.hand.doing == Doing::holding) scene.room = p.hand.room;
+
     return scene;
 }
 

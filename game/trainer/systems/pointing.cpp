@@ -80,7 +80,7 @@ void pointing_system(scene::World&, Frame& frame) {
     }
     if (p.undo && p.hand.nut) wish.retreat = true;
     if (p.finished || p.paused) wish = {};
-    trainer::wish(p.hand, wish, p.course->setup(), p.course->state());
+    trainer::wish(p.mouse, wish, p.course->setup(), p.course->state());
     move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
 }
 

@@ -33,7 +33,7 @@ Vec3 wrist_at(const Playing& p, std::size_t joint) {
     const bool there = p.hand.nut == joint && p.hand.doing != Doing::resting;
     if (p.hand.wrench) {
         const bool loosens = p.course->lesson().task == lesson::Task::loosen;
-        const Pose tool = there ? p.output.tool : wrench_on(p.hand, setup, state, joint, loosens);
+        const Pose tool = there ? p.output.tool : wrench_on(p.hand.rest, setup, state, joint, loosens);
         const std::size_t grip = scene::natural_grip(p.postures, tool, Vec3(0, 1, 0), p.shoulder);
         return tool * p.postures.on_handle.at(grip).position[hand::wrist];
     }
