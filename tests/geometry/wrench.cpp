@@ -212,6 +212,18 @@ TEST_CASE("a straight head gains nothing by turning the wrench over") {
     CHECK(all(check(walled(61.0, 0.0, 10.0), straight).errors) == "");
 }
 
+TEST_CASE("every tool of the file needs room, and is called by its name") {
+    const auto one_more = [](std::string& text) {
+        replace(text, "\"tool\"",
+                R"("more_tools": { "bar": { "title": { "en": "Bar" }, "kind": "open_end_wrench", )"
+                R"("jaw_mm": 13.2, "head_angle_deg": 0, "handle_length_mm": 140 } }, "tool")");
+    };
+    CHECK(all(check(walled(45.0, 0.0, 10.0), one_more).errors).find(": the tool \"bar\" has 45.0 degrees") !=
+          std::string::npos);
+    CHECK(all(check(walled(45.0, 0.0, 10.0), one_more).errors).find(": the wrench has") == std::string::npos);
+    CHECK(all(check(walled(61.0, 0.0, 10.0), one_more).errors) == "");
+}
+
 TEST_CASE("intervals cover a period, or leave a gap") {
     CHECK(geometry::cover({{0.0, 1.0}}, 1.0));
     CHECK(geometry::cover({{5.3, 5.8}, {7.7, 8.4}}, 1.0));

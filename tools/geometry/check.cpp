@@ -4,7 +4,9 @@
 #include <optional>
 #include <tuple>
 
+#include "content/format/json_pointer.hpp"
 #include "engine/assets/gltf.hpp"
+
 #include "tools/geometry/check_levels.hpp"
 #include "tools/geometry/check_nodes.hpp"
 #include "tools/geometry/check_stack.hpp"
@@ -31,13 +33,25 @@ std::optional<Scene> read_scene(const std::string& path, std::string_view pointe
 }
 
 // The author's wrench; what is wrong with it is said, and the envelope stands for it.
-Wrench wrench_of(const content::Assembly& assembly, const Messages& messages) {
-    if (const auto scene = read_scene(assembly.wrench.model, "/tool/model", messages)) {
-        auto wrench = model_wrench(*scene, assembly.wrench);
+Wrench wrench_of(const content::WrenchDesign& design, const std::string& pointer, const Messages& messages) {
+    if (const auto scene = read_scene(design.model, pointer, messages)) {
+        auto wrench = model_wrench(*scene, design);
         if (wrench) return std::move(*wrench);
-        messages.error("/tool/model", wrench.error().what, wrench.error().expected);
+        messages.error(pointer, wrench.error().what, wrench.error().expected);
     }
-    return plain_wrench(assembly.wrench);
+    return plain_wrench(design);
+}
+
+// The usual one first, then those to choose from.
+std::vector<Wrench> wrenches_of(const content::Assembly& assembly, const Messages& messages) {
+    std::vector<Wrench> wrenches;
+    for (const content::Tool& tool : assembly.tools) {
+        const bool usual = wrenches.empty();
+        const std::string at = usual ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
+        wrenches.push_back(wrench_of(tool.wrench, at + "/model", messages));
+        if (!usual) wrenches.back().name = "the tool " + content::in_quotes(tool.name);
+    }
+    return wrenches;
 }
 
 Bvh everything_of(const Scene& scene) {
@@ -50,15 +64,16 @@ Bvh everything_of(const Scene& scene) {
 
 void check_model(const content::Assembly& assembly, const Scene& scene, const Messages& messages) {
     check_triangles(scene, near_budget, "/model", messages);
-    const Wrench wrench = wrench_of(assembly, messages);
+    const std::vector<Wrench> wrenches = wrenches_of(assembly, messages);
+
     const std::vector<int> nodes = check_nodes(assembly, scene, messages);
     const Bvh everything = everything_of(scene);
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
         if (nodes[i] < 0) continue;
         const content::AssemblyJoint& joint = assembly.joints[i];
         const JointParts parts = find_joint_parts(scene, nodes[i], joint.design.id);
-        if (check_stack(joint, i, parts, scene, everything, assembly.wrench.jaw, messages))
-            check_wrench(joint, i, parts, scene, wrench, messages);
+        if (!check_stack(joint, i, parts, scene, everything, assembly.wrench.jaw, messages)) continue;
+        for (const Wrench& wrench : wrenches) check_wrench(joint, i, parts, scene, wrench, messages);
     }
 }
 

@@ -64,23 +64,23 @@ std::string in_degrees(const Swings& swings) {
 }
 
 // `where`: " at the start, 21 mm above its seat", or nothing.
-void judge(const Swings& swings, double head_angle, std::size_t index, const std::string& where,
+void judge(const Swings& swings, const Wrench& wrench, std::size_t index, const std::string& where,
            const Scene& scene, const Messages& messages) {
+    const double head_angle = std::abs(wrench.head_angle);
     const std::string place = between(scene, swings.wider());
     if (swings.most() < least_swing || !turns_on(swings, head_angle, false)) {
-        messages.error(
-            joint_pointer(index),
-            fmt::format("the wrench has {} of free swing on the nut{}: {}", in_degrees(swings), where, place),
-            // With room both ways up it is the head that stops it, at the same angles of the jaw.
-            head_angle < to_radians(1.0) || swings.least() >= least_swing
-                ? "expected 60 degrees: the wrench gains nothing here by being turned over"
-                : "expected 30 degrees or more both ways up, or 60 one way up");
+        messages.error(joint_pointer(index),
+                       fmt::format("{} has {} of free swing on the nut{}: {}", wrench.name,
+                                   in_degrees(swings), where, place),
+                       // With room both ways up it is the head that stops it, at the same angles of the jaw.
+                       head_angle < to_radians(1.0) || swings.least() >= least_swing
+                           ? "expected 60 degrees: the wrench gains nothing here by being turned over"
+                           : "expected 30 degrees or more both ways up, or 60 one way up");
     } else if (!turns_on(swings, head_angle, true)) {
-        messages.note(
-            joint_pointer(index),
-            fmt::format("the wrench has {} of free swing on the nut{}, {}: it has to be turned over "
-                        "after every stroke",
-                        in_degrees(swings), where, place));
+        messages.note(joint_pointer(index),
+                      fmt::format("{} has {} of free swing on the nut{}, {}: it has to be turned over "
+                                  "after every stroke",
+                                  wrench.name, in_degrees(swings), where, place));
     }
 }
 
@@ -97,9 +97,9 @@ void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const 
         return Swings{free_swing(around, plain, height), free_swing(around, over, height)};
     };
     const Swings swings = swings_at(seated);
-    judge(swings, std::abs(wrench.head_angle), index, "", scene, messages);
+    judge(swings, wrench, index, "", scene, messages);
     if (joint.design.start_gap > 1.0 * mm)
-        judge(swings_at(seated + joint.design.start_gap), std::abs(wrench.head_angle), index,
+        judge(swings_at(seated + joint.design.start_gap), wrench, index,
               fmt::format(" where it starts, {:.3g} mm above its seat", joint.design.start_gap / mm), scene,
               messages);
     if (swings.most() <= 0.0) return;  // said
@@ -108,12 +108,11 @@ void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const 
     approach.jaw_angle = -wrench.head_angle;
     if (blocked != no_part) blocked = blocked_by(around, over, swings.turned_over, approach);
     if (blocked != no_part)
-        messages.error(
-            joint_pointer(index),
-            fmt::format("the wrench cannot be brought onto the nut, neither along the bolt nor from "
-                        "the side: {} is in its way",
-                        name_of(scene, blocked)),
-            "expected a free way for it");
+        messages.error(joint_pointer(index),
+                       fmt::format("{} cannot be brought onto the nut, neither along the bolt nor from "
+                                   "the side: {} is in its way",
+                                   wrench.name, name_of(scene, blocked)),
+                       "expected a free way for it");
 }
 
 }  // namespace bolt::geometry

@@ -20,6 +20,8 @@ inline constexpr double jaw_depth_ratio =
 inline constexpr double handle_beyond_grip = 1.12;  // overall length over jaw to middle of grip
 
 struct Wrench {
+    std::string name = "the wrench";  // in what is said of it
+
     std::vector<Triangle> triangles;  // in the tool frame, metres
     double head_angle = 0.0;          // rad, of the jaw to the handle, about +Z
     double head_size = 0.0;           // m, from the middle of the jaw to the outside of the head
