@@ -1,7 +1,5 @@
 #include "tests/assets/sample.hpp"
 
-#include <unistd.h>
-
 namespace bolt::assets {
 
 namespace {
@@ -127,15 +125,6 @@ Model sample_model() {
         {.name = "plan", .perspective = false, .xmag = 0.5F, .ymag = 0.25F, .znear = 0.0F, .zfar = 9.0F}};
     model.animations = {{.name = "wave", .channels = channels()}};
     return model;
-}
-
-TemporaryFile::TemporaryFile(const std::string& name)
-    : path(std::filesystem::temp_directory_path() / ("boltwright-" + std::to_string(getpid()) + '-' + name)) {
-}
-
-TemporaryFile::~TemporaryFile() {
-    std::error_code none;
-    std::filesystem::remove(path, none);
 }
 
 }  // namespace bolt::assets

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/assets/gltf.hpp"
+#include "tests/support/folder.hpp"
 
 namespace bolt::assets {
 
@@ -12,10 +13,8 @@ Model sample_model();
 
 // A file of its own in the folder for temporary files, removed with the guard.
 struct TemporaryFile {
-    explicit TemporaryFile(const std::string& name);
-    ~TemporaryFile();
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    explicit TemporaryFile(const std::string& name) : path(folder / name) {}
+    test::Folder folder;
     std::filesystem::path path;
 };
 

@@ -16,6 +16,7 @@
 #include "engine/audio/pcm.hpp"
 #include "engine/base/file.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::audio;
@@ -125,8 +126,8 @@ TEST_CASE("a speaker plays through OpenAL, block after block, and says so once")
 }
 
 TEST_CASE("what is heard is what was filled in") {
-    const auto folder = std::filesystem::temp_directory_path();
-    const auto heard = folder / "bolt-test-heard.wav", config = folder / "bolt-test-alsoft.conf";
+    const test::Folder folder;
+    const auto heard = folder / "heard.wav", config = folder / "alsoft.conf";
     REQUIRE(write_file(config,
                        "[general]\nfrequency=48000\nchannels=mono\nsample-type=int16\ndither=false\n"
                        "output-limiter=false\n[wave]\nfile=" +

@@ -10,22 +10,13 @@
 #include <vector>
 
 #include "engine/base/file.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::audio;
+using test::Folder;
 
 namespace {
-
-struct Folder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / "bolt-test-audio";
-    Folder() {
-        std::filesystem::remove_all(path);
-        std::filesystem::create_directories(path);
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-};
 
 std::uint32_t number(const std::string& bytes, std::size_t at, int count) {
     std::uint32_t value = 0;
@@ -50,7 +41,7 @@ std::string contents(const std::filesystem::path& path) {
 
 TEST_CASE("a WAV file says what it holds and holds it, in blocks of whatever size") {
     const Folder folder;
-    const auto path = folder.path / "a.wav";
+    const auto path = folder / "a.wav";
     const float inf = std::numeric_limits<float>::infinity();
     const std::vector<float> samples{
         0.0F, 0.5F, -0.5F, 1.0F, -1.0F, 2.0F, -inf, std::numeric_limits<float>::quiet_NaN(), 1.0F / 32767.0F};
@@ -76,13 +67,13 @@ TEST_CASE("a WAV file says what it holds and holds it, in blocks of whatever siz
     CHECK(number(bytes, 40, 4) == 2 * samples.size());
     const std::vector<int> expected{0, 16384, -16384, 32767, -32767, 32767, -32767, 0, 1};
     for (std::size_t i = 0; i < samples.size(); ++i) CHECK(sample(bytes, i) == expected[i]);
-    CHECK_FALSE(std::filesystem::exists(folder.path / "a.wav.part"));
+    CHECK_FALSE(std::filesystem::exists(folder / "a.wav.part"));
     CHECK_FALSE(wav->write(samples));  // finished is finished
 }
 
 TEST_CASE("a WAV file that is not finished leaves what was there before, and nothing else") {
     const Folder folder;
-    const auto path = folder.path / "a.wav";
+    const auto path = folder / "a.wav";
     REQUIRE(write_file(path, "the one before"));
     {
         auto wav = WavWriter::create(path, 48000);
@@ -90,12 +81,12 @@ TEST_CASE("a WAV file that is not finished leaves what was there before, and not
         REQUIRE(wav->write(std::vector<float>(100000, 0.1F)));
     }
     CHECK(contents(path) == "the one before");
-    CHECK(std::distance(std::filesystem::directory_iterator(folder.path), {}) == 1);
+    CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
 }
 
 TEST_CASE("what cannot be written is said with the file's name, and again at every later call") {
     const Folder folder;
-    const auto nowhere = WavWriter::create(folder.path / "no" / "a.wav", 48000);
+    const auto nowhere = WavWriter::create(folder.path() / "no" / "a.wav", 48000);
     REQUIRE_FALSE(nowhere);
     CHECK(nowhere.error().message().find("no/a.wav") != std::string::npos);
     auto full = WavWriter::create("/dev/full", 48000);

@@ -8,6 +8,7 @@
 #include "engine/base/math.hpp"
 #include "engine/base/nearest.hpp"
 #include "engine/base/random.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 
@@ -76,9 +77,8 @@ TEST_CASE("uniform and normal have the moments they should") {
 }
 
 TEST_CASE("files: written whole or not at all, read with a reason when not") {
-    const auto folder = std::filesystem::temp_directory_path() / "boltwright-test-base";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+    const test::Folder kept;
+    const std::filesystem::path& folder = kept.path();
     REQUIRE(write_file(folder / "a", "one\n").has_value());
     CHECK(read_file(folder / "a", 100, ErrorCode::failed).value() == "one\n");
     CHECK_FALSE(read_file(folder / "a", 2, ErrorCode::failed).has_value());
@@ -97,7 +97,6 @@ TEST_CASE("files: written whole or not at all, read with a reason when not") {
     CHECK(std::filesystem::is_symlink(folder / "null"));
     CHECK_FALSE(keep_apart(folder / "a", folder / "." / "a").has_value());
     CHECK(keep_apart(folder / "a", folder / "b").has_value());
-    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("wrap reduces an angle to half a period on either side") {

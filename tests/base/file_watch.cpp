@@ -3,22 +3,14 @@
 #include <doctest/doctest.h>
 
 #include "engine/base/file.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt;
 namespace fs = std::filesystem;
+using test::Folder;
 
 namespace {
-
-// A folder of its own, gone afterwards.
-struct Folder {
-    fs::path path = fs::temp_directory_path() / "boltwright_file_watch_test";
-    Folder() {
-        fs::remove_all(path);
-        fs::create_directories(path);
-    }
-    ~Folder() { fs::remove_all(path); }
-};
 
 void write(const fs::path& file, std::string_view text) { REQUIRE(write_file(file, text).has_value()); }
 
@@ -26,7 +18,7 @@ void write(const fs::path& file, std::string_view text) { REQUIRE(write_file(fil
 
 TEST_CASE("a change is told once, when the file has been left alone for a while") {
     const Folder folder;
-    const fs::path a = folder.path / "a.json", b = folder.path / "b.glb";
+    const fs::path a = folder / "a.json", b = folder / "b.glb";
     write(a, "one");
     write(b, "one");
     FileWatch watch(0.2);
@@ -51,14 +43,14 @@ TEST_CASE("a change is told once, when the file has been left alone for a while"
 
 TEST_CASE("a file that is renamed over, goes and comes is a change, even with the same size") {
     const Folder folder;
-    const fs::path a = folder.path / "a.json", late = folder.path / "late.json";
+    const fs::path a = folder / "a.json", late = folder / "late.json";
     write(a, "same");
     FileWatch watch(0.0);
     watch.watch({a, late});
     CHECK(watch.changed(0.0).empty());
     const auto old = fs::last_write_time(a);
-    write(folder.path / "new", "SAME");
-    fs::rename(folder.path / "new", a);
+    write(folder / "new", "SAME");
+    fs::rename(folder / "new", a);
     fs::last_write_time(a, old);  // as some tools keep it
     CHECK(watch.changed(1.0) == std::vector{a});
     fs::remove(a);
@@ -70,15 +62,15 @@ TEST_CASE("a file that is renamed over, goes and comes is a change, even with th
     // Back to what was told before it was quiet: nothing has changed.
     FileWatch slow(1.0);
     slow.watch({a});
-    fs::rename(a, folder.path / "aside");
+    fs::rename(a, folder / "aside");
     CHECK(slow.changed(5.0).empty());
-    fs::rename(folder.path / "aside", a);
+    fs::rename(folder / "aside", a);
     CHECK(slow.changed(7.0).empty());
 }
 
 TEST_CASE("another list keeps what is known of files that stay in it") {
     const Folder folder;
-    const fs::path a = folder.path / "a", b = folder.path / "b";
+    const fs::path a = folder / "a", b = folder / "b";
     write(a, "1");
     FileWatch watch(0.0);
     watch.watch({a});

@@ -1,35 +1,6 @@
 #!/usr/bin/env bash
 # The programs as their users call them: options, exit codes, messages, files. $1: folder of the programs, $2: sources.
-set -uo pipefail
-bin=$1
-sources=$2
-export BOLTWRIGHT_CONTENT=$sources/content
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failed=0
-passed=0
-
-# expect CODE 'pattern of what it says' command...
-expect() {
-    local code=$1 pattern=$2
-    shift 2
-    local said status
-    said=$("$@" 2>&1)
-    status=$?
-    if [[ $status -eq $code ]] && grep -qE -- "$pattern" <<<"$said"; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $* -> exit $status, wanted $code and /$pattern/"
-        head -5 <<<"$said"
-    fi
-}
-check() {  # check 'what' command...
-    local what=$1
-    shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $what"; fi
-}
+. "$(dirname "$0")/checks.sh"
 
 # The author's tool.
 expect 0 '"preload_kN":80\.8' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12 --json
@@ -114,6 +85,8 @@ expect 0 '"guide": true' cat a/summary.json
 expect 0 'all as they were recorded' "$bin/boltwright" replay solid/session.boltwright
 film=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright" replay)  # Vulkan drivers keep memory for good
 expect 0 'now.png' "${film[@]}" solid/session.boltwright --at 8 --png now.png --size 160x90 --validate
+expect 0 'both.png' "${film[@]}" solid/session.boltwright --at 8 --png both.png --size 160x90 --stereo --validate
+check "both eyes are side by side: 320 wide" bash -c '[[ $(od -An -tu1 -j16 -N4 both.png) =~ ^\ +0\ +0\ +1\ +64$ ]]'
 check "the picture is there" test -s now.png
 expect 0 'film.mp4: 3 pictures, with sound' "${film[@]}" solid/session.boltwright --from 2 --until 2.25 --rate 10 --video film.mp4 --size 64x36
 check "the film is there" test -s film.mp4
@@ -341,5 +314,4 @@ for delay in 0.05 0.15 0.3; do
     fi
 done
 
-echo "$passed passed, $failed failed"
-[[ $failed -eq 0 ]]
+tell_and_leave

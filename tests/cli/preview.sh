@@ -1,45 +1,14 @@
 #!/usr/bin/env bash
 # bolt-author preview as an author uses it: a window, hands at mouse and keyboard, files that change. Runs under
 # tests/with_screen.sh. $1: folder of the programs, $2: sources. What is waited for may take any time up to two minutes.
-set -uo pipefail
-bin=$1
-sources=$2
-export BOLTWRIGHT_CONTENT=$sources/content ASAN_OPTIONS=detect_leaks=0
-work=$(mktemp -d)
-preview=
-trap '[[ -z $preview ]] || kill $preview 2>/dev/null; rm -rf "$work"' EXIT
-cd "$work"
-failed=0
-passed=0
-
-check() {  # check 'what' command...
-    local what=$1
-    shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $what"; fi
-}
-expect() {  # expect CODE 'pattern' command...
-    local code=$1 pattern=$2 said status
-    shift 2
-    said=$("$@" 2>&1)
-    status=$?
-    check "$* -> exit $status, wanted $code and /$pattern/: $said" \
-        bash -c '[[ $1 -eq $2 ]] && grep -qE -- "$3" <<<"$4"' - "$status" "$code" "$pattern" "$said"
-}
-within() {  # a command, until it succeeds
-    local i
-    for ((i = 0; i < 600; i++)); do
-        "$@" && return
-        [[ -z $preview ]] || kill -0 $preview 2>/dev/null || return 1
-        sleep 0.2
-    done
-    return 1
-}
+. "$(dirname "$0")/checks.sh"
+export ASAN_OPTIONS=detect_leaks=0
 
 # The window: it is the only one, and without a window manager it is where it wants to be.
 start() {  # start what option...
     "$bin/bolt-author" preview "$@" --validate >said 2>&1 &
-    preview=$!
-    within has_window || { echo "no window:"; cat said; exit 1; }
+    player=$!
+    eventually has_window || { echo "no window:"; cat said; exit 1; }
 }
 has_window() { window=$(xdotool search --name 'preview|broken' 2>/dev/null | head -1) && [[ -n $window ]]; }
 title() { xdotool getwindowname "$window"; }
@@ -66,11 +35,11 @@ settle() {
 ends_well() {
     local i status
     xdotool key Escape
-    for ((i = 0; i < 600; i++)); do kill -0 $preview 2>/dev/null || break; sleep 0.2; done
-    kill $preview 2>/dev/null
-    wait $preview
+    for ((i = 0; i < 600; i++)); do kill -0 $player 2>/dev/null || break; sleep 0.2; done
+    kill $player 2>/dev/null
+    wait $player
     status=$?
-    preview=
+    player=
     [[ $status -eq 0 ]] || { echo "exit $status"; cat said; return 1; }
 }
 # At the level of detail that preview draws.
@@ -99,79 +68,79 @@ expect 0 'images, of at least' "$bin/boltwright" doctor --seconds 0
 start cover-m8 --size 320x200
 check "the window says what it shows" [ "$(title)" = 'cover-m8 - bolt-author preview' ]
 render cover-m8 --size 320x200 --png all.png
-check "all of it is shown first" within shows all.png
+check "all of it is shown first" eventually shows all.png
 xdotool key 2
-check "2 is the second view" within shows top.png
+check "2 is the second view" eventually shows top.png
 xdotool key 1
-check "1 is the first" within shows front.png
+check "1 is the first" eventually shows front.png
 xdotool mousemove 160 100 mousedown 1 mousemove 220 110 mouseup 1
-check "dragging turns it" within shows_not front.png
+check "dragging turns it" eventually shows_not front.png
 check "... and comes to rest" settle
 cp after.png turned.png
 xdotool key 1
-within shows front.png
+eventually shows front.png
 xdotool mousemove 160 100 mousedown 3 mousemove 220 110 mouseup 3
-check "dragging with the right button moves it" within shows_not front.png
+check "dragging with the right button moves it" eventually shows_not front.png
 settle
 check "... which is something else" bash -c '! cmp -s after.png turned.png'
 cp after.png moved.png
 xdotool key 1
-within shows front.png
+eventually shows front.png
 xdotool mousemove 160 100 mousedown 2 mousemove 220 110 mouseup 2
-check "the middle button does what the right one does" within shows moved.png
+check "the middle button does what the right one does" eventually shows moved.png
 xdotool mousemove 60 60 click 4 click 4 click 4
-check "the wheel goes nearer" within shows_not moved.png
+check "the wheel goes nearer" eventually shows_not moved.png
 settle
 cp after.png near.png
 xdotool click 5 click 5 click 5
-check "... and back to the same place" within shows moved.png
+check "... and back to the same place" eventually shows moved.png
 xdotool key 1 key f
-check "F shows all of it again" within shows_not front.png
+check "F shows all of it again" eventually shows_not front.png
 xdotool key 2
-within shows top.png
+eventually shows top.png
 xdotool windowsize "$window" 500 260
 render cover-m8 --view top --size 500x260 --png wide.png
-check "another size: the same view in it" within shows wide.png
+check "another size: the same view in it" eventually shows wide.png
 xdotool key F11
 render cover-m8 --view top --size 1280x800 --png whole.png
-check "F11 takes the screen" within shows whole.png
+check "F11 takes the screen" eventually shows whole.png
 xdotool key F11
-check "... and gives it back" within shows wide.png
+check "... and gives it back" eventually shows wide.png
 xdotool key l
-check "L is the far level" within grep -q 'read cover-m8 again' said
-check "... which looks nearly the same" within shows_not wide.png
+check "L is the far level" eventually grep -q 'read cover-m8 again' said
+check "... which looks nearly the same" eventually shows_not wide.png
 xdotool key l
-check "... and back" within shows wide.png
+check "... and back" eventually shows wide.png
 check "Esc closes" ends_well
 
 # Files that change under it.
 cp -r "$sources/content/assemblies/cover-m8" mine
 start mine --view top --size 320x200
-check "a folder of one's own" within shows top.png
+check "a folder of one's own" eventually shows top.png
 sed -i 's/"name": "top", "eye_mm": \[0, 500, 1\]/"name": "top", "eye_mm": [200, 300, 1]/' mine/assembly.json
-check "a saved assembly.json is read" within grep -q 'read mine again' said
+check "a saved assembly.json is read" eventually grep -q 'read mine again' said
 xdotool key 2
 render mine --view top --size 320x200 --png moved_view.png
-check "... and its view is the new one" within shows moved_view.png
+check "... and its view is the new one" eventually shows moved_view.png
 cp mine/cover-m8.glb good.glb
 cp "$sources/content/tools/wrench-13.glb" new.glb && mv new.glb mine/cover-m8.glb
 render mine --view top --size 320x200 --png wrench.png
-check "a model that is renamed over the old one is shown" within shows wrench.png
+check "a model that is renamed over the old one is shown" eventually shows wrench.png
 head -c 1000 good.glb > mine/cover-m8.glb
 says_broken() { [[ $(title) == *"broken: "*cover-m8.glb* ]]; }
-check "half a model: the title says so" within says_broken
+check "half a model: the title says so" eventually says_broken
 check "... the terminal too" grep -q 'mine/cover-m8.glb: ' said
 check "... and the last good picture stays" shows wrench.png
 cp good.glb mine/cover-m8.glb
-check "mended, it is shown" within shows moved_view.png
+check "mended, it is shown" eventually shows moved_view.png
 says_well() { [[ $(title) == 'mine - bolt-author preview' ]]; }
-check "... and the title is as it was" within says_well
+check "... and the title is as it was" eventually says_well
 sed -i 's/"model": /"modle": /' mine/assembly.json
 says_where() { [[ $(title) == *"broken: mine/assembly.json:"*:*modle* ]]; }
-check "a mistake in assembly.json is told with its place" within says_where
+check "a mistake in assembly.json is told with its place" eventually says_where
 check "... and the last good picture stays" shows moved_view.png
 sed -i 's/"modle": /"model": /' mine/assembly.json
-check "mended" within says_well
+check "mended" eventually says_well
 check "Esc closes" ends_well
 
 # A light that changes, and shaders.
@@ -179,17 +148,17 @@ cp "$sources/content/environments/workshop.hdr" light.hdr
 cp -r "$sources/shaders" shaders
 start cover-m8 --view top --size 320x200 --light light.hdr --shaders shaders
 render cover-m8 --view top --size 320x200 --light "$sources/content/environments/workshop.hdr" --png lit.png
-check "lit by a file, drawn with shaders from a folder" within shows lit.png
+check "lit by a file, drawn with shaders from a folder" eventually shows lit.png
 echo rubbish > light.hdr
 says_light() { [[ $(title) == *"broken: light.hdr"* ]]; }
-check "a broken light is told" within says_light
+check "a broken light is told" eventually says_light
 check "... and the old one stays" shows lit.png
 cp "$sources/content/environments/workshop.hdr" light.hdr
 says_well() { [[ $(title) == 'cover-m8 - bolt-author preview' ]]; }
-check "mended" within says_well
+check "mended" eventually says_well
 sed -i 's/^void main() {/void main() { nonsense;/' shaders/light.frag
 says_shader() { [[ $(title) == *"broken: "*light.frag* ]]; }
-check "a shader that does not compile is told" within says_shader
+check "a shader that does not compile is told" eventually says_shader
 check "... by the compiler's words" grep -q "'nonsense' : undeclared identifier" said
 check "... and the old one stays" shows lit.png
 sed -i 's/^void main() { nonsense;/void main() { color_out = vec4(1, 0, 0, 1); return;/' shaders/light.frag
@@ -197,9 +166,8 @@ is_red() {
     shoot now.png && "$bin/bolt-imagediff" red.png now.png --most-flip 0.004 >/dev/null 2>&1
 }
 "$bin/bolt-author" preview cover-m8 --view top --size 320x200 --shaders shaders --png red.png >/dev/null
-check "a changed shader is seen at once" within is_red
+check "a changed shader is seen at once" eventually is_red
 check "... and is not what was there before" bash -c '! cmp -s red.png lit.png'
 check "Esc closes" ends_well
 
-echo "$passed passed, $failed failed"
-[[ $failed -eq 0 ]]
+tell_and_leave

@@ -1,29 +1,8 @@
 #!/usr/bin/env bash
 # A lesson in a window outlives what happens to programs: killed, no room for its session, the display gone.
 # survives.sh BIN SOURCES, on a screen of its own (with_screen.sh); the last case starts another.
-set -uo pipefail
-bin=$1
-tests=$2/tests
-export BOLTWRIGHT_CONTENT=$2/content
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-check() {
-    local what=$1
-    shift
-    "$@" && return
-    echo "FAILED: $what"
-    failed=1
-}
-# Until it is so, for two minutes at most.
-eventually() {
-    for _ in $(seq 1200); do
-        "$@" && return
-        sleep 0.1
-    done
-    return 1
-}
+. "$(dirname "$0")/checks.sh"
+
 said() { grep -q "$2" "$1.log"; }
 play() { exec "$bin/boltwright" train cover-m8 --start --silent --size 320x200 --out "$1" 2>"$1.log" >"$1.said"; }
 ticks() { "$bin/boltwright" export "$1/session.boltwright" --csv - | tail -n +2 | wc -l; }
@@ -63,7 +42,7 @@ check 'a session without room is replayed' replays full
 check 'a session without room is reported' reports full
 
 # The display ends: whoever kills with_screen.sh's own server takes it from the lesson.
-BIN=$bin BOLTWRIGHT_CONTENT=$BOLTWRIGHT_CONTENT "$tests/with_screen.sh" bash -c '
+BIN=$bin BOLTWRIGHT_CONTENT=$BOLTWRIGHT_CONTENT "$sources/tests/with_screen.sh" bash -c '
     "$BIN/boltwright" train cover-m8 --start --silent --size 320x200 --out gone 2>gone.log >gone.said &
     lesson=$!
     for _ in $(seq 1200); do grep -q step_begin gone.log && [[ -s gone/session.boltwright-wal ]] && break; sleep 0.1; done
@@ -77,4 +56,4 @@ check 'the lesson was ended, and its session sealed, with a report' whole gone
 check 'it is replayed' replays gone
 check 'it is reported' reports gone
 [[ ! -s gone.complaint ]] || check "nothing is missing: $(cat gone.complaint)" false
-exit $failed
+tell_and_leave

@@ -9,6 +9,7 @@
 #include "game/record/session.hpp"
 #include "tests/compare/curves.hpp"
 #include "tests/report/well_formed.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::compare;
@@ -17,7 +18,8 @@ namespace {
 
 // A session in which the cover's joint B2 was loosened as curves.hpp has it, and nothing else was done.
 struct Loosened {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / "boltwright_compare.bolt";
+    test::Folder folder;
+    std::filesystem::path path = folder / "loosened.boltwright";
     static constexpr double start = 4000.0;  // degrees of nut angle
 
     Loosened() {
@@ -34,7 +36,6 @@ struct Loosened {
         for (double back = 0.0; back <= 200.0; back += 0.1) put(*writer, back, loosening_torque(back));
         REQUIRE(writer->finish({}));
     }
-    ~Loosened() { std::filesystem::remove(path); }
 
     static void put(record::Writer& writer, double back, double torque) {
         record::TickRecord tick;

@@ -11,6 +11,7 @@
 #include "content/format/new_assembly.hpp"
 #include "engine/base/file.hpp"
 #include "support.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 namespace fs = std::filesystem;
@@ -19,12 +20,11 @@ namespace {
 
 // A content folder of its own, with an assembly in it and one beside it; $BOLTWRIGHT_CONTENT while it lives.
 struct World {
-    fs::path root = fs::temp_directory_path() / ("boltwright-files-" + std::to_string(::getpid()));
+    test::Folder root;
     fs::path inside = root / "content" / "assemblies" / "pump", outside = root / "elsewhere";
     std::string before = content::content_folder().string();
 
     World() {
-        fs::remove_all(root);
         for (const fs::path& folder :
              {inside, outside, root / "content" / "tools", root / "content" / "schema"})
             fs::create_directories(folder);
@@ -38,11 +38,7 @@ struct World {
     }
     World(const World&) = delete;
     World& operator=(const World&) = delete;
-    ~World() {
-        ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1);
-        std::error_code ignored;
-        fs::remove_all(root, ignored);
-    }
+    ~World() { ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1); }
     void touch(const char* name) const { REQUIRE(write_file(root / name, "x")); }
 };
 

@@ -11,26 +11,13 @@
 #include "content/format/new_assembly.hpp"
 #include "engine/base/file.hpp"
 #include "support.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 namespace fs = std::filesystem;
+using test::Folder;
 
 namespace {
-
-// An empty folder that goes with the test.
-struct Folder {
-    fs::path path = fs::temp_directory_path() / ("boltwright-content-" + std::to_string(::getpid()));
-    Folder() {
-        fs::remove_all(path);
-        fs::create_directories(path);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-};
 
 // $BOLTWRIGHT_CONTENT for as long as this lives; the tests may themselves be run with one.
 struct ContentVariable {
@@ -101,12 +88,12 @@ TEST_CASE("an assembly that is not there: the nearest, and all that are") {
 
 TEST_CASE("a folder without the file, a file that cannot be read") {
     const Folder folder;
-    CHECK(only_error(folder.path).message() ==
-          folder.path.string() + ": this folder has no assembly.json; expected a folder of an assembly");
-    fs::create_directories(folder.path / "sub" / "assembly.json");
-    CHECK(only_error(folder.path / "sub").what == "this is a folder, not a file");
-    fs::create_symlink("nowhere", folder.path / "assembly.json");
-    CHECK(content::load_assembly(folder.path).errors.size() == 1);
+    CHECK(only_error(folder.path()).message() ==
+          folder.path().string() + ": this folder has no assembly.json; expected a folder of an assembly");
+    fs::create_directories(folder.path() / "sub" / "assembly.json");
+    CHECK(only_error(folder / "sub").what == "this is a folder, not a file");
+    fs::create_symlink("nowhere", folder / "assembly.json");
+    CHECK(content::load_assembly(folder.path()).errors.size() == 1);
 }
 
 TEST_CASE("a session is told from an assembly, however large it is") {
@@ -114,14 +101,14 @@ TEST_CASE("a session is told from an assembly, however large it is") {
     std::string session("SQLite format 3", 16);
     for (const std::size_t size : {std::size_t{16}, std::size_t{5U << 20U}}) {
         session.resize(size);
-        REQUIRE(write_file(folder.path / "session.boltwright", session));
-        CHECK(only_error(folder.path / "session.boltwright").message() ==
-              (folder.path / "session.boltwright").string() +
+        REQUIRE(write_file(folder / "session.boltwright", session));
+        CHECK(only_error(folder / "session.boltwright").message() ==
+              (folder / "session.boltwright").string() +
                   ": this is a session, not an assembly; expected the folder of an assembly, or its "
                   "assembly.json");
     }
-    REQUIRE(write_file(folder.path / "text", "SQLite"));
-    CHECK(only_error(folder.path / "text").what == "unknown word \"SQLite\"");
+    REQUIRE(write_file(folder / "text", "SQLite"));
+    CHECK(only_error(folder / "text").what == "unknown word \"SQLite\"");
 }
 
 TEST_CASE("a variant that is not there") {
@@ -151,7 +138,7 @@ TEST_CASE("a new assembly loads without a mistake and carries its name") {
     const Folder folder;
     for (const char* name : {"pump", "a \"quoted\" pump", "Pumpe für Öl", "broken \xFF name"}) {
         CAPTURE(name);
-        const fs::path made = folder.path / "new";
+        const fs::path made = folder / "new";
         fs::remove_all(made);
         REQUIRE(content::create_assembly(made, name));
         const auto loaded = content::load_assembly(made);
@@ -166,48 +153,48 @@ TEST_CASE("a new assembly loads without a mistake and carries its name") {
 
 TEST_CASE("a new assembly never overwrites anything") {
     const Folder folder;
-    REQUIRE(write_file(folder.path / "kept", "x"));
-    const Status over_folder = content::create_assembly(folder.path, "pump");
+    REQUIRE(write_file(folder / "kept", "x"));
+    const Status over_folder = content::create_assembly(folder.path(), "pump");
     REQUIRE_FALSE(over_folder);
     CHECK(over_folder.error().message() ==
-          folder.path.string() + ": this folder is not empty; expected a folder that is new or empty");
-    const Status over_file = content::create_assembly(folder.path / "kept", "pump");
+          folder.path().string() + ": this folder is not empty; expected a folder that is new or empty");
+    const Status over_file = content::create_assembly(folder / "kept", "pump");
     REQUIRE_FALSE(over_file);
     CHECK(over_file.error().what == "this is a file");
     CHECK_FALSE(content::create_assembly({}, "pump"));
-    CHECK_FALSE(content::create_assembly(folder.path / "new", ""));
-    CHECK_FALSE(content::create_assembly(folder.path / "kept" / "below", "pump"));
-    fs::create_directories(folder.path / "empty");
-    CHECK(content::create_assembly(folder.path / "empty" / "", "pump"));
-    CHECK(fs::exists(folder.path / "empty" / "assembly.json"));
+    CHECK_FALSE(content::create_assembly(folder / "new", ""));
+    CHECK_FALSE(content::create_assembly(folder.path() / "kept" / "below", "pump"));
+    fs::create_directories(folder / "empty");
+    CHECK(content::create_assembly(folder.path() / "empty" / "", "pump"));
+    CHECK(fs::exists(folder.path() / "empty" / "assembly.json"));
 }
 
 TEST_CASE("a new assembly that cannot be written leaves nothing behind") {
     const Folder folder;
-    fs::create_directories(folder.path / "empty");
+    fs::create_directories(folder / "empty");
     // The limit on the size of a file stands for a disk that is full: the small file fits, the schema does
     // not.
     for (const rlim_t size : {rlim_t{100}, rlim_t{10'000}}) {
         CAPTURE(size);
         const FileSizeLimit limit(size);
-        CHECK_FALSE(content::create_assembly(folder.path / "new" / "below", "pump"));
-        CHECK_FALSE(fs::exists(folder.path / "new"));
-        CHECK_FALSE(content::create_assembly(folder.path / "empty", "pump"));
-        CHECK(fs::is_empty(folder.path / "empty"));  // it was there before
+        CHECK_FALSE(content::create_assembly(folder.path() / "new" / "below", "pump"));
+        CHECK_FALSE(fs::exists(folder / "new"));
+        CHECK_FALSE(content::create_assembly(folder / "empty", "pump"));
+        CHECK(fs::is_empty(folder / "empty"));  // it was there before
     }
-    CHECK(content::create_assembly(folder.path / "new" / "below", "pump"));
+    CHECK(content::create_assembly(folder.path() / "new" / "below", "pump"));
 }
 
 TEST_CASE("beside the other assemblies the common schema is used") {
     const Folder folder;
-    fs::create_directories(folder.path / "schema");
-    fs::create_directories(folder.path / "assemblies");
+    fs::create_directories(folder / "schema");
+    fs::create_directories(folder / "assemblies");
     fs::copy_file(content::content_folder() / "schema" / "assembly.schema.json",
-                  folder.path / "schema" / "assembly.schema.json");
-    const ContentVariable variable(folder.path.c_str());
-    REQUIRE(content::create_assembly(folder.path / "assemblies" / "pump", "pump"));
+                  folder.path() / "schema" / "assembly.schema.json");
+    const ContentVariable variable(folder.path().c_str());
+    REQUIRE(content::create_assembly(folder.path() / "assemblies" / "pump", "pump"));
     const auto loaded = content::load_assembly("pump");
     CHECK(loaded.ok());
     CHECK(loaded.assembly.text.find("\"../../schema/assembly.schema.json\"") != std::string::npos);
-    CHECK_FALSE(fs::exists(folder.path / "assemblies" / "pump" / "assembly.schema.json"));
+    CHECK_FALSE(fs::exists(folder.path() / "assemblies" / "pump" / "assembly.schema.json"));
 }

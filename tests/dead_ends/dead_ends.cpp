@@ -2,7 +2,6 @@
 //
 // BOLT_TRAINEES=2000 lives as many as that, BOLT_FIRST_TRAINEE those from this one on.
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,13 +11,14 @@
 
 #include "tests/dead_ends/desk.hpp"
 #include "tests/dead_ends/life.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
 
 namespace dead_ends {
 
 Life live(const Person& who, const content::Assembly& assembly, Met& met) {
-    const auto file = std::filesystem::temp_directory_path() /
-                      ("boltwright-test-dead-ends-" + std::to_string(getpid()) + ".boltwright");
+    const bolt::test::Folder folder;
+    const auto file = folder / "life.boltwright";
     Life life;
     {
         auto begun = play::Course::begin(assembly, who.course, file);

@@ -10,10 +10,12 @@
 #include "haptics/device/puck.hpp"
 #include "haptics/hand/closing.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/folder.hpp"
 #include "tools/emulate/glove_line.hpp"
 
 using namespace bolt;
 using namespace bolt::station;
+using test::Folder;
 
 namespace {
 
@@ -22,18 +24,6 @@ content::Assembly assembly(const std::string& name) {
     REQUIRE(loaded.ok());
     return std::move(loaded.assembly);
 }
-
-// A folder of this test's own.
-struct Folder {
-    std::filesystem::path path;
-    explicit Folder(const char* name) : path(std::filesystem::temp_directory_path() / name) {
-        std::filesystem::remove_all(path);
-        std::filesystem::create_directories(path);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder() { std::filesystem::remove_all(path); }
-};
 
 std::string wrong(const content::Assembly& what, const Wanted& wanted) {
     const Result<Planned> planned = make_plan(what, wanted);
@@ -128,12 +118,12 @@ TEST_CASE("a plan can be started: with no device chosen, what stands in for it m
 TEST_CASE("what is wrong with a plan is said before anything is opened") {
     const content::Assembly what = assembly("cover-m8");
     CHECK(wrong(what, {.devices = {"256f:0000"}}).find("boltwright devices") != std::string::npos);
-    const Folder folder("boltwright test plan");
-    const auto rig = folder.path / "rig.json";
+    const Folder folder;
+    const auto rig = folder / "rig.json";
     REQUIRE(write_file(rig, "{\"format\": \"boltwright rig 1\", \"most_torque_Nm\": 400}"));
     CHECK(wrong(what, {.rig = rig}).find("rig.json:1:") != std::string::npos);
     CHECK(wrong(what, {.glove = "/dev/null"}).find("no serial port") != std::string::npos);
-    CHECK(wrong(what, {.glove = folder.path / "none"}).find("adapter plugged in?") != std::string::npos);
+    CHECK(wrong(what, {.glove = folder / "none"}).find("adapter plugged in?") != std::string::npos);
     content::Assembly bare = assembly("cover-m8");
     bare.wrench.model.clear();
     CHECK(!hand_plan(bare, calibration(glove::Hand::right, 22)));
@@ -141,16 +131,16 @@ TEST_CASE("what is wrong with a plan is said before anything is opened") {
 
 TEST_CASE("a glove's hand is the trainee's whose calibration is kept, of that hand and that many sensors") {
     const content::Assembly what = assembly("cover-m8");
-    const Folder folder("boltwright test gloves");
+    const Folder folder;
     auto line = emulate::GloveLine::start({.sensors = 22, .hand = glove::Hand::left});
     REQUIRE(line);
     Wanted wanted;
     wanted.glove = line->port();
     CHECK(!make_plan(what, wanted)->plan.hand);
     wanted.trainee = "Ada";
-    wanted.calibrations = folder.path;
+    wanted.calibrations = folder.path();
     const auto keep = [&](glove::Hand hand, std::size_t sensors) {
-        REQUIRE(content::save_glove_calibration(content::glove_calibration_path(folder.path, "Ada", hand),
+        REQUIRE(content::save_glove_calibration(content::glove_calibration_path(folder.path(), "Ada", hand),
                                                 calibration(hand, sensors)));
     };
     keep(glove::Hand::right, 22);

@@ -1,12 +1,12 @@
 // Budgets, names at every level, contact models that are closed; and files that are none.
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
 
 #include "engine/base/file.hpp"
 #include "support.hpp"
+#include "tests/support/folder.hpp"
 #include "tools/geometry/scene.hpp"
 #include "tools/geometry/watertight.hpp"
 
@@ -100,9 +100,7 @@ TEST_CASE("open edges are counted") {
 }
 
 TEST_CASE("a file that is no glTF is said at the place that names it") {
-    const auto root =
-        std::filesystem::temp_directory_path() / ("boltwright-levels-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(root);
+    const test::Folder root;
     REQUIRE(write_file(root / "bad.glb", "nothing of the kind"));
     std::string text = R"({"title": {"en": "x"},
 "model": "bad.glb"})";
@@ -111,7 +109,6 @@ TEST_CASE("a file that is no glTF is said at the place that names it") {
     assembly.file = (root / "assembly.json").string();
     assembly.models.model = (root / "bad.glb").string();
     const auto findings = geometry::check_geometry(assembly);
-    std::filesystem::remove_all(root);
     REQUIRE(findings.errors.size() == 1);
     CHECK(findings.errors[0].line == 2);
     CHECK(findings.errors[0].column == 10);

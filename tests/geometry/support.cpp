@@ -10,6 +10,7 @@
 
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
+#include "tests/support/folder.hpp"
 
 namespace geometry_test {
 
@@ -81,23 +82,18 @@ int add_mesh(assets::Model& model, const Shape& shape) {
 
 // A content folder of the test's own, for as long as it lives.
 struct World {
-    fs::path root = fs::temp_directory_path() / ("boltwright-geometry-" + std::to_string(::getpid()));
+    test::Folder root;
     std::string before = content::content_folder().string();
     fs::path folder = root / "assemblies" / "machine";
 
     World() {
-        fs::remove_all(root);
         for (const fs::path& made : {root / "schema", root / "tools", folder}) fs::create_directories(made);
         REQUIRE(write_file(root / "schema" / "assembly.schema.json", "{}"));
-        ::setenv("BOLTWRIGHT_CONTENT", root.c_str(), 1);
+        ::setenv("BOLTWRIGHT_CONTENT", root.path().c_str(), 1);
     }
     World(const World&) = delete;
     World& operator=(const World&) = delete;
-    ~World() {
-        ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1);
-        std::error_code ignored;
-        fs::remove_all(root, ignored);
-    }
+    ~World() { ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1); }
 };
 
 std::vector<std::string> without_file(const std::vector<Error>& errors) {

@@ -1,15 +1,17 @@
 #include "haptics/glove/adapter.hpp"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <fstream>
+
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 namespace fs = std::filesystem;
 
 TEST_CASE("an adapter's patience is read by the port's real name; what is no adapter has none") {
-    const fs::path folder = fs::temp_directory_path() / ("boltwright-adapter-" + std::to_string(getpid()));
+    const test::Folder kept;
+    const fs::path& folder = kept.path();
     fs::create_directories(folder / "devices" / "ttyUSB3");
     std::ofstream(folder / "ttyUSB3") << "";
     std::ofstream(folder / "devices" / "ttyUSB3" / "latency_timer") << "16\n";
@@ -18,7 +20,6 @@ TEST_CASE("an adapter's patience is read by the port's real name; what is no ada
     CHECK_FALSE(glove::gathers_ms(folder / "ttyUSB4", folder / "devices"));
     std::ofstream(folder / "devices" / "ttyUSB3" / "latency_timer") << "none\n";
     CHECK_FALSE(glove::gathers_ms(folder / "ttyUSB3", folder / "devices"));
-    fs::remove_all(folder);
 }
 
 TEST_CASE("a port that is not there is told from one that may be used") {

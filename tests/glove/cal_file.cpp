@@ -3,11 +3,15 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "tests/support/replaced.hpp"
+
 using namespace bolt;
 using namespace bolt::glove;
+using test::replaced;
 
 namespace {
 
+// Word 1 is "Thumb_0", so the sixth is the offset and the ninth the gain.
 std::string sample() {
     std::string text = "CyberGlove calibration\n";
     int n = 0;
@@ -17,13 +21,6 @@ std::string sample() {
             text += fmt::format("  {}_{} a b c d {}.5 e f {} g\n", block, i, 50 + n, -0.01 - 0.0001 * n);
     }
     return text;
-}
-
-// Word 1 is "Thumb_0", so the sixth is the offset and the ninth the gain.
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
 }
 
 }  // namespace

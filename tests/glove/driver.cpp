@@ -10,6 +10,7 @@
 
 #include "haptics/glove/serial_line.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/folder.hpp"
 #include "tools/emulate/glove_line.hpp"
 
 using namespace bolt;
@@ -39,9 +40,8 @@ TEST_CASE("driver: gloves of both sizes and hands, over a real line") {
 }
 
 TEST_CASE("driver: a glove that stalls, and one whose port goes and comes back under the same name") {
-    const auto name =
-        std::filesystem::temp_directory_path() /
-        ("boltwright-glove-" + std::to_string(std::hash<std::thread::id>{}(std::this_thread::get_id())));
+    const test::Folder folder;
+    const auto name = folder / "glove";
     const auto plug_in = [&](const emulate::GloveLine& line) {
         std::filesystem::remove(name);
         std::filesystem::create_symlink(line.port(), name);

@@ -6,27 +6,13 @@
 
 #include "engine/base/random.hpp"
 #include "tests/golden/stage.hpp"
+#include "tests/support/folder.hpp"
 #include "tools/imagediff/compare.hpp"
 
 using namespace bolt;
+using test::Folder;
 
 namespace {
-
-// A folder of its own, gone when the test is.
-struct Folder {
-    std::filesystem::path path;
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "bolt-golden-XXXXXX").string();
-        REQUIRE(mkdtemp(name.data()) != nullptr);
-        path = name;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-};
 
 render::Picture noise() {
     render::Picture picture{40, 30, {}};
@@ -38,7 +24,7 @@ render::Picture noise() {
 
 // A gallery whose one reference is that picture.
 test::Gallery with_reference(const Folder& folder, const render::Picture& picture) {
-    test::Gallery gallery{folder.path / "references", folder.path / "failures", "driver A", "driver A", true};
+    test::Gallery gallery{folder / "references", folder / "failures", "driver A", "driver A", true};
     REQUIRE(test::hold(gallery, "noise", picture).passes);
     gallery.update = false;
     return gallery;

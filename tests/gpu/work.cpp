@@ -12,6 +12,7 @@
 #include "engine/gpu/transfer.hpp"
 #include "tests/gpu/shaders.hpp"
 #include "tests/gpu/support.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::gpu;
@@ -256,9 +257,8 @@ TEST_CASE("images come back as they went, and the mips are their means") {
 
 TEST_CASE("the pipeline cache is found again, and a foreign or broken one is ignored") {
     test::Gpu gpu;
-    const auto folder = std::filesystem::temp_directory_path() / "boltwright_pipeline_cache_test";
+    const test::Folder folder;
     const auto file = folder / "deep" / "pipelines.bin";
-    std::filesystem::remove_all(folder);
     const Shader shader = gpu.need(make_shader("double.comp", test_shaders("double.comp")));
     {
         const PipelineCache cache = gpu.need(PipelineCache::open(gpu.device(), file));
@@ -275,7 +275,6 @@ TEST_CASE("the pipeline cache is found again, and a foreign or broken one is ign
     const PipelineCache cache = gpu.need(PipelineCache::open(gpu.device(), file));
     CHECK_FALSE(cache.restored());
     (void)gpu.need(make_compute_pipeline(gpu.device(), cache, shader));
-    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("the check itself can fail: validation sees a wrong layout and a missing barrier") {

@@ -12,25 +12,14 @@
 
 #include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
+#include "tests/support/folder.hpp"
 #include "tools/import/import_step.hpp"
 
 namespace import_test {
 
 using namespace bolt;
 
-// An empty folder that goes away with the test.
-class Folder {
-  public:
-    Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder();
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
+using bolt::test::Folder;
 
 class StepMaker {
   public:

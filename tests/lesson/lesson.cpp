@@ -11,6 +11,7 @@
 #include "game/play/summary.hpp"
 #include "game/play/train.hpp"
 #include "game/record/session.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::lesson;
@@ -175,7 +176,8 @@ TEST_CASE("under the published law no target is beyond its end, and no angle of 
 }
 
 TEST_CASE("a recorded lesson replays from its inputs to the same bits") {
-    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-replay.boltwright";
+    const test::Folder folder;
+    const auto file = folder / "lesson.boltwright";
     play::TrainOptions options;
     options.trainee = operators::find_profile("expert").value();
     options.course.seed = 9;

@@ -19,6 +19,7 @@
 #include "engine/base/file.hpp"
 #include "haptics/joint/fastener.hpp"
 #include "support.hpp"
+#include "tests/support/folder.hpp"
 #include "tools/models/cover/cover.hpp"
 #include "tools/models/flange/flange.hpp"
 #include "tools/models/solids.hpp"
@@ -35,12 +36,11 @@ struct Shipped {
 
 const Shipped shipped[] = {{"dn200-pn16", add_dn200_pn16}, {"cover-m8", add_cover_m8}};
 
-std::string written(const Shipped& model) {
+std::string written(const Shipped& model, const test::Folder& folder) {
     Document document(model.name);
     const Status built = model.build(document);
     REQUIRE_MESSAGE(built.has_value(), (built ? "" : built.error().message()));
-    const std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("bolt_test_models_" + model.name + ".step");
+    const std::filesystem::path path = folder / (model.name + ".step");
     const Status done = document.write_step(path.string());
     REQUIRE_MESSAGE(done.has_value(), (done ? "" : done.error().message()));
     return path.string();
@@ -163,15 +163,15 @@ TEST_CASE("the program writes the shipped file, byte for byte, without a date or
     for (const Shipped& model : shipped) {
         CAPTURE(model.name);
         constexpr std::size_t limit = std::size_t{1} << 28U;
-        const std::string path = written(model);
+        const test::Folder folder;
+        const std::string path = written(model, folder);
         const auto now = read_file(path, limit, ErrorCode::failed);
         const auto then = read_file(shipped_file(model.name), limit, ErrorCode::failed);
         REQUIRE(now);
         REQUIRE(then);
         CHECK(*now == *then);
         CHECK(now->find("2020-01-01T00:00:00") != std::string::npos);
-        CHECK(now->find(std::filesystem::temp_directory_path().string() + "/") == std::string::npos);
-        std::filesystem::remove(path);
+        CHECK(now->find(folder.path().string()) == std::string::npos);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "tests/pathtrace/about.hpp"
 #include "tests/pathtrace/shapes.hpp"
+#include "tests/support/folder.hpp"
 #include "tools/pathtrace/environment.hpp"
 
 using namespace bolt;
@@ -80,7 +81,8 @@ TEST_CASE("what makes no sense is refused as usage") {
 }
 
 TEST_CASE("a picture of light comes back from a .hdr file, within its eight bits") {
-    const auto path = std::filesystem::temp_directory_path() / "boltwright-pathtrace-test.hdr";
+    const test::Folder folder;
+    const auto path = folder / "light.hdr";
     const RadianceImage image = studio(32);
     REQUIRE(write_hdr(path, image));
     const auto read = read_hdr(path);

@@ -42,7 +42,7 @@ void record_hand(const std::filesystem::path& file) {
 }  // namespace
 
 TEST_CASE("a session's hand moves a station's tool again as it was moved, and holds and lets go as it did") {
-    const TempFolder folder;
+    const Folder folder;
     record_hand(folder / "a.session");
     const auto reader = Reader::open(folder / "a.session");
     REQUIRE(reader);
@@ -83,7 +83,7 @@ TEST_CASE("a session's hand moves a station's tool again as it was moved, and ho
 }
 
 TEST_CASE("a session without a tick is no device") {
-    const TempFolder folder;
+    const Folder folder;
     auto writer = Writer::create(folder / "a.session", sample_header(1e-3));
     REQUIRE(writer);
     REQUIRE(writer->finish({}));

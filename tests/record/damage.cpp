@@ -58,7 +58,7 @@ bool is_right_or_refused(const std::filesystem::path& path, const Contents& righ
     return read && events && result;
 }
 
-std::filesystem::path whole_session(const TempFolder& folder) {
+std::filesystem::path whole_session(const Folder& folder) {
     auto writer = create_script(folder / "whole.session");
     REQUIRE(writer);
     REQUIRE(play_script(*writer, 85));
@@ -69,7 +69,7 @@ std::filesystem::path whole_session(const TempFolder& folder) {
 }  // namespace
 
 TEST_CASE("flipped bits anywhere in a session are harmless or noticed") {
-    const TempFolder folder;
+    const Folder folder;
     const Contents right = contents_of(whole_session(folder));
     const std::string good = bytes_of(folder / "whole.session");
     Random random(99);
@@ -88,7 +88,7 @@ TEST_CASE("flipped bits anywhere in a session are harmless or noticed") {
 }
 
 TEST_CASE("runs of wrong bytes in a session are harmless or noticed") {
-    const TempFolder folder;
+    const Folder folder;
     const Contents right = contents_of(whole_session(folder));
     const std::string good = bytes_of(folder / "whole.session");
     Random random(100);
@@ -107,7 +107,7 @@ TEST_CASE("runs of wrong bytes in a session are harmless or noticed") {
 }
 
 TEST_CASE("a session cut off anywhere is refused") {
-    const TempFolder folder;
+    const Folder folder;
     const Contents right = contents_of(whole_session(folder));
     const std::string good = bytes_of(folder / "whole.session");
     for (std::size_t length = 0; length < good.size(); length += 1 + length / 8) {
@@ -120,7 +120,7 @@ TEST_CASE("a session cut off anywhere is refused") {
 }
 
 TEST_CASE("a damaged log gives a session that was cut short earlier, or an error") {
-    const TempFolder folder;
+    const Folder folder;
     auto writer = create_script(folder / "live.session");
     REQUIRE(writer);
     REQUIRE(play_script(*writer, 85));

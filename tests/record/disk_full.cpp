@@ -28,7 +28,7 @@ void check_refuses_alike(Writer& writer, const Error& first) {
 }  // namespace
 
 TEST_CASE("a disk that is full from any file operation on is an error, and what was committed is kept") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     int failures = 0;
     for (int at = 0;; ++at) {
@@ -71,7 +71,7 @@ TEST_CASE("a disk that is full from any file operation on is an error, and what 
 }
 
 TEST_CASE("a file that reaches the system's limit on size is an error, and what was committed is kept") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     const ChildEnd end = run_child([&](const auto& report) {
         ::signal(SIGXFSZ, SIG_IGN);

@@ -98,7 +98,7 @@ float number(const std::string& text) {
 }  // namespace
 
 TEST_CASE("an exported session reads back to the same ticks") {
-    const TempFolder folder;
+    const Folder folder;
     const std::vector<TickRecord> ticks = finite_ticks(2345);
     const Reader reader = recorded(folder / "a.session", ticks);
     const Rows rows = exported(reader, folder / "a.csv", 1);
@@ -135,7 +135,7 @@ TEST_CASE("an exported session reads back to the same ticks") {
 }
 
 TEST_CASE("every n-th tick is exported, across the seconds") {
-    const TempFolder folder;
+    const Folder folder;
     const Reader reader = recorded(folder / "a.session", finite_ticks(3100));
     for (const std::uint64_t every_n : {2U, 7U, 1000U, 1300U, 4000U}) {
         CAPTURE(every_n);
@@ -150,12 +150,12 @@ TEST_CASE("every n-th tick is exported, across the seconds") {
 }
 
 TEST_CASE("a session without ticks is exported as the header row") {
-    const TempFolder folder;
+    const Folder folder;
     CHECK(exported(recorded(folder / "a.session", {}), folder / "a.csv", 1).size() == 1);
 }
 
 TEST_CASE("an export that cannot be written is an error that names where to") {
-    const TempFolder folder;
+    const Folder folder;
     std::size_t count = 0;
     SUBCASE("more than a buffer") { count = 3000; }
     SUBCASE("so little that only the flush fails") { count = 1; }
@@ -179,7 +179,7 @@ TEST_CASE("an export that cannot be written is an error that names where to") {
 }
 
 TEST_CASE("a damaged session is exported up to the damage and then is an error") {
-    const TempFolder folder;
+    const Folder folder;
     const std::vector<TickRecord> ticks = finite_ticks(1000);
     { const Reader reader = recorded(folder / "a.session", ticks); }
     std::string bytes = bytes_of(folder / "a.session");

@@ -62,7 +62,7 @@ TEST_CASE("a process killed at any file operation leaves a session that opens") 
     for (int at = 0; survived < 0; ++at) {
         REQUIRE(at < 2000);
         CAPTURE(at);
-        const TempFolder folder;
+        const Folder folder;
         const auto path = folder / "a.session";
         script_session(path, old_ticks);
         const ChildEnd end = run_child([&](const auto& report) {
@@ -90,7 +90,7 @@ TEST_CASE("a process killed while it replaces a cut-short session loses nothing 
     for (int at = 0; survived < 0; ++at) {
         REQUIRE(at < 200);
         CAPTURE(at);
-        const TempFolder folder;
+        const Folder folder;
         const auto path = folder / "a.session";
         leave_cut_short(path, at % 2 == 0);
         const ChildEnd end = run_child([&](const auto&) {
@@ -115,7 +115,7 @@ TEST_CASE("a process killed while it replaces a cut-short session loses nothing 
 }
 
 TEST_CASE("a process killed at a random moment loses at most the last second") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     Random random(2024);
     for (int round = 0; round < 25; ++round) {

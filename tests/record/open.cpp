@@ -33,7 +33,7 @@ void run_sql(const std::filesystem::path& path, const char* sql) {
 }  // namespace
 
 TEST_CASE("what is no session is refused in words") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     CHECK(contains(refusal(path), "No such file"));
     CHECK(contains(refusal(folder.path()), "not a session file"));
@@ -49,7 +49,7 @@ TEST_CASE("what is no session is refused in words") {
 }
 
 TEST_CASE("another program's database is refused") {
-    const TempFolder folder;
+    const Folder folder;
     run_sql(folder / "other", "CREATE TABLE meta(key, value); INSERT INTO meta VALUES('state', 'complete')");
     CHECK(contains(refusal(folder / "other"), "another program"));
     run_sql(folder / "claims",
@@ -58,7 +58,7 @@ TEST_CASE("another program's database is refused") {
 }
 
 TEST_CASE("a session of a newer version is refused with both numbers") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = script_session(folder / "a.session", 5);
     run_sql(path, "PRAGMA user_version = 7");
     CHECK(contains(refusal(path), "newer version (its format is 7, this program reads 4)"));
@@ -67,7 +67,7 @@ TEST_CASE("a session of a newer version is refused with both numbers") {
 }
 
 TEST_CASE("a session with a gap, a lost row or an altered value is refused") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = script_session(folder / "a.session", 45);
     SUBCASE("a chunk from the middle") {
         run_sql(path, "DELETE FROM tick_chunk WHERE first_tick = 20");
@@ -92,7 +92,7 @@ TEST_CASE("a session with a gap, a lost row or an altered value is refused") {
 }
 
 TEST_CASE("an altered event or result is an error of its own; the rest stays readable") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = script_session(folder / "a.session", 45);
     run_sql(
         path,
@@ -110,7 +110,7 @@ TEST_CASE("an altered event or result is an error of its own; the rest stays rea
 }
 
 TEST_CASE("a damaged chunk is named, and the chunks before it are handed out") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = script_session(folder / "a.session", 45);
     run_sql(path,
             "UPDATE tick_chunk SET data = substr(data, 1, 100) || x'00' || substr(data, 102) "
@@ -127,7 +127,7 @@ TEST_CASE("a damaged chunk is named, and the chunks before it are handed out") {
 }
 
 TEST_CASE("a schema that calls functions is not obeyed") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = script_session(folder / "a.session", 5);
     run_sql(
         path,
@@ -139,7 +139,7 @@ TEST_CASE("a schema that calls functions is not obeyed") {
 }
 
 TEST_CASE("reading leaves complete and cut-short sessions as they were") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     bool complete = false;
     SUBCASE("complete") { script_session(path, 25), complete = true; }
@@ -160,7 +160,7 @@ TEST_CASE("reading leaves complete and cut-short sessions as they were") {
 }
 
 TEST_CASE("sessions open in a folder where nothing can be written") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     std::size_t ticks = 20;
     SUBCASE("complete") { script_session(path, 25), ticks = 25; }

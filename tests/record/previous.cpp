@@ -26,7 +26,7 @@ void check_session(const std::filesystem::path& path, bool complete, std::size_t
 
 using Names = std::set<std::string>;
 
-Names names_in(const TempFolder& folder) {
+Names names_in(const Folder& folder) {
     Names names;
     for (const auto& file : std::filesystem::directory_iterator(folder.path()))
         names.insert(file.path().filename().string());
@@ -36,7 +36,7 @@ Names names_in(const TempFolder& folder) {
 }  // namespace
 
 TEST_CASE("the session before is kept, complete or cut short, for one generation") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     const auto previous = folder / "a.previous.session";
     script_session(path, 25);
@@ -63,7 +63,7 @@ TEST_CASE("the session before is kept, complete or cut short, for one generation
 }
 
 TEST_CASE("the session before is there from the first moment of the new one") {
-    const TempFolder folder;
+    const Folder folder;
     script_session(folder / "a.session", 25);
     const auto writer = create_script(folder / "a.session");
     REQUIRE(writer);
@@ -72,7 +72,7 @@ TEST_CASE("the session before is there from the first moment of the new one") {
 }
 
 TEST_CASE("what a killed process left in a log is kept with its session") {
-    const TempFolder folder;
+    const Folder folder;
     leave_cut_short(folder / "a.session", true);
     SUBCASE("over nothing") {}
     SUBCASE("over the log of one kept before") {
@@ -86,7 +86,7 @@ TEST_CASE("what a killed process left in a log is kept with its session") {
 }
 
 TEST_CASE("a session without a single tick pushes nothing out") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     script_session(path, 25);
     for (int i = 0; i < 3; ++i) REQUIRE(create_script(path));
@@ -97,7 +97,7 @@ TEST_CASE("a session without a single tick pushes nothing out") {
 }
 
 TEST_CASE("what is damaged or no session is kept as it is") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     SUBCASE("a text file") { put_bytes(path, "not a session\n"); }
     SUBCASE("a session cut off") { put_bytes(path, bytes_of(script_session(path, 25)).substr(0, 9000)); }
@@ -109,7 +109,7 @@ TEST_CASE("what is damaged or no session is kept as it is") {
 }
 
 TEST_CASE("a cut-short session that nobody may write to is kept with its log") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     leave_cut_short(path, false);
     for (const char* suffix : {"", "-wal"})
@@ -129,7 +129,7 @@ TEST_CASE("a cut-short session that nobody may write to is kept with its log") {
 }
 
 TEST_CASE("a session that was just about to be replaced when its program died is kept") {
-    const TempFolder folder;
+    const Folder folder;
     script_session(folder / "a.session", 25);
     std::filesystem::create_hard_link(folder / "a.session", folder / "a.previous.session");
     put_bytes(folder / "a.session.part", "half a file");
@@ -142,7 +142,7 @@ TEST_CASE("a session that was just about to be replaced when its program died is
 }
 
 TEST_CASE("what cannot be kept is not replaced") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     const auto previous = folder / "a.previous.session";
     const auto refusal = [&] {
@@ -180,7 +180,7 @@ TEST_CASE("what cannot be kept is not replaced") {
 }
 
 TEST_CASE("through a link the session before is kept beside the file, not beside the link") {
-    const TempFolder folder;
+    const Folder folder;
     std::filesystem::create_directory(folder / "far");
     script_session(folder / "far/b.session", 25);
     std::filesystem::create_symlink(folder / "far/b.session", folder / "link");
@@ -190,7 +190,7 @@ TEST_CASE("through a link the session before is kept beside the file, not beside
 }
 
 TEST_CASE("a name with dots or without an extension has a name for the session before") {
-    const TempFolder folder;
+    const Folder folder;
     for (const auto& [name, previous] : {std::pair("a", "a.previous"),
                                          {"a.b.c", "a.b.previous.c"},
                                          {".a", ".a.previous"},

@@ -35,7 +35,7 @@ Reader opened(const std::filesystem::path& path) {
     return std::move(*reader);
 }
 
-std::size_t files_in(const TempFolder& folder) {
+std::size_t files_in(const Folder& folder) {
     const std::filesystem::directory_iterator files(folder.path());
     return static_cast<std::size_t>(std::distance(begin(files), end(files)));
 }
@@ -45,7 +45,7 @@ std::size_t files_in(const TempFolder& folder) {
 TEST_CASE("a session gives back every bit of its ticks, whole seconds or not") {
     for (const double dt : {0.001, 0.00025, 1.0, 2.5, 0.3}) {
         for (const std::size_t count : {0U, 1U, 999U, 1000U, 1001U, 4001U}) {
-            const TempFolder folder;
+            const Folder folder;
             CAPTURE(dt);
             CAPTURE(count);
             if (dt >= 1.0 && count > 1) continue;  // a commit a tick
@@ -64,7 +64,7 @@ TEST_CASE("a session gives back every bit of its ticks, whole seconds or not") {
 }
 
 TEST_CASE("events and results come back as they were given") {
-    const TempFolder folder;
+    const Folder folder;
     std::vector<lesson::Event> events;
     for (std::uint64_t i = 0; i < 300; ++i)
         events.push_back({i * 17, i % 2 == 0 ? "engage" : "mistake", static_cast<int>(i % 13) - 1,
@@ -107,7 +107,7 @@ TEST_CASE("events and results come back as they were given") {
 }
 
 TEST_CASE("joints keep the order in which they were first given") {
-    const TempFolder folder;
+    const Folder folder;
     Writer writer = created(folder / "a.session", 1.0);
     for (const char* id : {"C", "A", "B"}) {
         lesson::JointResult joint;
@@ -128,7 +128,7 @@ TEST_CASE("joints keep the order in which they were first given") {
 }
 
 TEST_CASE("a session left without finish() keeps everything and is not complete") {
-    const TempFolder folder;
+    const Folder folder;
     {
         Writer writer = created(folder / "a.session", 0.1);
         REQUIRE(play_script(writer, 33));
@@ -144,7 +144,7 @@ TEST_CASE("a session left without finish() keeps everything and is not complete"
 }
 
 TEST_CASE("a finished writer refuses more and changes nothing") {
-    const TempFolder folder;
+    const Folder folder;
     Writer writer = created(folder / "a.session");
     REQUIRE(writer.append({}));
     REQUIRE(writer.finish(sample_result()));
@@ -160,7 +160,7 @@ TEST_CASE("a finished writer refuses more and changes nothing") {
 }
 
 TEST_CASE("a tick that cannot be is refused and leaves no gap") {
-    const TempFolder folder;
+    const Folder folder;
     Writer writer = created(folder / "a.session");
     TickRecord wrong;
     wrong.stage = 200;
@@ -172,7 +172,7 @@ TEST_CASE("a tick that cannot be is refused and leaves no gap") {
 }
 
 TEST_CASE("a session can be read while it is recorded, and stays what it was when it was opened") {
-    const TempFolder folder;
+    const Folder folder;
     Writer writer = created(folder / "a.session", 0.1);
     const Reader empty = opened(folder / "a.session");
     REQUIRE(play_script(writer, 25));
@@ -190,7 +190,7 @@ TEST_CASE("a session can be read while it is recorded, and stays what it was whe
 }
 
 TEST_CASE("creating replaces what was there, with all that belonged to it") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     SUBCASE("a complete session") { script_session(path, 25); }
     SUBCASE("a text file") { put_bytes(path, "not a session\n"); }
@@ -223,7 +223,7 @@ TEST_CASE("creating replaces what was there, with all that belonged to it") {
 }
 
 TEST_CASE("a session that is being recorded is not replaced") {
-    const TempFolder folder;
+    const Folder folder;
     Writer writer = created(folder / "a.session", 0.1);
     REQUIRE(play_script(writer, 15));
     const auto second = Writer::create(folder / "a.session", sample_header(0.1));
@@ -237,14 +237,14 @@ TEST_CASE("a session that is being recorded is not replaced") {
 }
 
 TEST_CASE("a session is made in a folder that is not there yet") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "out/of/the way/100% #1?.session";
     script_session(path, 25);
     CHECK(opened(path).tick_count() == 25);
 }
 
 TEST_CASE("a link leads to the session and its log") {
-    const TempFolder folder;
+    const Folder folder;
     std::filesystem::create_directory(folder / "far");
     put_bytes(folder / "far/a.session", "to be replaced");
     std::filesystem::create_symlink(folder / "far/a.session", folder / "link");
@@ -257,7 +257,7 @@ TEST_CASE("a link leads to the session and its log") {
 }
 
 TEST_CASE("where no session can be made the error names the file") {
-    const TempFolder folder;
+    const Folder folder;
     put_bytes(folder / "file", "");
     std::filesystem::create_directory(folder / "folder");
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
@@ -285,7 +285,7 @@ TEST_CASE("where nothing can be written the error says why") {
         CHECK(reason_at(path) ==
               std::string("nothing can be written in its folder: ") + std::strerror(errno));
     }
-    const TempFolder folder;
+    const Folder folder;
     put_bytes(folder / "file", "");
     CHECK(reason_at(folder / "file/a.session") == "its folder cannot be made: Not a directory");
 
@@ -324,7 +324,7 @@ TEST_CASE("where nothing can be written the error says why") {
 }
 
 TEST_CASE("a tick that no session has is refused") {
-    const TempFolder folder;
+    const Folder folder;
     for (const double dt : {0.0, -0.001, 1.0e-6, std::numeric_limits<double>::quiet_NaN(),
                             std::numeric_limits<double>::infinity()}) {
         CAPTURE(dt);
@@ -334,7 +334,7 @@ TEST_CASE("a tick that no session has is refused") {
 }
 
 TEST_CASE("another program sees a sound database with names and units") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = script_session(folder / "a.session", 25);
     sqlite3* database = nullptr;
     REQUIRE(sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK);

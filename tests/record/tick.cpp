@@ -11,7 +11,7 @@ TEST_CASE("a tick's input comes back as it went in") {
     Random random(11);
     for (int i = 0; i < 200; ++i) {
         servo::Input input;
-        input.device = test::random_tick(random).device;
+        input.device = record::test::random_tick(random).device;
         input.grip = static_cast<servo::Grip>(random.bits() % 3);
         input.enabled = random.chance(0.5);
         input.fresh = random.chance(0.5);
@@ -21,7 +21,7 @@ TEST_CASE("a tick's input comes back as it went in") {
         input.guide = static_cast<std::int16_t>(static_cast<int>(random.bits() % 20) - 1);
         const TickRecord record = make_record(input, {});
         CHECK(is_valid(record));
-        CHECK(test::same(make_record(input_of(record), {}), record));
+        CHECK(record::test::same(make_record(input_of(record), {}), record));
         CHECK(input_of(record).grip == input.grip);
         CHECK(input_of(record).enabled == input.enabled);
         CHECK(input_of(record).fresh == input.fresh);

@@ -126,7 +126,7 @@ void check_script(const std::filesystem::path& path, std::size_t ticks) {
 TEST_CASE("of programs that start together one records, and the others say why they do not") {
     for (int round = 0; round < 18; ++round) {
         CAPTURE(round);
-        const TempFolder folder;
+        const Folder folder;
         const auto path = folder / "out/a.session";
         const bool over_old = round % 3 == 1;
         if (over_old) script_session(path, 5);
@@ -146,7 +146,7 @@ TEST_CASE("of programs that start together one records, and the others say why t
 }
 
 TEST_CASE("programs that start and end at any moment leave whole sessions") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     std::ptrdiff_t all = 0;
     for (int round = 0; round < 12; ++round) {
@@ -168,7 +168,7 @@ TEST_CASE("a lock that comes and goes is never held twice") {
         std::atomic<int> ready = 0;
     };
     static_assert(std::atomic<int>::is_always_lock_free);
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     void* const memory =
         ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -205,7 +205,7 @@ TEST_CASE("a lock that comes and goes is never held twice") {
 }
 
 TEST_CASE("what a killed program had locked is free") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     const ChildEnd end = run_child(
         [&](const auto& report) {
@@ -227,7 +227,7 @@ TEST_CASE("what a killed program had locked is free") {
 }
 
 TEST_CASE("a lock lasts as long as its writer, wherever that is moved to") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     auto first = create_script(path);
     REQUIRE(first);
@@ -248,7 +248,7 @@ TEST_CASE("a lock lasts as long as its writer, wherever that is moved to") {
 }
 
 TEST_CASE("a file of somebody else that has the name of the lock is left alone") {
-    const TempFolder folder;
+    const Folder folder;
     const auto path = folder / "a.session";
     const auto lock = folder / "a.session.lock";
     const auto refusal = [&] {

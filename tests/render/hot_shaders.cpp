@@ -7,6 +7,7 @@
 
 #include "engine/base/file.hpp"
 #include "tests/render/support.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::render;
@@ -16,17 +17,14 @@ namespace {
 
 // A copy of the shaders to play with.
 struct Copy {
-    fs::path root = fs::temp_directory_path() / "boltwright hot shaders test";  // paths have spaces
-    fs::path folder = root / "shaders";
+    test::Folder root;
+    fs::path folder = root / "with spaces";
 
     Copy() {
         const char* content = std::getenv("BOLTWRIGHT_CONTENT");
         REQUIRE(content != nullptr);
-        fs::remove_all(root);
-        fs::create_directories(root);
         fs::copy(fs::path(content).parent_path() / "shaders", folder);
     }
-    ~Copy() { fs::remove_all(root); }
 
     [[nodiscard]] std::string read(const std::string& name) const {
         return read_file(folder / name, 1 << 20, ErrorCode::failed).value();
@@ -111,7 +109,7 @@ TEST_CASE("a change is compiled, in what is included too; a mistake is told and 
 TEST_CASE("folders that are none, hold nothing or have another name are refused") {
     const Copy copy;
     CHECK(HotShaders::open(copy.root / "nowhere").error().code == ErrorCode::usage);
-    CHECK(HotShaders::open(copy.root).error().what.find("not called") != std::string::npos);
+    CHECK(HotShaders::open(copy.root.path()).error().what.find("not called") != std::string::npos);
     fs::create_directories(copy.root / "empty" / "shaders");
     CHECK(HotShaders::open(copy.root / "empty" / "shaders").error().what.find("none of the renderer's") !=
           std::string::npos);

@@ -10,6 +10,7 @@
 #include "game/report/text.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::report;
@@ -19,12 +20,11 @@ namespace {
 // A session file of the cover assembly, removed at the end: its first joints are worked on as the synthetic
 // ones were.
 struct Recorded {
-    std::filesystem::path path;
+    test::Folder folder;
+    std::filesystem::path path = folder / "recorded.boltwright";
     SyntheticSession played;
 
-    Recorded(std::string_view name, std::string assembly_text, bool finish)
-        : path(std::filesystem::temp_directory_path() /
-               ("boltwright_report_" + std::string(name) + ".bolt")) {
+    Recorded(std::string assembly_text, bool finish) {
         played = synthetic_session({});
         record::Header header = played.data.header;
         header.assembly_text = std::move(assembly_text);
@@ -40,9 +40,6 @@ struct Recorded {
         result.joints[0].id = "B1";
         if (finish) REQUIRE(writer->finish(result));
     }
-    ~Recorded() {
-        for (const char* suffix : {"", "-wal", "-shm"}) std::filesystem::remove(path.string() + suffix);
-    }
 };
 
 std::string cover_text() {
@@ -55,7 +52,7 @@ std::string cover_text() {
 }  // namespace
 
 TEST_CASE("a session file becomes a page") {
-    const Recorded recorded("page", cover_text(), true);
+    const Recorded recorded(cover_text(), true);
     const Result<record::Reader> reader = record::Reader::open(recorded.path);
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     const Result<SessionData> data = read_session(*reader);
@@ -76,7 +73,7 @@ TEST_CASE("a session file becomes a page") {
 }
 
 TEST_CASE("a session that was cut short still makes a page") {
-    const Recorded recorded("short", cover_text(), false);
+    const Recorded recorded(cover_text(), false);
     const Result<record::Reader> reader = record::Reader::open(recorded.path);
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     const record::Reader* one[] = {&*reader};
@@ -87,7 +84,7 @@ TEST_CASE("a session that was cut short still makes a page") {
 }
 
 TEST_CASE("a session whose assembly cannot be read names the session and the mistake") {
-    const Recorded recorded("broken", "{ \"joints\": 7 }", true);
+    const Recorded recorded("{ \"joints\": 7 }", true);
     const Result<record::Reader> reader = record::Reader::open(recorded.path);
     REQUIRE(reader);
     const Result<SessionData> data = read_session(*reader);
@@ -103,7 +100,7 @@ TEST_CASE("no session is a usage error") {
 }
 
 TEST_CASE("curves for a comparison exist only in the direction that was worked") {
-    const Recorded recorded("advance", cover_text(), true);
+    const Recorded recorded(cover_text(), true);
     const Result<record::Reader> reader = record::Reader::open(recorded.path);
     REQUIRE(reader);
     const auto tightened = advance_curves(*reader, 4, joint::Direction::tighten);

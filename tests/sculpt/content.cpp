@@ -6,6 +6,7 @@
 
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 
@@ -30,8 +31,8 @@ void check_same(const std::filesystem::path& made, const std::filesystem::path& 
 }  // namespace
 
 TEST_CASE("Making hands, workshop and environment again gives the files that are kept") {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "bolt_sculpt_test";
-    std::filesystem::remove_all(folder);
+    const test::Folder kept;
+    const std::filesystem::path& folder = kept.path();
     REQUIRE(sculpt::write_hands(folder).has_value());
     REQUIRE(sculpt::write_workshop(folder).has_value());
     REQUIRE(sculpt::write_environment(folder).has_value());
@@ -39,7 +40,6 @@ TEST_CASE("Making hands, workshop and environment again gives the files that are
     check_same(folder, "hands/hand_right.glb");
     check_same(folder, "environments/workshop.glb");
     check_same(folder, "environments/workshop.hdr");
-    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("The kept files read as models") {

@@ -7,6 +7,7 @@
 #include "engine/base/file.hpp"
 #include "game/play/replay.hpp"
 #include "tests/sound/support.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 
@@ -30,11 +31,6 @@ struct Level {
     }
 };
 
-struct Session {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / "bolt-test-sound" / "a.boltwright";
-    ~Session() { std::filesystem::remove_all(path.parent_path()); }
-};
-
 struct Sum {
     std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
     void add(std::span<const float> samples) {
@@ -45,7 +41,8 @@ struct Sum {
 }  // namespace
 
 TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, its wrench clicks") {
-    const auto path = std::filesystem::temp_directory_path() / "bolt-test-lesson.wav";
+    const test::Folder folder;
+    const auto path = folder / "lesson.wav";
     auto wav = audio::WavWriter::create(path, test::rate);
     REQUIRE(wav);
     Level air, spun, half, full;
@@ -53,9 +50,8 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
     std::size_t count = 0, ticks = 0, since = 0;
     double most = 0.0, step = 0.0;
     float before = 0.0F;
-    const Session session;
     const play::Played played = test::hear_lesson(
-        "cover-m8", "expert", 300.0, "torque_wrench", session.path,
+        "cover-m8", "expert", 300.0, "torque_wrench", folder / "a.boltwright",
         [&](const servo::Output& output, const sound::Heard& heard, std::span<const float> samples) {
             REQUIRE(wav->write(samples));
             ++ticks;
@@ -101,10 +97,10 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
 }
 
 TEST_CASE("a replay sounds as the lesson did, sample for sample") {
-    const Session session;
+    const test::Folder folder;
     Sum lesson;
     int strikes = 0, chimes = 0, clicks = 0;
-    test::hear_lesson("cover-m8", "expert", 60.0, "torque_wrench", session.path,
+    test::hear_lesson("cover-m8", "expert", 60.0, "torque_wrench", folder / "a.boltwright",
                       [&](const servo::Output&, const sound::Heard& heard, std::span<const float> samples) {
                           lesson.add(samples);
                           strikes += heard.strike > 0.0F ? 1 : 0;
@@ -114,7 +110,7 @@ TEST_CASE("a replay sounds as the lesson did, sample for sample") {
     CHECK(clicks > 0);
     CHECK(strikes > 0);
     CHECK(chimes > 4);
-    const auto reader = record::Reader::open(session.path);
+    const auto reader = record::Reader::open(folder / "a.boltwright");
     REQUIRE(reader);
     for (const bool changed : {false, true}) {
         auto again = play::prepare_again(*reader);

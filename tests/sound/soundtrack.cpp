@@ -6,16 +6,12 @@
 #include "engine/base/file.hpp"
 #include "game/play/replay.hpp"
 #include "tests/sound/support.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
+using test::Folder;
 
 namespace {
-
-struct Folder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / "bolt-test-soundtrack";
-    Folder() { std::filesystem::create_directories(path); }
-    ~Folder() { std::filesystem::remove_all(path); }
-};
 
 constexpr std::size_t header = 44;  // bytes
 
@@ -49,7 +45,7 @@ void write_track(const record::Reader& session, const std::filesystem::path& wav
 
 TEST_CASE("the sound of a replay is that of the lesson, sample for sample, wherever it begins") {
     const Folder folder;
-    const std::filesystem::path session = folder.path / "a.boltwright", wav = folder.path / "a.wav";
+    const std::filesystem::path session = folder / "a.boltwright", wav = folder / "a.wav";
     std::vector<std::int16_t> lesson;
     test::hear_lesson("cover-m8", "expert", 30.0, "", session,
                       [&](const servo::Output&, const sound::Heard&, std::span<const float> samples) {

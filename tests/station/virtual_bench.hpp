@@ -25,7 +25,15 @@ class VirtualBench final : public station::Bench {
         wishes_.pause = true;
     }
 
+    // A glove, its wrist there in the frame of the tool.
+    void wear(const station::ShownHand& hand, const Pose& wrist) {
+        hand_ = hand;
+        layout_.wrist = wrist;
+        state_ = station::initial_state(layout_);
+    }
+
     // Ticks for so long.
+
     void pass(double seconds) {
         owed_ += seconds;
         for (; owed_ >= setup_.dt; owed_ -= setup_.dt) tick();
@@ -41,7 +49,7 @@ class VirtualBench final : public station::Bench {
     }
     const station::Ticked& newest() override { return newest_; }
     [[nodiscard]] std::uint64_t lost() const override { return lost_; }
-    const station::ShownHand* hand() override { return nullptr; }
+    const station::ShownHand* hand() override { return hand_ ? &*hand_ : nullptr; }
     std::vector<std::string> troubles() override { return troubles_; }
     [[nodiscard]] const station::Layout& layout() const override { return layout_; }
     [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
@@ -53,6 +61,7 @@ class VirtualBench final : public station::Bench {
     // A device that lies, in ways that a test wants.
     std::vector<std::string> troubles_;
     std::uint64_t lost_ = 0;
+    std::optional<station::ShownHand> hand_;  // in a glove
     bool unplugged_ = false;
     bool garbles_ = false;  // what it says of the next tick is not what it did
 
@@ -67,6 +76,8 @@ class VirtualBench final : public station::Bench {
         heard.mover = boxes_.told.latest();
         heard.mover.usable = heard.mover.usable && !unplugged_;
         heard.wishes = wishes_;
+        if (hand_) heard.hand = hand_->held ? servo::Grip::wrench : servo::Grip::none;
+
         const bool works = !wishes_.pause;
         const station::Answer answer = works ? station::tick(layout_, setup_, state_, servo_, heard)
                                              : station::pause(layout_, setup_, state_, heard);

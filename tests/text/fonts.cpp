@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "engine/text/layout.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::text;
@@ -24,7 +25,8 @@ TEST_CASE("every letter of German, Chinese and of what is written about bolts ha
 }
 
 TEST_CASE("a font that is not there is an error that names the package") {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "boltwright-no-fonts";
+    const test::Folder kept;
+    const std::filesystem::path& folder = kept.path();
     std::filesystem::create_directories(folder / "deep");
     const FontFile wanted{"Nobody.ttf", "fonts-nobody"};
     for (const auto& where : {folder, folder / "nowhere"}) {

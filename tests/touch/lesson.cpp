@@ -8,6 +8,7 @@
 #include "game/play/replay.hpp"
 #include "game/play/train.hpp"
 #include "game/record/device_text.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/touch/support.hpp"
 
@@ -93,7 +94,8 @@ TEST_CASE("who places badly is drawn onto the nut where a force leads, and searc
 }
 
 TEST_CASE("a lesson among obstacles replays from its session and the models that it names to the same bits") {
-    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-solid.boltwright";
+    const test::Folder folder;
+    const auto file = folder / "lesson.boltwright";
     const content::Loaded loaded = content::load_assembly("cover-m8");
     REQUIRE(loaded.ok());
     play::TrainOptions options;

@@ -15,6 +15,7 @@
 #include "haptics/hand/limits.hpp"
 #include "tests/grip/scene.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/folder.hpp"
 #include "tools/emulate/glove_line.hpp"
 
 using namespace bolt;
@@ -98,11 +99,10 @@ TEST_CASE("from an emulated glove to a wrench in the hand") {
         kept.date = "2026-11-22";
         kept.quality = made.figure;
         kept.calibration = made.calibration;
-        const auto path = content::glove_calibration_path(std::filesystem::temp_directory_path(),
-                                                          "boltwright test", kept.hand);
+        const test::Folder folder;
+        const auto path = content::glove_calibration_path(folder.path(), kept.trainee, kept.hand);
         REQUIRE(content::save_glove_calibration(path, kept));
         const auto loaded = content::load_glove_calibration(path);
-        std::filesystem::remove(path);
         REQUIRE(loaded);
         for (const Sensor sensor : glove::sensors_of(sensors)) {
             const auto& found = loaded->calibration.lines[glove::index(sensor)];

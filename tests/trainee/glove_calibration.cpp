@@ -8,11 +8,15 @@
 #include "engine/base/file.hpp"
 #include "engine/base/random.hpp"
 #include "haptics/glove/cal_file.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/oracle.hpp"
+#include "tests/support/replaced.hpp"
 
 using namespace bolt;
 using namespace bolt::content;
 namespace fs = std::filesystem;
+using test::Folder;
+using test::replaced;
 
 namespace {
 
@@ -40,23 +44,6 @@ bool same(const glove::Calibration& a, const glove::Calibration& b) {
             return false;
     }
     return true;
-}
-
-struct Folder {
-    fs::path path;
-    Folder() : path(fs::temp_directory_path() / "boltwright_trainee_test") {
-        fs::remove_all(path);
-        fs::create_directories(path);
-    }
-    ~Folder() { fs::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-};
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
 }
 
 }  // namespace
@@ -111,10 +98,10 @@ TEST_CASE("what is wrong is said with file, line and column, and what would be r
 TEST_CASE("files: kept by trainee and hand, and a write that fails leaves what was there") {
     const Folder folder;
     const GloveCalibration first = example(1, 22);
-    const fs::path path = glove_calibration_path(folder.path, first.trainee, first.hand);
-    CHECK(path != glove_calibration_path(folder.path, "ada lovelace", first.hand));
-    CHECK(path != glove_calibration_path(folder.path, first.trainee, glove::Hand::left));
-    CHECK(glove_calibration_path(folder.path, "../../etc/x", first.hand).parent_path() == folder.path);
+    const fs::path path = glove_calibration_path(folder.path(), first.trainee, first.hand);
+    CHECK(path != glove_calibration_path(folder.path(), "ada lovelace", first.hand));
+    CHECK(path != glove_calibration_path(folder.path(), first.trainee, glove::Hand::left));
+    CHECK(glove_calibration_path(folder.path(), "../../etc/x", first.hand).parent_path() == folder.path());
     REQUIRE(save_glove_calibration(path, first));
     CHECK(same(load_glove_calibration(path)->calibration, first.calibration));
 
@@ -133,13 +120,13 @@ TEST_CASE("files: kept by trainee and hand, and a write that fails leaves what w
     const auto kept = load_glove_calibration(path);
     REQUIRE(kept);
     CHECK(same(kept->calibration, first.calibration));
-    CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+    CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1);
 
     // What could not be read back is not written.
     second.date = "yesterday";
     CHECK(!save_glove_calibration(path, second));
     CHECK(same(load_glove_calibration(path)->calibration, first.calibration));
-    CHECK(load_glove_calibration(folder.path / "none.json").error().message().find("none.json") !=
+    CHECK(load_glove_calibration(folder / "none.json").error().message().find("none.json") !=
           std::string::npos);
 }
 
@@ -153,6 +140,6 @@ TEST_CASE("a calibration of the vendor's file is kept as any other") {
     c.calibration = *imported;
     c.quality = 0.0;
     const Folder folder;
-    REQUIRE(save_glove_calibration(folder.path / "x.json", c));
-    CHECK(same(load_glove_calibration(folder.path / "x.json")->calibration, *imported));
+    REQUIRE(save_glove_calibration(folder / "x.json", c));
+    CHECK(same(load_glove_calibration(folder / "x.json")->calibration, *imported));
 }

@@ -9,10 +9,14 @@
 #include "content/trainee/data_folder.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/random.hpp"
+#include "tests/support/folder.hpp"
+#include "tests/support/replaced.hpp"
 
 using namespace bolt;
 using namespace bolt::content;
 namespace fs = std::filesystem;
+using test::Folder;
+using test::replaced;
 
 namespace {
 
@@ -33,23 +37,6 @@ Settings example(std::uint64_t seed) {
     if (random.chance(0.7)) s.keys["tool"] = random.chance(0.5) ? "T" : "F1";
     if (random.chance(0.7)) s.keys["hint"] = "H";
     return s;
-}
-
-struct Folder {
-    fs::path path = fs::temp_directory_path() / "boltwright_settings_test";
-    Folder() {
-        fs::remove_all(path);
-        fs::create_directories(path);
-    }
-    ~Folder() { fs::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-};
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
 }
 
 }  // namespace
@@ -117,9 +104,9 @@ TEST_CASE("settings: what is wrong is said with file, line and column, and what 
 
 TEST_CASE("settings: kept by trainee, and a write that fails leaves what was there") {
     const Folder folder;
-    const fs::path path = settings_path(folder.path / "made" / "for it", "Ada");
+    const fs::path path = settings_path(folder.path() / "made" / "for it", "Ada");
     CHECK(path != settings_path(path.parent_path(), "ada"));
-    CHECK(settings_path(folder.path, "../../etc/x").parent_path() == folder.path);
+    CHECK(settings_path(folder.path(), "../../etc/x").parent_path() == folder.path());
     Settings first = example(1);
     REQUIRE(save_settings(path, first, known));
     CHECK(settings_text(load_settings(path, known).value()) == settings_text(first));
@@ -145,7 +132,7 @@ TEST_CASE("settings: kept by trainee, and a write that fails leaves what was the
 
 TEST_CASE("settings: what cannot be read is put aside, not written over; a folder that is none is told") {
     const Folder folder;
-    const fs::path path = settings_path(folder.path, "Ada");
+    const fs::path path = settings_path(folder.path(), "Ada");
     REQUIRE(write_file(path, "{ \"format\": \"boltwright settings 9\" }"));
     REQUIRE(!load_settings(path, known));
     REQUIRE(save_settings(path, example(3), known));
@@ -154,11 +141,11 @@ TEST_CASE("settings: what cannot be read is put aside, not written over; a folde
     REQUIRE(aside);
     CHECK(aside->find("settings 9") != std::string::npos);
 
-    REQUIRE(write_file(folder.path / "taken", "a file, no folder"));
-    const Status failed = save_settings(settings_path(folder.path / "taken", "Ada"), example(4), known);
+    REQUIRE(write_file(folder / "taken", "a file, no folder"));
+    const Status failed = save_settings(settings_path(folder / "taken", "Ada"), example(4), known);
     REQUIRE(!failed);
     CHECK(failed.error().message().find("taken") != std::string::npos);
-    CHECK(read_file(folder.path / "taken", 1000, ErrorCode::failed).value() == "a file, no folder");
+    CHECK(read_file(folder / "taken", 1000, ErrorCode::failed).value() == "a file, no folder");
 }
 
 TEST_CASE("the folder of a user's data is where the XDG base directory specification has it") {

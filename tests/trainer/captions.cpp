@@ -7,6 +7,7 @@
 #include <set>
 
 #include "game/sound/ear.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"
 
 using namespace bolt;
@@ -91,7 +92,8 @@ TEST_CASE(
     const content::Assembly cover = trainer_test::assembly("cover-m8");
     play::CourseOptions options;
     options.operator_name = "player";
-    const auto file = std::filesystem::temp_directory_path() / "boltwright_captions.boltwright";
+    const test::Folder folder;
+    const auto file = folder / "lesson.boltwright";
     auto course = play::Course::begin(cover, options, file);
     if (!course) FAIL(course.error().message());
     play::Course& c = **course;

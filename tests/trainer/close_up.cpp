@@ -7,6 +7,7 @@
 
 #include "game/scene/close_up.hpp"
 #include "game/trainer/mouse_hand.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"
 
 using namespace bolt;
@@ -40,7 +41,8 @@ TEST_CASE("the close-up's place: below on the left, over nothing else") {
 TEST_CASE(
     "on every nut of the reducer the eye on the wrench sees nut and jaw, and the eye beside the fingers the "
     "nut") {
-    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-close-up.boltwright";
+    const test::Folder folder;
+    const auto file = folder / "lesson.boltwright";
     for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
         play::CourseOptions options;
         options.task = task;
@@ -51,12 +53,12 @@ TEST_CASE(
         const servo::State& state = (*begun)->state();
         REQUIRE(setup.nuts.size() == 12);
         const bool loosens = task == lesson::Task::loosen;
-        const MouseHand hand = make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
+        const Pose rest{Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)};
         operators::Sight sight;
         for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
             const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
             scene::ViewOf of{setup, &*state.touch, i, nut, std::nullopt};
-            const Pose tool = wrench_on(hand, setup, state, i, loosens);
+            const Pose tool = wrench_on(rest, setup, state, i, loosens);
             const scene::CloseUpEye fingers = scene::close_up_eye(of, tool, 0.0, sight);
             of.wrench = tool;
             const scene::CloseUpEye wrench =

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/trainer/player.hpp"
 
@@ -21,7 +22,8 @@ struct Outcome {
 };
 
 Outcome play_through(const char* name, play::CourseOptions options, double longest) {
-    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-trainer.boltwright";
+    const test::Folder folder;
+    const auto file = folder / "lesson.boltwright";
     options.operator_name = "person";
     auto begun = play::Course::begin(assembly(name), options, file);
     REQUIRE(begun);

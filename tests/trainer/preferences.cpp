@@ -7,24 +7,15 @@
 
 #include "engine/base/file.hpp"
 #include "engine/base/random.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
 namespace fs = std::filesystem;
 using platform::Key;
+using test::Folder;
 
 namespace {
-
-struct Folder {
-    fs::path path = fs::temp_directory_path() / "boltwright_preferences_test";
-    Folder() {
-        fs::remove_all(path);
-        fs::create_directories(path);
-    }
-    ~Folder() { fs::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-};
 
 Preferences in(const fs::path& folder) {
     Preferences p;
@@ -110,10 +101,10 @@ TEST_CASE("an action that a file does not name has its usual key, or none where 
 
 TEST_CASE("settings are a trainee's own: kept when changed, taken when the name is said again") {
     const Folder folder;
-    Preferences p = in(folder.path / "new");
+    Preferences p = in(folder / "new");
     take(p, "Ada");
     CHECK(keep(p));
-    CHECK_FALSE(fs::exists(folder.path / "new"));  // nothing was changed
+    CHECK_FALSE(fs::exists(folder / "new"));  // nothing was changed
     p.settings.left_handed = true;
     p.settings.language = "de";
     (void)bind(p.keys, Action::tool, Key::g);
@@ -125,7 +116,7 @@ TEST_CASE("settings are a trainee's own: kept when changed, taken when the name 
     take(p, "Ada");
     CHECK(p.settings.left_handed);
     CHECK(p.keys.of(Action::tool) == Key::g);
-    Preferences later = in(folder.path / "new");
+    Preferences later = in(folder / "new");
     take(later, "Ada");
     CHECK(later.settings.language == "de");
     CHECK(later.keys.keys == p.keys.keys);
@@ -133,15 +124,15 @@ TEST_CASE("settings are a trainee's own: kept when changed, taken when the name 
 
 TEST_CASE("what was changed before a name was said becomes that of the name, unless it has its own") {
     const Folder folder;
-    Preferences p = in(folder.path);
+    Preferences p = in(folder.path());
     take(p, "");
     p.settings.captions = true;
     CHECK(keep(p));
-    CHECK(fs::is_empty(folder.path));
+    CHECK(fs::is_empty(folder.path()));
     take(p, "Ada");
     CHECK(p.settings.captions);
     CHECK(keep(p));
-    Preferences other = in(folder.path);
+    Preferences other = in(folder.path());
     take(other, "");
     other.settings.volume = 0.5;
     take(other, "Ada");
@@ -151,8 +142,8 @@ TEST_CASE("what was changed before a name was said becomes that of the name, unl
 
 TEST_CASE("a file that cannot be read is told, and is not written over before something is changed") {
     const Folder folder;
-    Preferences p = in(folder.path);
-    const fs::path path = content::settings_path(folder.path, "Ada");
+    Preferences p = in(folder.path());
+    const fs::path path = content::settings_path(folder.path(), "Ada");
     const std::string broken = "{\n  \"format\": \"boltwright settings 1\",\n  \"volum\": 1\n}\n";
     REQUIRE(write_file(path, broken));
     take(p, "Ada");
@@ -170,15 +161,15 @@ TEST_CASE("a file that cannot be read is told, and is not written over before so
 
 TEST_CASE("a folder that cannot be written is told, nothing is lost, and it is tried again") {
     const Folder folder;
-    Preferences p = in(folder.path / "taken");
-    REQUIRE(write_file(folder.path / "taken", "a file"));
+    Preferences p = in(folder / "taken");
+    REQUIRE(write_file(folder / "taken", "a file"));
     take(p, "Ada");
     p.settings.force_scale = 0.25;
     CHECK_FALSE(keep(p));
     CHECK(p.trouble == Preferences::Trouble::unwritten);
     CHECK(p.why.find("taken") != std::string::npos);
     CHECK(p.settings.force_scale == 0.25);
-    fs::remove(folder.path / "taken");
+    fs::remove(folder / "taken");
     CHECK(keep(p));
     CHECK(p.trouble == Preferences::Trouble::none);
     take(p, "Ada");
@@ -188,7 +179,7 @@ TEST_CASE("a folder that cannot be written is told, nothing is lost, and it is t
 TEST_CASE("a file that is named holds for whoever it is") {
     const Folder folder;
     Preferences p = in({});
-    p.file = folder.path / "bench.json";
+    p.file = folder / "bench.json";
     take(p, "");
     p.settings.volume = 0.25;
     CHECK(keep(p));

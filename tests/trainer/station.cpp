@@ -37,7 +37,7 @@ struct Played {
     Status status;
     std::vector<std::string> mistakes;
 
-    explicit Played(const char* name, lesson::Mode mode = lesson::Mode::guided) {
+    explicit Played(const char* name, lesson::Mode mode = lesson::Mode::guided, bool gloved = false) {
         content::Loaded loaded = content::load_assembly(name);
         REQUIRE(loaded.ok());
         assembly = std::move(loaded.assembly);
@@ -50,6 +50,14 @@ struct Played {
         auto made = std::make_unique<test::VirtualBench>(std::move(*one), options);
         bench = made.get();
         at.bench = std::move(made);
+        if (gloved) {
+            station::ShownHand hand;
+            hand.any = true;
+            bench->wear(hand, Pose{Vec3(0.12, 0.02, -0.03), rotation(Vec3(0.1, 0.2, 1.5))});
+            at.bare_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
+            pinch(false);
+        }
+
         options.device = bench->setup().limits;
         play::use_device(options, *other);
         auto begun = play::Course::begin(std::move(*other), options, file);
@@ -70,6 +78,11 @@ struct Played {
             if (!down.contains(key)) events.emplace_back(platform::KeyEvent{key, true, false, {}});
         down = keys;
         at.keys.take(events);
+    }
+    // Thumb and index finger of a gloved hand, together or apart.
+    void pinch(bool together) const {
+        bench->hand_->joints.position[hand::thumb_tip] = Vec3(0.0);
+        bench->hand_->joints.position[hand::index_tip] = Vec3(together ? 0.02 : 0.09, 0.0, 0.0);
     }
     void picture() {
         bench->pass(frame);
@@ -94,7 +107,8 @@ struct Played {
     }
 };
 
-// Somebody at the keys.
+// Somebody at the keys, the hand in a glove or not.
+
 class Keyboard {
   public:
     explicit Keyboard(Played& played) : p_(played) {}
@@ -107,7 +121,11 @@ class Keyboard {
     }
 
   private:
-    void go_on(const std::set<Key>& keys) {
+    // A gloved hand needs no key to close it: it closes. About the wrench it is closed already, and the key
+    // sets that on.
+    void go_on(std::set<Key> keys) {
+        if (p_.at.gloved && !p_.has_wrench()) p_.pinch(keys.erase(Key::space) > 0);
+
         p_.hold(keys);
         p_.picture();
     }
@@ -131,7 +149,8 @@ class Keyboard {
     void do_step() {
         const std::size_t current = p_.course->lesson().current;
         const bool fingers = p_.due()->kind == lesson::StepKind::run_down;
-        if (fingers && p_.has_wrench()) p_.asked.tool = true;
+        if (fingers && p_.has_wrench()) lay_down();
+
         if (!fingers && !p_.has_wrench()) take_wrench();
         p_.pictures(0.1);
         reach(fingers);
@@ -143,19 +162,25 @@ class Keyboard {
         }
         come_off();
     }
+    void lay_down() {
+        p_.asked.tool = true;
+        if (p_.at.gloved) p_.bench->hand_->held = false;
+    }
     void take_wrench() {
         const Pose lies = p_.at.now.lies.value_or(p_.at.rest);
         go_to(lies * Vec3(0.1, 0.0, 0.1), 0.02, 6.0);
         go_to(lies * Vec3(0.1, 0.0, 0.03), 0.01, 4.0);
+        if (p_.at.gloved) p_.bench->hand_->held = true;
         for (int i = 0; i < 5; ++i) go_on({Key::space});
         go_on({});
         REQUIRE(p_.has_wrench());
+
         for (int i = 0; i < 30; ++i) go_on({Key::e});
     }
     // As the ghost has it: with room for the handle.
     void turn_to_fit() {
         const Pose ghost =
-            wrench_on(make_hand(p_.at.rest), p_.course->setup(), p_.course->state(), p_.due()->joint, false);
+            wrench_on(p_.at.rest, p_.course->setup(), p_.course->state(), p_.due()->joint, false);
         for (double t = 0.0; t < 8.0; t += frame) {
             const Quat& now = p_.at.now.tool.orientation;
             const Vec3 left = rotation_vector(glm::normalize(ghost.orientation * glm::conjugate(now)));
@@ -236,6 +261,22 @@ TEST_CASE("a lesson played with keys at a station whose servo has its own time")
     CHECK(steps == played.course->lesson().current);
 }
 
+TEST_CASE("a gloved hand pinches nuts and spins them, closes on the wrench, and opens again") {
+    Played played("cover-m8", lesson::Mode::guided, true);
+    REQUIRE(played.at.gloved);
+    Keyboard person(played);
+    person.play(test::sanitized ? 60.0 : 400.0, test::sanitized ? 1 : SIZE_MAX);
+    if (!played.status) FAIL(played.status.error().message());
+    MESSAGE("at " << played.course->time() << " s step " << played.course->lesson().current << " of "
+                  << played.course->lesson().steps.size());
+    const auto finished = played.course->finish();
+    REQUIRE(finished);
+    CHECK(played.course->lesson().current >= 1);
+    if (test::sanitized) return;
+    CHECK(finished->result.finished);
+    CHECK(finished->result.score > 80.0);
+}
+
 TEST_CASE("a servo that was told something else than the lesson is found out at once") {
     Played played("cover-m8");
     played.pictures(0.2);
@@ -293,17 +334,17 @@ TEST_CASE("a gloved hand that twists a nut runs out of forearm, other hands do n
     at.now.input.grip = servo::Grip::fingers;
     at.taken_at = 40.0;
     at.now.output.nut_angle = 40.0;
-    CHECK(room_to_twist(at) == doctest::Approx(forearm_turns));
+    CHECK(hand_of(at).room == doctest::Approx(forearm_turns));
     at.now.output.nut_angle = 40.0 + to_radians(119.0);
-    CHECK(room_to_twist(at) == doctest::Approx(to_radians(1.0)));
+    CHECK(hand_of(at).room == doctest::Approx(to_radians(1.0)));
     at.now.output.nut_angle = 40.0 - to_radians(150.0);
-    CHECK(room_to_twist(at) == 0.0);
+    CHECK(hand_of(at).room == 0.0);
     at.now.input.grip = servo::Grip::wrench;
-    CHECK(std::isinf(room_to_twist(at)));
+    CHECK(std::isinf(hand_of(at).room));
     at.now.input.grip = servo::Grip::fingers;
     at.gloved = false;
-    CHECK(std::isinf(room_to_twist(at)));
+    CHECK(std::isinf(hand_of(at).room));
     at.gloved = true;
     at.now.output.joint = -1;
-    CHECK(std::isinf(room_to_twist(at)));
+    CHECK(std::isinf(hand_of(at).room));
 }

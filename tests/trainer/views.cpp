@@ -7,6 +7,7 @@
 #include "game/scene/find_view.hpp"
 #include "game/scene/postures.hpp"
 #include "game/trainer/mouse_hand.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"
 
 using namespace bolt;
@@ -23,21 +24,22 @@ TEST_CASE("a point is in the picture or not") {
 
 TEST_CASE(
     "the view of every nut of the reducer has the wrist in it, and loses nothing of what is seen for it") {
-    const auto file = std::filesystem::temp_directory_path() / "boltwright-test-views.boltwright";
+    const test::Folder folder;
+    const auto file = folder / "lesson.boltwright";
     play::CourseOptions options;
     options.obstacles = play::Obstacles::required;
     auto begun = play::Course::begin(trainer_test::assembly("zq350"), options, file);
     REQUIRE(begun);
     const servo::Setup& setup = (*begun)->setup();
     const servo::State& state = (*begun)->state();
-    const trainer::MouseHand hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
+    const Pose rest{Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)};
     const scene::Postures postures = scene::make_postures(&state.touch->wrench, setup.wrench.handle_length);
     const Vec3 shoulder(0.6, 0.6, 0.7);
     operators::Sight sight;
     int outside_before = 0;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
-        scene::ViewOf of{setup, &*state.touch, i, nut, wrench_on(hand, setup, state, i, false)};
+        scene::ViewOf of{setup, &*state.touch, i, nut, trainer::wrench_on(rest, setup, state, i, false)};
         const std::size_t grip = scene::natural_grip(postures, *of.wrench, Vec3(0, 1, 0), shoulder);
         const Vec3 wrist = *of.wrench * postures.on_handle.at(grip).position[hand::wrist];
         view::Orbit from;

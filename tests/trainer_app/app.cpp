@@ -6,7 +6,6 @@
 
 #include "game/play/replay.hpp"
 #include "game/record/session.hpp"
-#include "game/trainer/pointing.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/trainer_app/desk.hpp"
 
@@ -17,8 +16,9 @@ namespace {
 
 using test::Desk;
 using test::options;
-using test::size;
-using test::step;
+
+constexpr VkExtent2D size = test::Display{}.size;
+constexpr double step = test::Display{}.step;
 
 // Somebody who sees the picture and does what is due.
 class Person {
@@ -58,7 +58,7 @@ class Person {
         const std::size_t joint = due()->joint;
         glm::dvec2 pointer = *at;
         double held = 0.0;
-        while (going() && desk_.playing().hand.held && held < 12.0) {
+        while (going() && desk_.playing().mouse.held && held < 12.0) {
             if (fingers ? spin(*at, pointer) : pull(joint, pointer)) break;
             held += step;
         }
@@ -96,7 +96,7 @@ class Person {
         const double torque = course.state().joints[joint].torque;
         const bool yields = course.state().joints[joint].stage == joint::Stage::yield;
         if (lesson::into_yield(course.lesson(), step_due) ? yields : torque >= step_due.torque) return true;
-        if (std::abs(p().hand.handle - p().hand.begun_at) > 0.97 * p().hand.room) return true;
+        if (p().hand.room < 0.03 * p().mouse.room) return true;
         const glm::dvec2 lever = lever_on_screen(desk_.screen(), p().output.tool, setup.nuts[joint].axis,
                                                  setup.wrench.handle_length);
         const double turn = 0.9 * std::max(0.08, 1.0 - torque / step_due.torque) * step;
@@ -114,7 +114,7 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     Desk desk(options("cover-m8", true));
     desk.frame();
     CHECK(desk.app().shows() == Shows::menu);
-    REQUIRE(desk.push("menu.start"));
+    desk.push("menu.start");
     desk.frame();
     REQUIRE(desk.app().shows() == Shows::lesson);
     desk.key(platform::Key::i);  // the close-up has tests of its own, and costs as much as the picture
@@ -140,17 +140,17 @@ TEST_CASE("from the menu to the result: a lesson played by pointing, pressing an
     CHECK(reader->complete());
     CHECK(reader->header().operator_name == "person");
     // And again, or back to the menu.
-    REQUIRE(desk.push("menu.again"));
+    desk.push("menu.again");
     CHECK(desk.app().shows() == Shows::lesson);
     CHECK(desk.playing().course->time() < 1.0);
     desk.frame();
     desk.key(platform::Key::escape);
-    REQUIRE(desk.push("menu.end"));
+    desk.push("menu.end");
     desk.frame();
-    REQUIRE(desk.push("menu.menu"));
+    desk.push("menu.menu");
     CHECK(desk.app().shows() == Shows::menu);
     desk.frame();
-    REQUIRE(desk.push("menu.quit"));
+    desk.push("menu.quit");
     CHECK(desk.app().closed());
 }
 
@@ -185,12 +185,12 @@ TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
     CHECK(desk.playing().course->time() == paused);
     desk.another_gpu();
     CHECK(desk.playing().course->time() == paused);
-    REQUIRE(desk.push("menu.go_on"));
+    desk.push("menu.go_on");
     desk.frame();
     CHECK(desk.playing().course->time() > paused);
     desk.key(platform::Key::escape);
     desk.frame();
-    REQUIRE(desk.push("menu.end"));
+    desk.push("menu.end");
     desk.frame();
     REQUIRE(desk.played());
     CHECK_FALSE(desk.played()->result.finished);
@@ -222,7 +222,7 @@ TEST_CASE("a step is taken back: the nut is where it was, the step due again, an
     for (int i = 0; i < 40; ++i) desk.frame();
     CHECK(course.lesson().current == (test::sanitized ? 0 : 1));
     desk.key(platform::Key::escape);
-    REQUIRE(desk.push("menu.end"));
+    desk.push("menu.end");
     const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
     REQUIRE(reader);
     auto at = play::prepare_again(*reader);
@@ -255,7 +255,7 @@ TEST_CASE("something is said in every language, and nothing in an assessment") {
 TEST_CASE("an assembly that is not there: the menu says so and stays") {
     Desk desk(options("no-such-thing", true));
     desk.frame();
-    REQUIRE(desk.push("menu.start"));
+    desk.push("menu.start");
     desk.frame();
     CHECK(desk.app().shows() == Shows::menu);
     REQUIRE(desk.app().trouble());

@@ -3,28 +3,26 @@
 #include <algorithm>
 #include <thread>
 
-#include "tests/trainer_app/onlooker.hpp"
+#include "tests/trainer_app/desk.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
 
 namespace {
 
-constexpr VkExtent2D size{320, 180};
+constexpr test::Display big_letters{.scale = 0.5F};
 
-AppOptions options(lesson::Mode mode, bool menu) {
-    AppOptions o;
-    o.choice.assembly = "cover-m8";
+AppOptions options(lesson::Mode mode, bool menu, const char* folder) {
+    AppOptions o = test::options("cover-m8", menu);
     o.choice.mode = mode;
     o.choice.task = lesson::Task::loosen;
     o.choice.language = "en";
-    o.menu = menu;
-    o.course.obstacles = play::Obstacles::if_any;
+    o.out = std::filesystem::path(BOLT_TRAINER_OUT) / folder;
     return o;
 }
 
 // With the wrench on the first nut.
-void put_on(test::Onlooker& one) {
+void put_on(test::Desk& one) {
     one.frame();
     one.key(platform::Key::t);
     for (int i = 0; i < 40 && !one.playing().hand.wrench; ++i) one.frame({}, 0.25);
@@ -56,7 +54,7 @@ bool straight_arrow_shown(const Playing& p) {
 TEST_CASE(
     "the close-up comes with the wrench at a nut, goes by its key and with the wrench, and looks from "
     "above") {
-    test::Onlooker one(options(lesson::Mode::guided, false), "seen-guided", size, 0.5F);
+    test::Desk one(options(lesson::Mode::guided, false, "seen-guided"), big_letters);
     put_on(one);
     CHECK_FALSE(one.playing().close_up.joint);  // far away
     one.key(platform::Key::h);
@@ -75,7 +73,7 @@ TEST_CASE(
     one.wait(0.6);
     one.frame({}, 0.001);
     const render::Picture with = one.picture();
-    const auto place = close_up_place(glm::dvec2(size.width, size.height), 0.5F, {});
+    const auto place = close_up_place(glm::dvec2(big_letters.size.width, big_letters.size.height), 0.5F, {});
     REQUIRE(place);
     one.frame({platform::KeyEvent{platform::Key::i, true, false, {}}}, 0.001);
     CHECK_FALSE(c.joint);
@@ -84,7 +82,7 @@ TEST_CASE(
     CHECK(share_changed(with, without, {{170.0F, 70.0F}, {320.0F, 120.0F}}) < 0.05);
     one.key(platform::Key::i);
     CHECK(c.joint == joint);
-    one.button(false, at);
+    one.release(at);
     one.wait(1.0);
     one.key(platform::Key::t);
     for (int i = 0; i < 12; ++i) one.frame({}, 0.25);
@@ -92,7 +90,7 @@ TEST_CASE(
 }
 
 TEST_CASE("in an assessment there is no close-up, whatever is pressed, and no arrow") {
-    test::Onlooker one(options(lesson::Mode::assessment, false), "seen-assessment", size, 0.5F);
+    test::Desk one(options(lesson::Mode::assessment, false, "seen-assessment"), big_letters);
     put_on(one);
     one.key(platform::Key::i);
     one.key(platform::Key::h);
@@ -103,7 +101,7 @@ TEST_CASE("in an assessment there is no close-up, whatever is pressed, and no ar
 }
 
 TEST_CASE("behind the menu stands the machine that is chosen, and the menu does not wait for it") {
-    test::Onlooker one(options(lesson::Mode::guided, true), "seen-menu", size, 0.3F);
+    test::Desk one(options(lesson::Mode::guided, true, "seen-menu"));
     one.frame();
     const render::Picture bare = one.picture();
     CHECK(one.app().shows() == Shows::menu);

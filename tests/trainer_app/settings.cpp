@@ -6,7 +6,7 @@
 
 #include "engine/base/file.hpp"
 #include "game/scene/resting_place.hpp"
-#include "game/trainer/app.hpp"
+#include "tests/trainer_app/desk.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
@@ -16,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using platform::Key;
 
-constexpr VkExtent2D size{480, 300};
 const fs::path settings_folder = fs::path(BOLT_TRAINER_OUT) / "settings";
 
 AppOptions options(bool menu, const std::string& trainee = "Ada") {
@@ -27,71 +26,16 @@ AppOptions options(bool menu, const std::string& trainee = "Ada") {
     o.menu = menu;
     o.settings_folder = settings_folder;
     o.out = fs::path(BOLT_TRAINER_OUT) / "people";
-    fs::create_directories(o.out);
     return o;
 }
 
-// A program with somebody at it.
-class Desk {
+class Desk : public test::Desk {
   public:
-    explicit Desk(AppOptions options) {
-        options.tell = [this](const std::string& line) { told.push_back(line); };
-        gpu::InstanceOptions validated;
-        validated.validation = true;
-        auto instance = gpu::Instance::create(validated);
-        if (!instance) FAIL(instance.error().message());
-        instance_.emplace(std::move(*instance));
-        auto painter = view::make_painter(*instance_, {}, {});
-        if (!painter) FAIL(painter.error().message());
-        painter_ = std::move(*painter);
-        app = std::make_unique<App>(std::move(options));
-        need(app->start(painter_));
-        frame();
-        frame();
+    explicit Desk(AppOptions options) : test::Desk(std::move(options), {{480, 300}, 0.4F, 0.05}) {
+        wait(0.1);
     }
-    ~Desk() {
-        app->drop();
-        for (const std::string& message : instance_->log().messages) FAIL_CHECK(message);
-    }
-    Desk(const Desk&) = delete;
-    Desk& operator=(const Desk&) = delete;
-
-    void frame(const std::vector<platform::Event>& events = {}) {
-        auto frame = painter_.frames->begin();
-        if (!frame) FAIL(frame.error().message());
-        need(app->frame(**frame, events, size, 0.4F, 0.05));
-        need(painter_.frames->submit(**frame));
-    }
-    void key(Key key) {
-        frame({platform::KeyEvent{key, true, false, {}}});
-        frame({platform::KeyEvent{key, false, false, {}}});
-    }
-    // Presses on what has that label, so far from its middle (of half its width).
-    void push(words::Key label, float off = 0.0F) {
-        for (int i = 0; i < 3; ++i) frame();
-        for (const ButtonPlace& button : app->buttons()) {
-            if (button.label != label) continue;
-            const glm::dvec2 at(button.middle + glm::vec2(0.5F * off * button.width, 0.0F));
-            frame({platform::CursorEvent{at}});
-            frame({platform::ButtonEvent{platform::Button::left, true, at}});
-            frame({platform::ButtonEvent{platform::Button::left, false, at}});
-            frame();
-            return;
-        }
-        FAIL("nothing is called " << label.row().name);
-    }
-    [[nodiscard]] const content::Settings& settings() const { return app->preferences().settings; }
-    [[nodiscard]] const KeyMap& keys() const { return app->preferences().keys; }
-
-    std::unique_ptr<App> app;
-    std::vector<std::string> told;
-
-  private:
-    static void need(const Status& status) {
-        if (!status) FAIL(status.error().message());
-    }
-    std::optional<gpu::Instance> instance_;
-    view::Painter painter_;
+    [[nodiscard]] const content::Settings& settings() const { return app().preferences().settings; }
+    [[nodiscard]] const KeyMap& keys() const { return app().preferences().keys; }
 };
 
 struct Fresh {
@@ -105,7 +49,7 @@ TEST_CASE("all settings are changed by pointing, kept under the trainee's name, 
     {
         Desk desk(options(true));
         desk.push("menu.settings");
-        REQUIRE(desk.app->shows_settings());
+        REQUIRE(desk.app().shows_settings());
         desk.push("menu.captions");
         desk.push("menu.left_handed");
         desk.push("menu.seated");
@@ -115,9 +59,9 @@ TEST_CASE("all settings are changed by pointing, kept under the trainee's name, 
         desk.push("action.tool");
         desk.key(Key::g);
         desk.push("menu.back");
-        CHECK_FALSE(desk.app->shows_settings());
-        CHECK(desk.app->shows() == Shows::menu);
-        CHECK(desk.told.empty());
+        CHECK_FALSE(desk.app().shows_settings());
+        CHECK(desk.app().shows() == Shows::menu);
+        CHECK(desk.told().empty());
     }
     const Desk later(options(true));
     const content::Settings& s = later.settings();
@@ -137,9 +81,9 @@ TEST_CASE("all settings are changed by pointing, kept under the trainee's name, 
 TEST_CASE("a key that is taken is swapped, Escape leaves question, screen and pause one after the other") {
     const Fresh fresh;
     Desk desk(options(false));
-    REQUIRE(desk.app->shows() == Shows::lesson);
+    REQUIRE(desk.app().shows() == Shows::lesson);
     desk.key(Key::escape);
-    REQUIRE(desk.app->playing()->paused);
+    REQUIRE(desk.playing().paused);
     desk.push("menu.settings");
     desk.push("action.tool");
     desk.key(Key::h);
@@ -147,26 +91,26 @@ TEST_CASE("a key that is taken is swapped, Escape leaves question, screen and pa
     CHECK(desk.keys().of(Action::hint) == Key::t);
     desk.push("action.tool");
     desk.key(Key::escape);  // the question
-    CHECK(desk.app->shows_settings());
+    CHECK(desk.app().shows_settings());
     CHECK(desk.keys().of(Action::tool) == Key::h);
     desk.push("action.pause");
     desk.key(Key::shift);  // refused: it still waits
     desk.key(Key::p);
     CHECK(desk.keys().of(Action::pause) == Key::p);
     desk.key(Key::escape);  // the screen
-    CHECK_FALSE(desk.app->shows_settings());
-    CHECK(desk.app->playing()->paused);
+    CHECK_FALSE(desk.app().shows_settings());
+    CHECK(desk.playing().paused);
     desk.key(Key::escape);  // the pause
-    CHECK_FALSE(desk.app->playing()->paused);
+    CHECK_FALSE(desk.playing().paused);
     desk.key(Key::p);
-    CHECK(desk.app->playing()->paused);
+    CHECK(desk.playing().paused);
     desk.key(Key::escape);
-    CHECK_FALSE(desk.app->playing()->paused);
+    CHECK_FALSE(desk.playing().paused);
     // The new key takes the wrench, the old one does not.
     desk.key(Key::t);
-    CHECK(desk.app->playing()->hand.doing == Doing::resting);
+    CHECK(desk.playing().hand.doing == Doing::resting);
     desk.key(Key::h);
-    CHECK(desk.app->playing()->hand.doing == Doing::reaching);
+    CHECK(desk.playing().hand.doing == Doing::reaching);
 }
 
 TEST_CASE("while a key is waited for, closing the window closes it, and no key starts or presses anything") {
@@ -174,19 +118,19 @@ TEST_CASE("while a key is waited for, closing the window closes it, and no key s
     Desk desk(options(true));
     desk.push("menu.settings");
     desk.key(Key::enter);  // starts no lesson behind the screen
-    CHECK(desk.app->shows() == Shows::menu);
-    CHECK(desk.app->shows_settings());
+    CHECK(desk.app().shows() == Shows::menu);
+    CHECK(desk.app().shows_settings());
     desk.push("action.hint");
     desk.key(Key::enter);
     CHECK(desk.keys().of(Action::hint) == Key::enter);
-    CHECK(desk.app->shows() == Shows::menu);
+    CHECK(desk.app().shows() == Shows::menu);
     desk.key(Key::z);  // it has not pressed the button again: nothing is asked for any more
     CHECK(desk.keys().of(Action::hint) == Key::enter);
     desk.push("settings.usual_keys");
     CHECK(desk.keys().keys == KeyMap{}.keys);
     desk.push("action.hint");
     desk.frame({platform::CloseEvent{}});
-    CHECK(desk.app->closed());
+    CHECK(desk.app().closed());
 }
 
 TEST_CASE("left-handed: the wrench lies on the other side, and the force is the share that was asked for") {
@@ -202,11 +146,10 @@ TEST_CASE("left-handed: the wrench lies on the other side, and the force is the 
                                        settings_vocabulary({"en"})));
         AppOptions o = options(false);
         o.out /= left ? "left" : "right";
-        fs::create_directories(o.out);
         return std::make_unique<Desk>(std::move(o));
     };
     const auto right = lesson(false, 1.0), left = lesson(true, 0.25);
-    const Playing &r = *right->app->playing(), &l = *left->app->playing();
+    const Playing &r = *right->app().playing(), &l = *left->app().playing();
     const double middle = 0.5 * static_cast<double>(r.place.machine.low.x + r.place.machine.high.x);
     const Vec3 grip(r.course->setup().wrench.handle_length, 0.0, 0.0);
     const double to_right = (r.hand.rest * grip).x - middle, to_left = (l.hand.rest * grip).x - middle;
@@ -226,10 +169,10 @@ TEST_CASE("what cannot be read is told with its place, and a lesson can be playe
     const fs::path path = content::settings_path(settings_folder, "Ada");
     REQUIRE(write_file(path, "{\n  \"format\": 7\n}\n"));
     Desk desk(options(true));
-    CHECK(desk.app->preferences().trouble == Preferences::Trouble::unread);
-    REQUIRE(desk.told.size() == 1);
-    CHECK(desk.told.front().find(path.string() + ":2:13: ") == 0);
+    CHECK(desk.app().preferences().trouble == Preferences::Trouble::unread);
+    REQUIRE(desk.told().size() == 1);
+    CHECK(desk.told().front().find(path.string() + ":2:13: ") == 0);
     desk.push("menu.start");
-    CHECK(desk.app->shows() == Shows::lesson);
+    CHECK(desk.app().shows() == Shows::lesson);
     CHECK(read_file(path, 100, ErrorCode::failed).value() == "{\n  \"format\": 7\n}\n");
 }

@@ -13,6 +13,8 @@ namespace {
 
 struct AtBench {
     test::VirtualBench* bench = nullptr;
+    std::optional<station::ShownHand> gloved;
+
     std::optional<Error> refuses;
 
     AppOptions options(bool menu) {
@@ -25,14 +27,16 @@ struct AtBench {
             if (!prepared) return fail(prepared.error());
             auto made = std::make_unique<test::VirtualBench>(std::move(*prepared), course);
             bench = made.get();
+            bench->hand_ = gloved;
+
             return made;
         };
         return o;
     }
     // A picture, and the time until the next.
-    void frame(Desk& desk, std::vector<platform::Event> events = {}) {
+    void frame(Desk& desk, const std::vector<platform::Event>& events = {}) {
         bench->pass(0.1);
-        desk.frame(std::move(events));
+        desk.frame(events);
     }
 };
 
@@ -46,7 +50,7 @@ TEST_CASE(
     AtBench at;
     Desk desk(at.options(true));
     desk.frame();
-    REQUIRE(desk.push("menu.start"));
+    desk.push("menu.start");
     REQUIRE(at.bench != nullptr);
     for (int i = 0; i < 5; ++i) at.frame(desk);
     REQUIRE(desk.app().shows() == Shows::lesson);
@@ -64,7 +68,7 @@ TEST_CASE(
     const double paused = desk.playing().course->time();
     for (int i = 0; i < 3; ++i) at.frame(desk);
     CHECK(desk.playing().course->time() == paused);
-    REQUIRE(desk.push("menu.end"));
+    desk.push("menu.end");
     desk.frame();
     REQUIRE(desk.played());
     const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
@@ -93,7 +97,7 @@ TEST_CASE("a station that does not come up is told of in the menu, and the mouse
     at.refuses->what = "the arm is not plugged in";
     Desk desk(at.options(true));
     desk.frame();
-    REQUIRE(desk.push("menu.start"));
+    desk.push("menu.start");
     desk.frame();
     CHECK(desk.app().shows() == Shows::menu);
     REQUIRE(desk.app().trouble());
@@ -115,4 +119,27 @@ TEST_CASE("ticks that were lost end the lesson in words, and the session until t
     REQUIRE(reader);
     CHECK(reader->complete());
     CHECK(reader->tick_count() >= 500);
+}
+
+TEST_CASE("a glove of the left hand: the wrench lies for that one, and the session says so") {
+    const auto rests_at = [](std::optional<station::ShownHand> gloved) {
+        AtBench at;
+        at.gloved = gloved;
+        Desk desk(at.options(false));
+        desk.frame();
+        const Playing& p = desk.playing();
+        const double middle = 0.5 * static_cast<double>(p.place.machine.low.x + p.place.machine.high.x);
+        const Vec3 grip(p.course->setup().wrench.handle_length, 0.0, 0.0);
+        const double aside = (p.station->rest * grip).x - middle;
+        REQUIRE(desk.app().end_lesson());
+        const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
+        REQUIRE(reader);
+        CHECK(reader->header().hand == (gloved ? "left" : "right"));
+        return aside;
+    };
+    station::ShownHand left;
+    left.side = hand::Side::left;
+    const double bare = rests_at({});
+    CHECK(bare > 0.1);
+    CHECK(rests_at(left) == doctest::Approx(-bare));
 }

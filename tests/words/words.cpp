@@ -11,6 +11,7 @@
 #include "engine/base/file.hpp"
 #include "engine/text/fonts.hpp"
 #include "engine/text/utf8.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace bolt;
 using namespace bolt::words;
@@ -174,12 +175,11 @@ TEST_CASE("a language that is not there is answered with those that are") {
     CHECK(none.errors[0].code == ErrorCode::usage);
     CHECK(none.errors[0].what == "there are no words in the language \"ed\"");
     CHECK_FALSE(load_words(words_folder(), "../words/en").ok());
-    const auto folder = std::filesystem::temp_directory_path() / "boltwright-test-words";
-    std::filesystem::remove_all(folder);
+    const test::Folder kept;
+    const auto folder = kept / "words";
     CHECK(languages(folder).empty());
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "fr.json") << text_of("en");
     REQUIRE(load_words(folder, "fr").errors.size() == 1);
     CHECK(load_words(folder, "fr").errors[0].pointer == "/language");
-    std::filesystem::remove_all(folder);
 }

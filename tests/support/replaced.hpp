@@ -1,0 +1,16 @@
+// Text with one thing in it changed, which has to be there.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+namespace bolt::test {
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+}  // namespace bolt::test
