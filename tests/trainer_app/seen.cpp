@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "game/view/label_places.hpp"
 #include "tests/trainer_app/desk.hpp"
 
 using namespace bolt;
@@ -113,4 +114,37 @@ TEST_CASE("behind the menu stands the machine that is chosen, and the menu does 
     one.frame();
     const render::Rectangle beside{{0.0F, 0.0F}, {60.0F, 180.0F}};
     CHECK(share_changed(bare, one.picture(), beside) > 0.5);
+}
+
+TEST_CASE("the name of what is due stands over no other nut, wherever one looks from") {
+    test::Desk one(options(lesson::Mode::guided, false, "seen-names"));
+    const auto fonts = text::load_fonts();
+    REQUIRE(fonts);
+    one.frame();
+    int named = 0;
+
+    for (int turn = 0; turn < 8; ++turn) {  // so that nuts come to stand behind nuts
+        const double down = turn == 4 ? 10.0 : 0.0, aside = turn < 4 ? 7.5 : -7.5;
+
+        one.press({300.0, 150.0});
+        one.move({300.0 - aside, 150.0 - down});
+        one.release({300.0 - aside, 150.0 - down});
+        one.wait(0.5);  // it has glided there
+
+        const Playing& p = one.playing();
+        const std::size_t due = p.course->lesson().due()->joint;
+        const glm::vec2 picture(320.0F, 180.0F);
+        for (const render::Label& label : p.scene.labels) {
+            const view::LabelBox box = view::box_of(*fonts, label, one.screen().eye, picture);
+            for (std::size_t i = 0; box.seen && i < p.course->setup().nuts.size(); ++i) {
+                const auto nut = project(one.screen(), servo::nut_centre(p.course->setup().nuts[i], 0.0));
+                if (i == due || !nut) continue;
+                const glm::vec2 at(*nut);
+                ++named;
+                CAPTURE(turn);
+                CHECK_FALSE((at.x > box.low.x && at.x < box.high.x && at.y > box.low.y && at.y < box.high.y));
+            }
+        }
+    }
+    CHECK(named > 8);
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "game/scene/labels.hpp"
 #include "game/view/label_places.hpp"
 
@@ -17,6 +19,21 @@ render::Label clamp_of(const Playing& p, std::size_t joint) {
     if (p.finished && verdict != lesson::Verdict::none)
         label.text = fmt::format("{} {}", view::sign_of(verdict), label.text);
     return label;
+}
+
+// A plate over another joint's nut would name the wrong one.
+void keep_off_nuts(const Playing& p, const Screen& screen, std::vector<render::Rectangle>& taken) {
+    const servo::Setup& setup = p.course->setup();
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
+        const servo::NutPlace& nut = setup.nuts[i];
+        const Vec3 middle = servo::nut_centre(nut, p.course->state().joints[i].nut.angle);
+        const auto at = project(screen, middle), edge = project(screen, middle + nut.across_flats * nut.e1),
+                   other = project(screen, middle + nut.across_flats * nut.e2);
+        if (!at || !edge || !other) continue;
+        const auto radius =
+            static_cast<float>(0.6 * std::max(glm::distance(*at, *edge), glm::distance(*at, *other)));
+        taken.push_back({glm::vec2(*at) - radius, glm::vec2(*at) + radius});
+    }
 }
 
 }  // namespace
@@ -51,9 +68,11 @@ void label_system(scene::World&, Frame& frame) {
         else if (i == marked || p.under == i)
             named(i, i == marked);
     }
+    if (frame.fonts == nullptr) return;
     const Screen screen = screen_of(p, frame.size);
-    if (frame.fonts != nullptr)
-        view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size), p.plates);
+    std::vector<render::Rectangle> taken = p.plates;
+    if (!p.clamp_map && !p.finished) keep_off_nuts(p, screen, taken);
+    view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size), taken);
 }
 
 void present_system(scene::World& world, Frame& frame) { scene::present(world, frame.playing.scene); }
