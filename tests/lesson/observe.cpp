@@ -70,6 +70,19 @@ TEST_CASE(
     CHECK(s.count("mistake") == 2);
 }
 
+TEST_CASE("fingers that feel once more whether a nut is down make no mistake, a wrench there does") {
+    Script s;
+    s.seat(0);
+    REQUIRE(s.lesson.current == 1);
+    s.tick(0, servo::Grip::fingers, 0.6);
+    s.idle();
+    CHECK(s.count("mistake") == 0);
+    CHECK(s.lesson.joints[0].result.rehits == 0);
+    s.pull(0, 5.0);
+    CHECK(s.lesson.joints[0].result.rehits == 1);
+    CHECK(s.lesson.current == 1);
+}
+
 TEST_CASE("pulled too far out of its step: the torque is not forgotten") {
     Script s;
     s.seat_both();

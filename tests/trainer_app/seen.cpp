@@ -122,15 +122,12 @@ TEST_CASE("the name of what is due stands over no other nut, wherever one looks 
     REQUIRE(fonts);
     one.frame();
     int named = 0;
-
     for (int turn = 0; turn < 8; ++turn) {  // so that nuts come to stand behind nuts
         const double down = turn == 4 ? 10.0 : 0.0, aside = turn < 4 ? 7.5 : -7.5;
-
         one.press({300.0, 150.0});
         one.move({300.0 - aside, 150.0 - down});
         one.release({300.0 - aside, 150.0 - down});
         one.wait(0.5);  // it has glided there
-
         const Playing& p = one.playing();
         const std::size_t due = p.course->lesson().due()->joint;
         const glm::vec2 picture(320.0F, 180.0F);
