@@ -105,9 +105,11 @@ Result<render::Picture> Film::draw(const play::Moment& moment, double seconds) {
     scene_.cut_away.strength = 0.0F;
     if (const auto joint = at_work(moment); joint && moment.output.joint >= 0)
         scene::keep_in_sight(place_.world, scene_, moment.setup, moment.state, *joint);
-    scene::present(place_.world, scene_);
     follow(moment);
     (void)camera_.advance(seconds);
+    scene::thin_near_arms(place_.world, Vec3(view::viewpoint_of(camera_.shown).eye));
+    scene::present(place_.world, scene_);
+
     scene_.labels.clear();
     if (const auto label =
             scene::work_label(moment.lesson, moment.setup, moment.state, moment.output, wrench))

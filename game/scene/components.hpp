@@ -45,7 +45,8 @@ struct Fingers {
     hand::Skeleton shown;  // in the frame of the tool
     std::vector<glm::mat4> inverse_bind;
     std::shared_ptr<const render::Deformation> deformation;
-    float strain = 0.0F;  // 0 … 1: its skin pales
+    float strain = 0.0F;    // 0 … 1: its skin pales
+    float too_near = 0.0F;  // 0 … 1: its arm is so near to the eye that it fills the picture
 };
 
 // A line around it, through whatever hides it.

@@ -10,6 +10,8 @@ namespace {
 
 constexpr float ghost_opacity = 0.4F, most_pale = 0.4F;
 constexpr double around_work = 0.9, around_waiting = 3.0;  // of a nut's width, around its middle, kept free
+constexpr double forearm = 0.25, nearest_arm = 0.12, clear_arm = 0.24;  // m: of it; thinned, and not at all
+constexpr float most_thinned = 0.85F;
 constexpr glm::vec3 pale{0.95F, 0.80F, 0.74F};
 constexpr glm::vec4 ghost_tint{0.2F, 0.75F, 1.0F, 0.7F};
 
@@ -128,6 +130,17 @@ void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup
     world.view<const Fingers, CanFade>().each([](const Fingers&, CanFade& can) { can.fades = true; });
 }
 
+void thin_near_arms(World& world, const Vec3& eye) {
+    world.view<Fingers, const Placement>().each([&](Fingers& fingers, const Placement& placement) {
+        const glm::dmat4 at(placement.world);
+        const Vec3 wrist(at * glm::dvec4(fingers.shown.position[hand::wrist], 1.0));
+        const Vec3 arm(glm::dmat3(at) * (fingers.shown.rotation[hand::wrist] * Vec3(0.0, 0.0, forearm)));
+        const double along = std::clamp(glm::dot(eye - wrist, arm) / (forearm * forearm), 0.0, 1.0);
+        const double off = glm::distance(eye, wrist + along * arm);
+        fingers.too_near = static_cast<float>(1.0 - glm::smoothstep(nearest_arm, clear_arm, off));
+    });
+}
+
 render::Scene lit(const Workplace& place, const render::EnvironmentLight& light) {
     render::Scene scene;
     scene.environment = &light;
@@ -155,12 +168,14 @@ void present(World& world, render::Scene& scene) {
                 object.deformation = fingers->deformation;
                 // Never quite none: what has none is drawn by other shaders, made in the middle of a pull.
                 object.tint = glm::vec4(pale, std::max(1e-3F, most_pale * fingers->strain));
+                object.opacity = 1.0F - most_thinned * fingers->too_near;
             }
             if (const Outlined* line = world.find<Outlined>(entity)) object.outline = line->color;
             if (const CanFade* fade = world.find<CanFade>(entity)) object.cut = fade->fades;
             if (const Ghost* ghost = world.find<Ghost>(entity)) {
                 if (!ghost->shown) return;
-                object.opacity = ghost_opacity;
+                object.opacity *= ghost_opacity;
+
                 object.tint = ghost_tint;
             }
             if (const Pointer* pointer = world.find<Pointer>(entity)) {

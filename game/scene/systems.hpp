@@ -40,6 +40,9 @@ enum class Hides : std::uint8_t { all, hand };
 void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup, const servo::State& state,
                    std::size_t joint, Hides hides = Hides::all);
 
+// An arm so near to the eye (m, the assembly's frame) that it would fill the picture is seen through.
+void thin_near_arms(World& world, const Vec3& eye);
+
 // A scene without anything in it yet, in the workshop's light and a lamp's over the left shoulder.
 render::Scene lit(const Workplace& place, const render::EnvironmentLight& light);
 

@@ -1,7 +1,5 @@
 #include "game/trainer/aids.hpp"
 
-#include <algorithm>
-
 #include "game/operators/mind.hpp"
 
 namespace bolt::trainer {
@@ -39,29 +37,20 @@ Arrow with_fingers(const MotionPlace& place, double sense, const glm::vec4& colo
                               color);
 }
 
-// An arm so near to the eye fills the picture and shows nothing.
-void show_ghost_hand(scene::World& world, const Playing& p, const Pose& tool, const hand::Skeleton& bent) {
-    const Vec3 wrist = tool * bent.position[hand::wrist];
-    const Vec3 arm = tool.orientation * (bent.rotation[hand::wrist] * Vec3(0.0, 0.0, forearm));
-    const Vec3 off = Vec3(view::viewpoint_of(p.camera.shown).eye) - wrist;
-    const double along = std::clamp(glm::dot(off, arm) / (forearm * forearm), 0.0, 1.0);
-    if (glm::length(off - along * arm) > too_near) scene::show_hand_ghost(world, tool, bent);
-}
-
 // Hands are where the work is to be done: fingers on the nut, or around the wrench that lies there.
 void show_hand(scene::World& world, Playing& p, Motion motion) {
     const servo::Setup& setup = p.course->setup();
     const lesson::Step* due = p.course->lesson().due();
     if (motion == Motion::take) {
         const std::size_t grip = scene::natural_grip(p.postures, p.hand.rest, Vec3(0, 1, 0), p.shoulder);
-        show_ghost_hand(world, p, p.hand.rest, p.postures.on_handle.at(grip));
+        scene::show_hand_ghost(world, p.hand.rest, p.postures.on_handle.at(grip));
         return;
     }
     const servo::NutPlace& nut = setup.nuts[due->joint];
     const double angle = p.course->state().joints[due->joint].nut.angle;
     const Pose at{servo::nut_centre(nut, angle), operators::orientation_of(nut, 0.0, false)};
-    show_ghost_hand(world, p, scene::towards(at, p.shoulder, 0.0),
-                    motion == Motion::let_go ? p.postures.open : p.postures.on_nut);
+    scene::show_hand_ghost(world, scene::towards(at, p.shoulder, 0.0),
+                           motion == Motion::let_go ? p.postures.open : p.postures.on_nut);
 }
 
 // Where the hand would put the wrench; looked for once a step, for it takes rays.
@@ -82,7 +71,7 @@ void show_ghosts(scene::World& world, Playing& p, const hints::Hint& hint, const
     const Pose& tool = wrench_for(p, due);
     const std::size_t grip = scene::natural_grip(p.postures, tool, Vec3(0, 1, 0), p.shoulder);
     scene::show_ghost(world, tool);
-    show_ghost_hand(world, p, tool, p.postures.on_handle.at(grip));
+    scene::show_hand_ghost(world, tool, p.postures.on_handle.at(grip));
 }
 
 MotionPlace place_of(const Playing& p, const lesson::Step& due, std::size_t joint) {

@@ -18,11 +18,12 @@ namespace {
 // A copy of the shaders to play with.
 struct Copy {
     test::Folder root;
-    fs::path folder = root / "with spaces";
+    fs::path folder = root / "paths have spaces" / "shaders";
 
     Copy() {
         const char* content = std::getenv("BOLTWRIGHT_CONTENT");
         REQUIRE(content != nullptr);
+        fs::create_directories(folder.parent_path());
         fs::copy(fs::path(content).parent_path() / "shaders", folder);
     }
 

@@ -33,3 +33,33 @@ TEST_CASE("what hides the due nut fades: a hand that waits alone, and about more
     CHECK(fades(other));
     CHECK(fades(hand));
 }
+
+TEST_CASE("an arm that comes past the eye is seen through, one at its length is not") {
+    using namespace bolt;
+    scene::World world;
+    const ecs::Entity one = world.create();
+    world.add<scene::Placement>(one);
+    world.add<scene::Drawn>(one);
+    scene::Fingers& fingers = world.add<scene::Fingers>(one);
+    fingers.shown = hand::right_skeleton();
+    const Vec3 wrist = fingers.shown.position[hand::wrist],
+               back = fingers.shown.rotation[hand::wrist] * Vec3(0.0, 0.0, 1.0);
+    const auto opacity = [&](const Vec3& eye) {
+        scene::thin_near_arms(world, eye);
+        render::Scene drawn;
+        scene::present(world, drawn);
+        return drawn.objects.at(0).opacity;
+    };
+    const Vec3 aside = glm::normalize(glm::cross(back, Vec3(0.3, 0.5, 0.8)));
+    CHECK(opacity(wrist + 0.5 * back) == 1.0F);                // behind its end
+    CHECK(opacity(wrist + 0.2 * back + 0.3 * aside) == 1.0F);  // beside it
+    CHECK(opacity(wrist + 0.2 * back + 0.05 * aside) < 0.2F);
+    CHECK(opacity(wrist + 0.3 * back) < 0.2F);
+    float before = opacity(wrist + 0.1 * back);
+    for (double far = 0.10; far < 0.26; far += 0.02) {  // evenly: nothing pops in or out
+        const float now = opacity(wrist + 0.1 * back + far * aside);
+        CHECK(now >= before);
+        CHECK(now - before < 0.25F);
+        before = now;
+    }
+}

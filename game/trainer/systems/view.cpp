@@ -81,6 +81,8 @@ void view_system(scene::World& world, Frame& frame) {
             view::framing(p.camera.goal, p.place.machine, static_cast<float>(frame.size.x / frame.size.y)));
     if (frame.wanted.wants(Action::find_view) || lost(p, frame)) look_at_work(p, frame.size);
     (void)p.camera.advance(frame.seconds);
+    scene::thin_near_arms(world, Vec3(view::viewpoint_of(p.camera.shown).eye));
+
     const bool helps = p.course->lesson().mode != lesson::Mode::assessment;
     if (frame.wanted.wants(Action::close_up)) p.close_up.wished = !p.close_up.wished;
     update_close_up(p);
