@@ -109,7 +109,10 @@ render::Eye eye_of(const RenderOptions& options, const view::Viewpoint& view, co
     const render::Perspective lens = view::lens(box, view.eye, view.target, fov, aspect);
     const glm::vec3 right =
         glm::normalize(glm::vec3(glm::transpose(render::look_at(view.eye, view.target))[0]));
-    return render::make_eye(view.eye + aside * right, view.target + aside * right, lens);
+    render::Eye eye = render::make_eye(view.eye + aside * right, view.target + aside * right, lens);
+    eye.clip_from_world =
+        view::converging(aside, glm::distance(view.eye, view.target), lens) * eye.clip_from_world;
+    return eye;
 }
 
 // The joints' names where they are, seen through parts a little.

@@ -5,6 +5,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
+#include "game/view/stereo.hpp"
+
 namespace bolt::view {
 
 namespace {
@@ -62,7 +64,8 @@ render::Eye eye_of(const Orbit& o, const render::Box& box, float aspect, float a
     const glm::mat4 view(glm::translate(turn, -eye));
     const render::Perspective through =
         lens(box, glm::vec3(eye), glm::vec3(o.target + beside), static_cast<float>(o.fov), aspect);
-    return {glm::vec3(eye), render::perspective(through) * view};
+    return {glm::vec3(eye),
+            converging(aside, static_cast<float>(o.distance), through) * render::perspective(through) * view};
 }
 
 void turn(Orbit& o, glm::dvec2 by) {

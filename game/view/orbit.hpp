@@ -21,7 +21,7 @@ Orbit orbit_of(const Viewpoint& view);
 Viewpoint viewpoint_of(const Orbit& orbit);
 
 // What the renderer needs; right from straight above and below too. `aside`: m to the right of the orbit, as
-// one of two eyes is (stereo.hpp).
+// one of two eyes is, which meet at the target (stereo.hpp).
 render::Eye eye_of(const Orbit& orbit, const render::Box& box, float aspect, float aside = 0.0F);
 
 // The cursor went this far: half a turn a height. The model follows it.

@@ -1,10 +1,18 @@
 #include "game/view/stereo.hpp"
 
+#include <cmath>
+
 namespace bolt::view {
 
 std::vector<float> eyes_aside(bool stereo) {
     if (!stereo) return {0.0F};
     return {-0.5F * eye_distance, 0.5F * eye_distance};
+}
+
+glm::mat4 converging(float aside, float distance, const render::Perspective& lens) {
+    glm::mat4 shear(1.0F);
+    shear[3][0] = aside / (distance * std::tan(0.5F * lens.fov) * lens.aspect);  // x + this · w
+    return shear;
 }
 
 render::Picture side_by_side(std::span<const render::Picture> pictures) {
