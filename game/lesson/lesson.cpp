@@ -71,9 +71,13 @@ void work_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& sta
     const Step& due = *lesson.due();
     JointTrack& track = lesson.joints[joint];
     const std::string& id = track.result.id;
-    if (track.done_in_pass == due.pass) {
-        // Who spins a nut down notices that it is there by gripping it once more; that changes nothing.
-        if (lesson.grip == servo::Grip::fingers) return;
+    const bool done = track.done_in_pass == due.pass;
+    // Who spins a nut down notices that it is there by gripping it once more. Fingers turn no nut on its
+    // seat.
+    if (lesson.grip == servo::Grip::fingers &&
+        (done || state.joints[joint].stage != joint::Stage::navigation))
+        return;
+    if (done) {
         ++track.result.rehits;
         mistake(lesson, state.tick, Cause::done_already, joint, 0.0,
                 fmt::format("{} was done already in this pass", id));

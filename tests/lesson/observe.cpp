@@ -83,6 +83,21 @@ TEST_CASE("fingers that feel once more whether a nut is down make no mistake, a 
     CHECK(s.lesson.current == 1);
 }
 
+TEST_CASE(
+    "nor do they at the last nut, whose step began the next pass, until a nut out of turn comes off its "
+    "seat") {
+    Script s;
+    s.seat_both();
+    REQUIRE(s.lesson.due()->joint == 0);
+    s.tick(1, servo::Grip::fingers, 0.6);
+    s.idle();
+    CHECK(s.count("mistake") == 0);
+    s.state.joints[1].stage = joint::Stage::navigation;
+    s.tick(1, servo::Grip::fingers, 0.1, 1.0);
+    s.idle();
+    CHECK(s.lesson.joints[1].result.order_errors == 1);
+}
+
 TEST_CASE("pulled too far out of its step: the torque is not forgotten") {
     Script s;
     s.seat_both();
