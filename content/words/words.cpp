@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -238,5 +239,16 @@ std::vector<std::string> languages(const std::filesystem::path& folder) {
 }
 
 std::filesystem::path words_folder() { return content::content_folder() / "words"; }
+
+std::string language_of_desktop(std::span<const std::string> there) {
+    for (const char* variable : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
+        const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): nothing sets it
+        if (value == nullptr || *value == 0) continue;
+        const std::string code = std::string(value).substr(0, 2);
+        if (std::find(there.begin(), there.end(), code) != there.end()) return code;
+        break;
+    }
+    return "en";
+}
 
 }  // namespace bolt::words

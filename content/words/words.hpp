@@ -62,4 +62,8 @@ Loaded load_words(const std::filesystem::path& folder, std::string_view language
 std::vector<std::string> languages(const std::filesystem::path& folder);
 std::filesystem::path words_folder();
 
+// "de" where the desktop speaks "de_DE.UTF-8", by LC_ALL, LC_MESSAGES or LANG; "en" where none of `there` is
+// it.
+std::string language_of_desktop(std::span<const std::string> there);
+
 }  // namespace bolt::words

@@ -22,7 +22,7 @@ namespace bolt::cli {
 namespace {
 
 struct ReplayOptions {
-    std::string session, png, video, wav, view, size = "1280x720", gpu;
+    std::string session, png, video, wav, view, language, size = "1280x720", gpu;
     double at = -1.0, from = 0.0, until = 1e9;
     int rate = 30;
     bool validate = false, silent = false, stereo = false;
@@ -171,8 +171,13 @@ Status take_camera(const ReplayOptions& options, const play::Prepared& at, hand:
                    const std::string& film, Crew& crew) {
     const Result<VkExtent2D> size = view::parse_size(options.size);
     if (!size) return fail(size.error());
-    Result<std::unique_ptr<film::Film>> made =
-        film::Film::create(at, {hand, options.view, *size, options.gpu, options.stereo, options.validate});
+    const std::filesystem::path folder = words::words_folder();
+    const std::string language =
+        options.language.empty() ? words::language_of_desktop(words::languages(folder)) : options.language;
+    const words::Loaded loaded = words::load_words(folder, language);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    Result<std::unique_ptr<film::Film>> made = film::Film::create(
+        at, {hand, loaded.words, options.view, *size, options.gpu, options.stereo, options.validate});
     if (!made) return fail(made.error());
     crew.film = std::move(*made);
     std::optional<Feed> feed;
@@ -258,7 +263,10 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->needs(video)
         ->capture_default_str();
     replay->add_option("--view", options->view, "Named view of the assembly; follows the work if not given");
+    replay->add_option("--language", options->language,
+                       "Of what stands in the picture: en, de, zh; the desktop's if not given");
     replay->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
+
     replay->add_flag("--stereo", options->stereo, "Both eyes, side by side");
     replay->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     replay->add_flag("--validate", options->validate,

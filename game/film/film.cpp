@@ -111,8 +111,8 @@ Result<render::Picture> Film::draw(const play::Moment& moment, double seconds) {
     scene::present(place_.world, scene_);
 
     scene_.labels.clear();
-    if (const auto label =
-            scene::work_label(moment.lesson, moment.setup, moment.state, moment.output, wrench))
+    if (const auto label = scene::work_label(options_.words, moment.lesson, moment.setup, moment.state,
+                                             moment.output, wrench))
         scene_.labels.push_back(*label);
     const float aspect = static_cast<float>(options_.size.width) / static_cast<float>(options_.size.height);
     std::vector<render::Eye> eyes;

@@ -3,6 +3,7 @@
 
 #include "engine/render/picture.hpp"
 
+#include "content/words/words.hpp"
 #include "game/play/replay.hpp"
 #include "game/scene/find_view.hpp"
 #include "game/scene/systems.hpp"
@@ -13,6 +14,7 @@ namespace bolt::film {
 
 struct FilmOptions {
     hand::Side hand = hand::Side::right;  // that worked
+    words::Words words;                   // of the figures at the wrench
 
     std::string view;  // of the assembly; empty: follows the work
     VkExtent2D size{1280, 720};

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "game/hints/terms.hpp"
+
 namespace bolt::scene {
 
 namespace {
@@ -18,6 +20,24 @@ void show_standing(render::Label& label, const content::Window& window, double t
     label.color = too_much ? palette.wrong : palette.right;
     label.text = fmt::format("{} {}", view::sign_of(too_much ? lesson::Verdict::high : lesson::Verdict::ok),
                              label.text);
+}
+
+// Since when a nut's angle counts: out of its turn, and not snug, it says nothing.
+std::optional<double> counted_from(const lesson::Lesson& lesson, std::size_t joint) {
+    const lesson::JointTrack& track = lesson.joints[joint];
+    if (track.snug) return track.snug_angle;
+    const lesson::Step* due = lesson.due();
+    return due != nullptr && due->joint == joint ? std::optional(track.begin_angle) : std::nullopt;
+}
+
+std::string figures(const words::Words& words, const lesson::Lesson& lesson, const servo::Output& output,
+                    bool wrench) {
+    if (!wrench)
+        return words::say(words, "hud.turns", {{"turns", words::Number{output.nut_angle / (2.0 * pi), 1}}});
+    std::string said = words::say(words, words::Number{std::abs(output.wrench_torque), 0}) + " N·m   ";
+    const auto from = counted_from(lesson, static_cast<std::size_t>(output.joint));
+    if (from) said += fmt::format("{:+.0f}°   ", to_degrees(output.nut_angle - *from));
+    return said + words[hints::term(output.stage)];
 }
 
 }  // namespace
@@ -39,20 +59,18 @@ Vec3 above_nut(const servo::Setup& setup, const servo::State& state, std::size_t
     return servo::nut_centre(nut, state.joints[joint].nut.angle) + 0.03 * nut.axis;
 }
 
-std::optional<render::Label> work_label(const lesson::Lesson& lesson, const servo::Setup& setup,
-                                        const servo::State& state, const servo::Output& output, bool wrench,
+std::optional<render::Label> work_label(const words::Words& words, const lesson::Lesson& lesson,
+                                        const servo::Setup& setup, const servo::State& state,
+                                        const servo::Output& output, bool wrench,
                                         const view::Palette& palette) {
     if (output.joint < 0) return std::nullopt;
     const auto joint = static_cast<std::size_t>(output.joint);
-    const lesson::JointTrack& track = lesson.joints[joint];
     const lesson::Step* due = lesson.due();
     const double torque = std::abs(output.wrench_torque);
-    const double angle = output.nut_angle - (track.snug ? track.snug_angle : track.begin_angle);
     const bool fits = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
-    render::Label label = plate(wrench ? fmt::format("{:.0f} N·m   {:+.0f}°   {}", torque, to_degrees(angle),
-                                                     joint::name(output.stage))
-                                       : fmt::format("{:.1f} turns", output.nut_angle / (2.0 * pi)),
-                                above_nut(setup, state, joint), 22.0F);
+    render::Label label =
+        plate(figures(words, lesson, output, wrench), above_nut(setup, state, joint), 22.0F);
+
     if (wrench && lesson.mode != lesson::Mode::assessment)
         show_standing(label, lesson.assembly->joints[joint].spec.torque, torque, fits ? due->fraction : 1.0,
                       palette);
@@ -60,11 +78,11 @@ std::optional<render::Label> work_label(const lesson::Lesson& lesson, const serv
     return label;
 }
 
-render::Label clamp_label(const content::Assembly& assembly, const servo::Setup& setup,
-                          const servo::State& state, std::size_t joint) {
-    render::Label label =
-        plate(fmt::format("{} {:.1f} kN", assembly.joints[joint].design.id, state.joints[joint].clamp / 1e3),
-              above_nut(setup, state, joint), 15.0F);
+render::Label clamp_label(const words::Words& words, const content::Assembly& assembly,
+                          const servo::Setup& setup, const servo::State& state, std::size_t joint) {
+    const std::string force = words::say(words, words::Number{state.joints[joint].clamp / 1e3, 1});
+    render::Label label = plate(fmt::format("{} {} kN", assembly.joints[joint].design.id, force),
+                                above_nut(setup, state, joint), 15.0F);
     label.moved_px = {0.0F, 8.0F};
     return label;
 }

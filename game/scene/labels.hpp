@@ -1,6 +1,7 @@
 // Figures that stand in the scene, at the place that they belong to.
 #pragma once
 
+#include "content/words/words.hpp"
 #include "engine/render/label.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/view/palette.hpp"
@@ -18,14 +19,15 @@ render::Label plate(std::string text, const Vec3& at, float height);
 Vec3 above_nut(const servo::Setup& setup, const servo::State& state, std::size_t joint);
 
 // At the wrench: torque in the colour of how it lies to what is asked for and with its sign, the angle since
-// the joint was snug (or since the step began, before it is), the stage; by hand the turns. None: nothing is
-// held.
-std::optional<render::Label> work_label(const lesson::Lesson& lesson, const servo::Setup& setup,
-                                        const servo::State& state, const servo::Output& output, bool wrench,
+// the joint was snug (before it is, since its step began; out of its turn none), the stage; by hand the
+// turns. None: nothing is held.
+std::optional<render::Label> work_label(const words::Words& words, const lesson::Lesson& lesson,
+                                        const servo::Setup& setup, const servo::State& state,
+                                        const servo::Output& output, bool wrench,
                                         const view::Palette& palette = {});
 
 // Clamp force of a joint, with its name.
-render::Label clamp_label(const content::Assembly& assembly, const servo::Setup& setup,
-                          const servo::State& state, std::size_t joint);
+render::Label clamp_label(const words::Words& words, const content::Assembly& assembly,
+                          const servo::Setup& setup, const servo::State& state, std::size_t joint);
 
 }  // namespace bolt::scene

@@ -43,23 +43,6 @@ std::vector<Listed> list_assemblies() {
     return listed;
 }
 
-namespace {
-
-// "de" of "de_DE.UTF-8"; English for all that is not there.
-std::string language_of_desktop(const std::vector<words::Words>& there) {
-    for (const char* variable : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
-        const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): nothing sets it
-        if (value == nullptr || *value == 0) continue;
-        const std::string code = std::string(value).substr(0, 2);
-        for (const words::Words& language : there)
-            if (language.language == code) return code;
-        break;
-    }
-    return "en";
-}
-
-}  // namespace
-
 // Another language from now on.
 Status App::speak(const std::string& language) {
     words::Loaded loaded = words::load_words(words::words_folder(), language);
@@ -92,13 +75,14 @@ void App::tell(const std::string& line) const {
 
 Status App::start(view::Painter& painter) {
     if (languages_.empty()) {
-        for (const std::string& code : words::languages(words::words_folder())) {
+        const std::vector<std::string> there = words::languages(words::words_folder());
+        for (const std::string& code : there) {
             words::Loaded loaded = words::load_words(words::words_folder(), code);
             if (!loaded.ok()) return fail(loaded.errors.front());
             languages_.push_back(std::move(loaded.words));
         }
         const std::string& asked = options_.choice.language;
-        if (Status spoken = speak(asked.empty() ? language_of_desktop(languages_) : asked); !spoken)
+        if (Status spoken = speak(asked.empty() ? words::language_of_desktop(there) : asked); !spoken)
             return spoken;
     }
     on_ = std::make_unique<OnGpu>();
@@ -392,7 +376,7 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         Playing& p = *playing_;
         if (p.station)
             p.station->keys.take(shows_ == Shows::lesson ? events : std::span<const platform::Event>());
-        Frame now{p, seconds, extent, apply(p.controls, events, mine), &*on_->fonts, {}};
+        Frame now{p, words_, seconds, extent, apply(p.controls, events, mine), &*on_->fonts, {}};
         if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.paused = !p.paused;
         full_screen_ = full_screen_ || now.wanted.wants(Action::full_screen);
         const bool had_wrench = p.hand.wrench;

@@ -35,8 +35,9 @@ void plate(const char* name, const ImVec2& at, const ImVec2& pivot) {
 
 // Torque over the nut's angle, with the window that is to be reached.
 void draw_plot(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
-    if (p.plot.size() < 2) return;
-    const auto joint = static_cast<std::size_t>(p.plotted);
+    const std::vector<PlotPoint>& points = p.plot.points;
+    if (points.size() < 2) return;
+    const auto joint = static_cast<std::size_t>(p.plot.joint);
     const content::Specification& spec = p.course->assembly().joints[joint].spec;
     const ImVec2 area(260.0F * scale, 150.0F * scale);
     plate("##plot", {static_cast<float>(size.x) - 12.0F * scale, static_cast<float>(size.y) - 12.0F * scale},
@@ -45,11 +46,11 @@ void draw_plot(const Playing& p, const words::Words& w, const glm::dvec2& size, 
     const ImVec2 low = ImGui::GetCursorScreenPos();
     ImGui::Dummy(area);
     const auto [least, most] =
-        std::minmax_element(p.plot.begin(), p.plot.end(),
+        std::minmax_element(points.begin(), points.end(),
                             [](const PlotPoint& a, const PlotPoint& b) { return a.angle < b.angle; });
     const float begin = least->angle, across = std::max(most->angle - begin, 10.0F) * 1.08F;
     float highest = static_cast<float>(spec.torque.high) * 1.15F, lowest = 0.0F;
-    for (const PlotPoint& q : p.plot) {
+    for (const PlotPoint& q : points) {
         highest = std::max(highest, q.torque);
         lowest = std::min(lowest, q.torque);
     }
@@ -58,18 +59,18 @@ void draw_plot(const Playing& p, const words::Words& w, const glm::dvec2& size, 
                       low.y + area.y * (highest - torque) / (highest - lowest));
     };
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    if (p.course->lesson().mode != lesson::Mode::assessment) {
-        const ImVec2 top = place(begin, static_cast<float>(spec.torque.high)),
-                     foot = place(begin + across, static_cast<float>(spec.torque.low));
+    if (p.plot.aim && p.course->lesson().mode != lesson::Mode::assessment) {
+        const ImVec2 top = place(begin, static_cast<float>(p.plot.aim->high)),
+                     foot = place(begin + across, static_cast<float>(p.plot.aim->low));
         // A band and its edges: it is one without any colour.
         list.AddRectFilled(top, foot, in_color(p.palette.ok, 0.24F));
         list.AddRect(top, foot, in_color(p.palette.ok, 0.9F));
     }
     list.AddLine(place(begin, 0.0F), place(begin + across, 0.0F), grid);
     list.AddRect(low, {low.x + area.x, low.y + area.y}, frame_color);
-    for (std::size_t i = 1; i < p.plot.size(); ++i)
-        list.AddLine(place(p.plot[i - 1].angle, p.plot[i - 1].torque),
-                     place(p.plot[i].angle, p.plot[i].torque), curve, 2.0F * scale);
+    for (std::size_t i = 1; i < points.size(); ++i)
+        list.AddLine(place(points[i - 1].angle, points[i - 1].torque),
+                     place(points[i].angle, points[i].torque), curve, 2.0F * scale);
     ImGui::End();
 }
 

@@ -19,17 +19,13 @@
 #include "game/trainer/close_up.hpp"
 #include "game/trainer/controls.hpp"
 #include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/plot.hpp"
+
 #include "game/trainer/pointing.hpp"
 #include "game/view/orbit.hpp"
 #include "game/view/palette.hpp"
 
 namespace bolt::trainer {
-
-// For the plot of a pull: torque over the nut's angle.
-struct PlotPoint {
-    float angle = 0.0F;   // deg
-    float torque = 0.0F;  // N·m
-};
 
 struct Playing {
     std::unique_ptr<play::Course> course;
@@ -51,10 +47,10 @@ struct Playing {
     double owed = 0.0;     // s of ticks that are due
     servo::Output output;  // of the last tick
 
-    std::size_t grip = 0;         // how the handle is held (scene::Postures)
-    Vec3 shoulder{0.0};           // m, of whoever works
-    std::vector<PlotPoint> plot;  // of the joint in hand
-    int plotted = -1;
+    std::size_t grip = 0;  // how the handle is held (scene::Postures)
+    Vec3 shoulder{0.0};    // m, of whoever works
+    Plot plot;
+
     hints::Hints hints;
     std::optional<std::pair<std::size_t, Pose>> ghost;  // of the wrench: for which step, and where
     hints::Mistakes mistakes;

@@ -8,6 +8,8 @@ namespace bolt::trainer {
 
 struct Frame {
     Playing& playing;
+    const words::Words& words;
+
     double seconds = 0.0;  // since the last one
     glm::dvec2 size{1.0};  // px, of the picture
     Wanted wanted;

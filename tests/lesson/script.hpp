@@ -15,6 +15,7 @@ struct Script {
     content::Assembly assembly;
     Lesson lesson;
     servo::State state;
+    servo::Output output;  // of the last tick
 
     Script(const Script&) = delete;  // the lesson points at the assembly
     Script& operator=(const Script&) = delete;
@@ -37,18 +38,16 @@ struct Script {
     }
 
     void tick(int joint, servo::Grip grip, double torque, double speed = 0.0, bool clicked = false) {
-        servo::Output output;
+        output = {};
         output.clicked = clicked;
         output.joint = static_cast<std::int16_t>(joint);
         state.engagement.joint = joint;
         state.engagement.grip = joint >= 0 ? grip : servo::Grip::none;
         const joint::JointState* turned = nullptr;
-
         if (joint >= 0) {
             joint::JointState& j = state.joints[static_cast<std::size_t>(joint)];
             turned = &j;
             j.nut.speed = speed;
-
             j.nut.angle += speed * 1e-3;
 
             j.torque = output.wrench_torque = torque;

@@ -237,6 +237,24 @@ TEST_CASE("a step is taken back: the nut is where it was, the step due again, an
     CHECK(back == 2);
 }
 
+TEST_CASE(
+    "a press counts where it was, also in a frame so slow that the pointer came, pressed and went on in it") {
+    Desk desk(options("cover-m8", false));
+    desk.frame();
+    const Playing& p = desk.playing();
+    const std::size_t first = p.course->lesson().due()->joint, other = (first + 1) % 4;
+    const glm::dvec2 away(5.0, 90.0);
+    desk.release(desk.hold(first));
+    desk.move(away);
+    for (int i = 0; i < 40 && p.mouse.doing != Doing::resting; ++i) desk.frame();
+    REQUIRE_FALSE(p.under);
+    const auto there = project(desk.screen(), servo::nut_centre(p.course->setup().nuts[other], 0.0));
+    REQUIRE(there);
+    desk.frame({platform::CursorEvent{*there}, platform::ButtonEvent{platform::Button::left, true, *there},
+                platform::CursorEvent{away}});
+    CHECK(p.mouse.nut == other);
+}
+
 TEST_CASE("something is said in every language, and nothing in an assessment") {
     for (const char* language : {"de", "zh", "en"}) {
         AppOptions o = options("cover-m8", false);

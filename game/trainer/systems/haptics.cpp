@@ -11,18 +11,6 @@ namespace {
 
 constexpr double twist_shown = 0.3;    // of the fingers' twist, at the wrist
 constexpr double longest_step = 0.25;  // s of lesson that one frame catches up with
-constexpr std::size_t most_plotted = 4000;
-
-void plot(Playing& p, const servo::Output& output) {
-    if (output.joint < 0) return;
-    if (output.joint != p.plotted) p.plot.clear();
-    p.plotted = output.joint;
-    const PlotPoint now{static_cast<float>(to_degrees(output.nut_angle)),
-                        static_cast<float>(output.wrench_torque)};
-    const bool same = !p.plot.empty() && std::abs(p.plot.back().angle - now.angle) < 0.02F &&
-                      std::abs(p.plot.back().torque - now.torque) < 0.2F;
-    if (!same && p.plot.size() < most_plotted) p.plot.push_back(now);
-}
 
 void say(Playing& p, std::span<const lesson::Event> events) {
     for (const lesson::Event& event : events) {
@@ -34,7 +22,7 @@ void say(Playing& p, std::span<const lesson::Event> events) {
 void note(Playing& p, servo::Grip grip, const servo::Output& output) {
     const bool wrench = grip == servo::Grip::wrench;
     p.output = output;
-    if (wrench) plot(p, output);
+    if (wrench) note(p.plot, p.course->lesson(), output);
     scene::strain(p.strain, output, p.course->setup(), wrench);
 
     say(p, p.course->events());

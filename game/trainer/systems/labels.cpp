@@ -12,9 +12,9 @@ namespace bolt::trainer {
 namespace {
 
 // After the lesson with the sign of what became of the joint, as its outline has the colour.
-render::Label clamp_of(const Playing& p, std::size_t joint) {
+render::Label clamp_of(const Playing& p, const words::Words& words, std::size_t joint) {
     const play::Course& course = *p.course;
-    render::Label label = scene::clamp_label(course.assembly(), course.setup(), course.state(), joint);
+    render::Label label = scene::clamp_label(words, course.assembly(), course.setup(), course.state(), joint);
     const auto verdict = view::verdict_of(course.lesson().joints[joint].result);
     if (p.finished && verdict != lesson::Verdict::none)
         label.text = fmt::format("{} {}", view::sign_of(verdict), label.text);
@@ -49,8 +49,8 @@ void label_system(scene::World&, Frame& frame) {
     const bool helps = course.lesson().mode != lesson::Mode::assessment;
     if (frame.wanted.wants(Action::flange_map)) p.clamp_map = !p.clamp_map && helps;
     if (!p.finished)
-        if (auto figure =
-                scene::work_label(course.lesson(), setup, state, p.output, p.hand.wrench, p.palette))
+        if (auto figure = scene::work_label(frame.words, course.lesson(), setup, state, p.output,
+                                            p.hand.wrench, p.palette))
             p.scene.labels.push_back(*figure);
     const auto named = [&](std::size_t joint, bool is_due) {
         const std::string& id = course.assembly().joints[joint].design.id;
@@ -64,7 +64,7 @@ void label_system(scene::World&, Frame& frame) {
     const std::size_t marked = due != nullptr && guided ? due->joint : SIZE_MAX;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         if (p.clamp_map || p.finished)
-            p.scene.labels.push_back(clamp_of(p, i));
+            p.scene.labels.push_back(clamp_of(p, frame.words, i));
         else if (i == marked || p.under == i)
             named(i, i == marked);
     }

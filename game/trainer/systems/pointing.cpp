@@ -50,10 +50,12 @@ void pointing_system(scene::World&, Frame& frame) {
     Playing& p = frame.playing;
     const Wanted& wanted = frame.wanted;
     const Screen screen = screen_of(p, frame.size);
-    if (!p.hand_drag || !wanted.left) {
-        p.under = nut_at(screen, wanted.pointer, p.course->setup(), centres_of(*p.course));
+    // In a slow frame the pointer comes to a nut, is pressed and is already on its way again.
+    const glm::dvec2 pointer = wanted.pressed.value_or(wanted.pointer);
+    if (wanted.pressed || !p.hand_drag || !wanted.left) {
+        p.under = nut_at(screen, pointer, p.course->setup(), centres_of(*p.course));
         const Vec3 end = p.hand.rest * Vec3(p.course->setup().wrench.handle_length, 0.0, 0.0);
-        const auto off = pixels_to(screen, wanted.pointer, p.hand.rest.position, end);
+        const auto off = pixels_to(screen, pointer, p.hand.rest.position, end);
         p.over_wrench = !p.hand.wrench && !p.under && off && *off < wrench_reach;
     }
     if (wanted.wants(Action::restart_step)) p.undo = 0;

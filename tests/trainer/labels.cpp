@@ -1,0 +1,52 @@
+// Figures at the wrench, as they are said in every language.
+
+#include "game/scene/labels.hpp"
+
+#include <doctest/doctest.h>
+
+#include "haptics/servo/tick.hpp"
+#include "tests/lesson/script.hpp"
+
+using namespace bolt;
+using test::Script;
+
+namespace {
+
+std::string shown(const char* language, const Script& s, bool wrench) {
+    const words::Loaded loaded = words::load_words(words::words_folder(), language);
+    REQUIRE(loaded.ok());
+    servo::Setup setup;
+    setup.nuts.resize(2);
+    const auto label = scene::work_label(loaded.words, s.lesson, setup, s.state, s.output, wrench);
+    return label ? label->text : "";
+}
+
+}  // namespace
+
+TEST_CASE("figures at the wrench are in the language of who holds it") {
+    Script s;
+    s.seat_both();
+    s.state.joints[0].nut.angle = 4.0 * pi;
+    s.tick(0, servo::Grip::wrench, 5.0);
+    s.lesson.joints[0].begin_angle = 4.0 * pi - to_radians(30.0);
+    CHECK(shown("en", s, true) == "5 N·m   +30°   Seating");
+    CHECK(shown("de", s, true) == "5 N·m   +30°   Anlegen");
+    s.tick(0, servo::Grip::fingers, 0.1);
+    CHECK(shown("en", s, false) == "2.0 turns");
+    CHECK(shown("de", s, false) == "2,0 Umdrehungen");
+    CHECK(shown("zh", s, false) == "2.0 圈");
+}
+
+TEST_CASE("a nut out of its turn has no angle: it would count the turns on the thread") {
+    Script s;
+    s.seat_both();
+    s.state.joints[1].nut.angle = 40.0;
+    s.tick(1, servo::Grip::wrench, 2.0);
+    CHECK(shown("en", s, true) == "2 N·m   Seating");
+}
+
+TEST_CASE("a hand in the air has no figures") {
+    Script s;
+    s.idle();
+    CHECK(shown("en", s, true).empty());
+}
