@@ -12,8 +12,8 @@ namespace {
 constexpr double moved = to_radians(0.2);  // of nut angle: the wrench has moved it
 constexpr double past_breakaway = 0.37;    // of the breakaway is left: it is the torque that turns the nut
 
-constexpr double turning_speed = 0.01;  // rad/s
-
+constexpr double turning_speed = 0.01;         // rad/s
+constexpr double wrong_way = to_radians(5.0);  // of nut angle: no play, and no wrench's own spring
 constexpr std::uint64_t hand_in_ticks = 3000;
 constexpr double working_torque = 0.5;  // N·m: the wrench is used, not only touching
 
@@ -91,7 +91,10 @@ void work_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& sta
 void take(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state) {
     lesson.held = joint;
     lesson.grip = grip;
-    lesson.joints[static_cast<std::size_t>(joint)].worked = false;
+    JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
+    track.worked = track.turned_back = track.seated = false;
+    track.furthest = state.joints[static_cast<std::size_t>(joint)].nut.angle;
+
     say(lesson, state.tick, "engage", joint, 0.0,
         grip == servo::Grip::wrench ? "wrench on the nut" : "fingers on the nut");
 }
@@ -146,6 +149,23 @@ void note_overdone(Lesson& lesson, std::size_t joint, std::uint64_t tick) {
             fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, most));
 }
 
+// Once a visit. Who slackens what was too tight knows why.
+void note_wrong_way(Lesson& lesson, std::size_t joint, const servo::State& state) {
+    JointTrack& track = lesson.joints[joint];
+    const joint::JointState& now = state.joints[joint];
+    const bool loosens = lesson.task == Task::loosen;
+    const double beyond = (loosens ? -1.0 : 1.0) * (now.nut.angle - track.furthest);
+    if (beyond >= 0.0) {
+        track.furthest = now.nut.angle;
+        track.seated = now.stage != joint::Stage::navigation;
+    }
+    if (beyond > -wrong_way || !track.seated || track.turned_back || track.overdone) return;
+    track.turned_back = true;
+    mistake(lesson, state.tick, loosens ? Cause::tightened : Cause::loosened, joint, 0.0,
+            fmt::format("{} was turned the wrong way: that {} it", track.result.id,
+                        loosens ? "tightens" : "loosens"));
+}
+
 void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const servo::Output& output) {
     JointTrack& track = lesson.joints[joint];
     const double torque = output.wrench_torque;
@@ -156,6 +176,7 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     track.peak_torque = std::max(track.peak_torque, work);
     note_turning(lesson, track, state.joints[joint], work);
     note_overdone(lesson, joint, state.tick);
+    if (!fingers) note_wrong_way(lesson, joint, state);
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
         !fingers) {
         track.snug = true;

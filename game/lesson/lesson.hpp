@@ -38,8 +38,12 @@ struct JointTrack {
     bool yielded = false;      // the yield stage has been felt
     bool clicked = false;      // the torque wrench did, in the step that is due
     bool worked = false;       // the hand has done something with the nut in this visit
-    bool overdone = false;     // more than its window was said, since it was last off its seat
-    int done_in_pass = -1;     // last pass in which a step of this joint was done
+    double furthest = 0.0;  // rad, nut angle, of this visit: the highest, in a lesson that loosens the lowest
+    bool seated = false;    // the nut was on its seat there
+    bool turned_back = false;  // from there, and that was said
+
+    bool overdone = false;  // more than its window was said, since it was last off its seat
+    int done_in_pass = -1;  // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };
 

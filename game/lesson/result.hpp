@@ -56,7 +56,17 @@ struct LessonResult {
 };
 
 // What a mistake was, for who says it in another language. Sessions keep the text alone.
-enum class Cause : std::uint8_t { none, out_of_turn, done_already, over_torque, slipped, stripped, broken };
+enum class Cause : std::uint8_t {
+    none,
+    out_of_turn,
+    done_already,
+    loosened,   // turned back, in a lesson that tightens
+    tightened,  // turned on, in one that loosens
+    over_torque,
+    slipped,
+    stripped,
+    broken
+};
 
 // Something that happened, for reports and replay. Kinds: step_begin, step_end, engage, release, stage,
 // mistake, pass_begin, back, click, note.

@@ -48,6 +48,13 @@ TEST_CASE("each mistake is shown with its why and what to do, in every language 
              b.pull(0, 35.0);
              b.pull(0, 10.0);
          }},
+        {Cause::loosened, "A was turned the wrong way: that loosens it.",
+         [](Bench& b) { b.turn(0, -20.0, -2.0); }},
+        {Cause::tightened, "A was turned the wrong way: that tightens it.",
+         [](Bench& b) {
+             b.lesson = begin(b.assembly, b.lesson.mode, Task::loosen);
+             b.turn(0, 20.0, 2.0);
+         }},
         {Cause::over_torque, "A was turned with more than 77 N·m.", [](Bench& b) { b.turn(0, 80.0); }},
         {Cause::slipped, "The wrench slipped off A; its corners have lost 0.25 mm.",
          [](Bench& b) {

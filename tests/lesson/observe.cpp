@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "tests/lesson/script.hpp"
 
 using namespace bolt;
@@ -96,6 +98,49 @@ TEST_CASE(
     s.tick(1, servo::Grip::fingers, 0.1, 1.0);
     s.idle();
     CHECK(s.lesson.joints[1].result.order_errors == 1);
+}
+
+TEST_CASE("a nut turned back from its seat was turned the wrong way: once a visit, and not by its play") {
+    const auto told = [](const Script& s, Cause cause) {
+        return std::count_if(s.lesson.events.begin(), s.lesson.events.end(),
+                             [&](const Event& event) { return event.cause == cause; });
+    };
+    // A visit of so many degrees on, then back.
+    const auto visit = [](Script& s, double on, double back, servo::Grip grip = servo::Grip::wrench) {
+        for (int i = 0; i < 100; ++i) s.tick(0, grip, 5.0, to_radians(10.0 * on));
+        for (int i = 0; i < 100; ++i) s.tick(0, grip, -5.0, to_radians(-10.0 * back));
+        s.idle();
+    };
+    Script s;
+    s.seat_both();
+    visit(s, 20.0, 4.0);
+    CHECK(told(s, Cause::loosened) == 0);
+    visit(s, 0.0, 20.0);
+    CHECK(told(s, Cause::loosened) == 1);
+    visit(s, 20.0, 30.0);
+    CHECK(told(s, Cause::loosened) == 2);
+    s.state.joints[0].stage = joint::Stage::navigation;  // off its seat, and still turned
+    visit(s, 0.0, 40.0);
+    CHECK(told(s, Cause::loosened) == 2);
+
+    SUBCASE("unless it had been pulled too far") {
+        Script slackened;
+        slackened.seat_both();
+        slackened.pull(0, 90.0);
+        visit(slackened, 0.0, 20.0);
+        CHECK(told(slackened, Cause::over_torque) == 1);
+        CHECK(told(slackened, Cause::loosened) == 0);
+    }
+    SUBCASE("in a lesson that loosens it is the other way") {
+        Script off;
+        off.state.joints[0].stage = joint::Stage::linearity;
+        off.lesson = begin(off.assembly, Mode::guided, Task::loosen);
+        visit(off, -30.0, 0.0);
+        CHECK(told(off, Cause::tightened) == 0);
+        visit(off, 20.0, 0.0);
+        CHECK(told(off, Cause::tightened) == 1);
+        CHECK(told(off, Cause::loosened) == 0);
+    }
 }
 
 TEST_CASE("pulled too far out of its step: the torque is not forgotten") {
