@@ -97,7 +97,7 @@ inline constexpr KeyRow key_rows[] = {
     {"mistake.out_of_turn.do", "joint"},
     {"mistake.done_already", "held"},
     {"mistake.done_already.do", "joint"},
-        {"mistake.loosened", "held"},
+    {"mistake.loosened", "held"},
     {"mistake.loosened.do", ""},
     {"mistake.tightened", "held"},
     {"mistake.tightened.do", ""},

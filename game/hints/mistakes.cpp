@@ -14,7 +14,7 @@ struct Row {
 constexpr Row rows[] = {
     {Cause::out_of_turn, "mistake.out_of_turn", "mistake.out_of_turn.do"},
     {Cause::done_already, "mistake.done_already", "mistake.done_already.do"},
-        {Cause::loosened, "mistake.loosened", "mistake.loosened.do"},
+    {Cause::loosened, "mistake.loosened", "mistake.loosened.do"},
     {Cause::tightened, "mistake.tightened", "mistake.tightened.do"},
     {Cause::over_torque, "mistake.over_torque", "mistake.over_torque.do"},
     {Cause::slipped, "mistake.slipped", "mistake.slipped.do"},
