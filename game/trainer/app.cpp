@@ -17,6 +17,12 @@
 
 namespace bolt::trainer {
 
+namespace {
+
+constexpr double longest_frame = 0.25;  // s: nothing moves on by more from picture to picture
+
+}  // namespace
+
 struct App::OnGpu {
     view::Painter* painter = nullptr;
     std::unique_ptr<ui::Ui> ui;
@@ -228,6 +234,7 @@ Status App::begin_lesson(float aspect) {
     }
     apply_preferences();
     p.close_up.wished = course_.mode == lesson::Mode::guided;
+    p.verdicts.assign(assembly_.joints.size(), lesson::Verdict::none);
     p.camera.jump(first_view(p, shelf_->machine, setup.wrench.handle_length, aspect, worker));
     played_.reset();
     shows_ = Shows::lesson;
@@ -302,6 +309,9 @@ Status App::end_lesson() {
     if (!played) return fail(played.error());
     played_ = std::move(*played);
     playing_->finished = true;
+    for (std::size_t i = 0; i < playing_->verdicts.size(); ++i)
+        playing_->verdicts[i] = view::verdict_of(played_->result.joints[i]);
+
     shows_ = Shows::result;
     tell(fmt::format("lesson ended: {}, score {:.0f}", played_->result.finished ? "finished" : "broken off",
                      played_->result.score));
@@ -376,7 +386,9 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         Playing& p = *playing_;
         if (p.station)
             p.station->keys.take(shows_ == Shows::lesson ? events : std::span<const platform::Event>());
-        Frame now{p, words_, seconds, extent, apply(p.controls, events, mine), &*on_->fonts, {}};
+        const double shown = std::min(seconds, longest_frame);
+        Frame now{p, words_, shown, seconds - shown, extent, apply(p.controls, events, mine), &*on_->fonts,
+                  {}};
         if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.paused = !p.paused;
         full_screen_ = full_screen_ || now.wanted.wants(Action::full_screen);
         const bool had_wrench = p.hand.wrench;

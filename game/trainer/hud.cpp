@@ -15,8 +15,7 @@ namespace {
 
 constexpr ImGuiWindowFlags still = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-                                   ImGuiWindowFlags_AlwaysAutoResize;
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
 constexpr ImU32 grid = IM_COL32(150, 160, 170, 60), frame_color = IM_COL32(200, 205, 210, 160),
                 curve = IM_COL32(255, 205, 70, 255), strain_color = IM_COL32(255, 120, 80, 255);
@@ -27,10 +26,48 @@ ImU32 in_color(const glm::vec4& color, float opacity) {
     return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, opacity * color.a});
 }
 
-void plate(const char* name, const ImVec2& at, const ImVec2& pivot) {
+void plate(const char* name, const ImVec2& at, const ImVec2& pivot, ImGuiWindowFlags flags) {
     ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
     ImGui::SetNextWindowBgAlpha(0.78F);
-    ImGui::Begin(name, nullptr, still);
+    ImGui::Begin(name, nullptr, flags);
+}
+
+// Of what has always the same size.
+void plate(const char* name, const ImVec2& at, const ImVec2& pivot) {
+    plate(name, at, pivot, still | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
+struct Line {
+    std::string text;
+    ImVec4 color;
+};
+
+const ImVec4 white(0.96F, 0.97F, 0.98F, 1.0F), pale(0.75F, 0.85F, 0.95F, 1.0F), warm(1.0F, 0.6F, 0.5F, 1.0F),
+    grey(0.5F, 0.5F, 0.5F, 1.0F);
+
+// As large as its lines from its first picture on: ImGui's own fit is a picture late, and where pictures take
+// long half a sentence is read.
+void plate_of(const char* name, const ImVec2& at, const ImVec2& pivot, std::span<const Line> lines,
+              float widest) {
+    if (lines.empty()) return;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    ImVec2 size(0.0F, -style.ItemSpacing.y);
+    for (const Line& line : lines) {
+        const char* begin = line.text.c_str();
+        const ImVec2 taken =
+            ImGui::CalcTextSize(begin, begin + line.text.size(), false, widest - style.WindowPadding.x);
+        size = {std::max(size.x, taken.x), size.y + style.ItemSpacing.y + taken.y};
+    }
+    ImGui::SetNextWindowSize({size.x + 2.0F * style.WindowPadding.x, size.y + 2.0F * style.WindowPadding.y});
+    plate(name, at, pivot, still);
+    ImGui::PushTextWrapPos(widest);
+    for (const Line& line : lines) {
+        ImGui::PushStyleColor(ImGuiCol_Text, line.color);
+        text(line.text);
+        ImGui::PopStyleColor();
+    }
+    ImGui::PopTextWrapPos();
+    ImGui::End();
 }
 
 // Torque over the nut's angle, with the window that is to be reached.
@@ -92,36 +129,29 @@ void draw_strain(const Playing& p, const words::Words& w, const glm::dvec2& size
     ImGui::End();
 }
 
-void draw_step(const Playing& p, const words::Words& w, float scale) {
+void draw_step(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
     const lesson::Lesson& lesson = p.course->lesson();
     const lesson::Step* due = lesson.due();
-    plate("##step", {12.0F * scale, 12.0F * scale}, {0.0F, 0.0F});
     const auto whole = [](std::size_t n) { return words::Number{static_cast<double>(n), 0}; };
-    text(words::say(w, "hud.step",
-                    {{"step", whole(std::min(lesson.current + 1, lesson.steps.size()))},
-                     {"of", whole(lesson.steps.size())}}) +
-         fmt::format("   {:.0f} s", p.course->time()));
+    std::vector<Line> lines{{words::say(w, "hud.step",
+                                        {{"step", whole(std::min(lesson.current + 1, lesson.steps.size()))},
+                                         {"of", whole(lesson.steps.size())}}) +
+                                 fmt::format("   {:.0f} s", p.course->time()),
+                             white}};
     if (due != nullptr && lesson.mode != lesson::Mode::assessment) {
         const std::string& id = p.course->assembly().joints[due->joint].design.id;
         const std::string& what = w[hints::term(due->kind)];
-        text(due->kind == lesson::StepKind::tighten
+        lines.push_back(
+            {due->kind == lesson::StepKind::tighten
                  ? words::say(w, "hud.due_torque",
                               {{"joint", id}, {"what", what}, {"torque", words::torque_number(due->torque)}})
-                 : words::say(w, "hud.due", {{"joint", id}, {"what", what}}));
+                 : words::say(w, "hud.due", {{"joint", id}, {"what", what}}),
+             white});
         for (const auto& [key, action] : {std::pair{words::Key("hud.ask"), Action::hint},
                                           std::pair{words::Key("hud.find_view"), Action::find_view}})
-            ImGui::TextDisabled("%s",
-                                words::say(w, key, {{"control", key_name(p.controls.keys, action)}}).c_str());
+            lines.push_back({words::say(w, key, {{"control", key_name(p.controls.keys, action)}}), grey});
     }
-    ImGui::End();
-}
-
-void coloured(const std::string& line, const ImVec4& color, float width) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::PushTextWrapPos(width);
-    text(line);
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
+    plate_of("##step", {12.0F * scale, 12.0F * scale}, {0.0F, 0.0F}, lines, static_cast<float>(size.x));
 }
 
 // What is to be done, and what went wrong: in the middle above, where it hides the least of the work.
@@ -130,50 +160,44 @@ void draw_hint(const Playing& p, const Said& said, const glm::dvec2& size, float
     // Beside the step's plate, also in a small window.
     const float whole = static_cast<float>(size.x), beside = whole - 240.0F * scale;
     const float width = std::min({560.0F * scale, 0.56F * whole, beside});
-    const bool wrong = p.mistakes.shown.has_value();
-    if (!wrong && !p.hints.shown && p.output.fault == force::Fault::none) return;
     const bool narrow = 0.5F * (whole + width) > beside;
-    plate("##hint", {narrow ? whole - 12.0F * scale : 0.5F * whole, 12.0F * scale},
-          {narrow ? 1.0F : 0.5F, 0.0F});
-    const ImVec4 warm(1.0F, 0.6F, 0.5F, 1.0F), white(0.96F, 0.97F, 0.98F, 1.0F),
-        pale(0.75F, 0.85F, 0.95F, 1.0F);
-    if (p.output.fault != force::Fault::none) coloured(w[hints::term(p.output.fault)], warm, width);
-    if (wrong) {
-        coloured(hints::say_why(w, *p.mistakes.shown), warm, width);
-        coloured(hints::say_what_to_do(w, *p.mistakes.shown), white, width);
+    std::vector<Line> lines;
+    if (p.output.fault != force::Fault::none) lines.push_back({w[hints::term(p.output.fault)], warm});
+    if (p.mistakes.shown) {
+        lines.push_back({hints::say_why(w, *p.mistakes.shown), warm});
+        lines.push_back({hints::say_what_to_do(w, *p.mistakes.shown), white});
     }
     if (p.hints.shown) {
-        coloured(hints::say(w, *p.hints.shown), white, width);
-        if (const std::string motion = hints::say_motion(w, *p.hints.shown, *said.controls); !motion.empty())
-            coloured(motion, pale, width);
+        lines.push_back({hints::say(w, *p.hints.shown), white});
+        if (std::string motion = hints::say_motion(w, *p.hints.shown, *said.controls); !motion.empty())
+            lines.push_back({std::move(motion), pale});
     }
-    ImGui::End();
+    plate_of("##hint", {narrow ? whole - 12.0F * scale : 0.5F * whole, 12.0F * scale},
+             {narrow ? 1.0F : 0.5F, 0.0F}, lines, width);
 }
 
 // What is wrong with the devices, in their own words.
 void draw_troubles(const Playing& p, const glm::dvec2& size, float scale) {
-    if (!p.station || p.station->troubles.empty()) return;
-    plate("##troubles", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F});
-    for (const std::string& trouble : p.station->troubles)
-        coloured(trouble, {1.0F, 0.6F, 0.5F, 1.0F}, 0.5F * static_cast<float>(size.x));
-    ImGui::End();
+    if (!p.station) return;
+    std::vector<Line> lines;
+    for (const std::string& trouble : p.station->troubles) lines.push_back({trouble, warm});
+    plate_of("##troubles", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F}, lines,
+             0.5F * static_cast<float>(size.x));
 }
 
 // What there is to be heard, in words, where films have it.
 void draw_captions(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
     if (!p.captions) return;
-    const std::vector<Caption> captions = shown(*p.captions);
-    if (captions.empty()) return;
-    plate("##captions", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 72.0F * scale},
-          {0.5F, 1.0F});
-    for (const Caption caption : captions) text(w[term(caption)]);
-    ImGui::End();
+    std::vector<Line> lines;
+    for (const Caption caption : shown(*p.captions)) lines.push_back({w[term(caption)], white});
+    plate_of("##captions", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 72.0F * scale},
+             {0.5F, 1.0F}, lines, static_cast<float>(size.x));
 }
 
 }  // namespace
 
 void draw_hud(const Playing& p, const Said& said, const glm::dvec2& size, float scale) {
-    draw_step(p, *said.words, scale);
+    draw_step(p, *said.words, size, scale);
     draw_hint(p, said, size, scale);
     draw_plot(p, *said.words, size, scale);
     draw_strain(p, *said.words, size, scale);

@@ -50,6 +50,7 @@ struct Playing {
     std::size_t grip = 0;  // how the handle is held (scene::Postures)
     Vec3 shoulder{0.0};    // m, of whoever works
     Plot plot;
+    std::vector<lesson::Verdict> verdicts;  // of the joints, once the lesson has ended
 
     hints::Hints hints;
     std::optional<std::pair<std::size_t, Pose>> ghost;  // of the wrench: for which step, and where

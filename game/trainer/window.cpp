@@ -14,7 +14,6 @@ namespace bolt::trainer {
 namespace {
 
 constexpr float level_error = 0.7F;  // px
-constexpr double longest_frame = 0.25;
 
 double seconds() { return std::chrono::duration<double>(platform::Clock::now().time_since_epoch()).count(); }
 
@@ -79,7 +78,7 @@ Status until_closed(App& app, Canvas& canvas, platform::Window& window, const Wi
         if (Status there = window.there(); !there) return there;
         for (const platform::Event& event : events)
             if (nothing_to_see && std::holds_alternative<platform::CloseEvent>(event)) return {};
-        const double now = seconds(), passed = std::min(now - last, longest_frame);
+        const double now = seconds(), passed = now - last;
         last = now;
         if (Status done = draw(app, canvas, window, events, passed); !done) {
             // What cannot be shown for want of a display is no fault of the GPU.

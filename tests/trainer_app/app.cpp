@@ -172,6 +172,18 @@ TEST_CASE("what is pressed in a frame is done in that frame's ticks, and its pic
     CHECK(shown() != picture);
 }
 
+TEST_CASE("what a slow machine loses of the clock is known, and is not lost in a pause") {
+    Desk desk(options("cover-m8", false));
+    desk.frame();
+    const double before = desk.playing().course->time();
+    for (int i = 0; i < 4; ++i) desk.frame({}, 1.25);
+    CHECK(desk.playing().course->time() - before == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(desk.playing().lagged == doctest::Approx(4.0).epsilon(0.01));
+    desk.key(platform::Key::escape);
+    desk.frame({}, 3600.0);
+    CHECK(desk.playing().lagged == doctest::Approx(4.0).epsilon(0.01));
+}
+
 TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
     Desk desk(options("cover-m8", false));
     desk.frame();
@@ -195,6 +207,10 @@ TEST_CASE("paused, nothing goes on; ended, the session is kept as it stands") {
     REQUIRE(desk.played());
     CHECK_FALSE(desk.played()->result.finished);
     CHECK(desk.app().shows() == Shows::result);
+    const std::string low(view::sign_of(lesson::Verdict::low));
+    for (const render::Label& label : desk.playing().scene.labels)
+        CHECK(label.text.substr(0, low.size()) == low);
+    CHECK(desk.playing().scene.labels.size() == 4);
     const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());

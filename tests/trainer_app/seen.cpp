@@ -116,6 +116,35 @@ TEST_CASE("behind the menu stands the machine that is chosen, and the menu does 
     CHECK(share_changed(bare, one.picture(), beside) > 0.5);
 }
 
+TEST_CASE("a hint is read in full from its first picture on") {
+    test::Desk one(options(lesson::Mode::guided, false, "seen-hint"), big_letters);
+    one.frame();
+    const auto hint_plate = [&]() -> std::optional<render::Rectangle> {
+        for (const render::Rectangle& plate : one.playing().plates)
+            if (plate.low.y < 10.0F && plate.high.x > 0.6F * 320.0F) return plate;
+        return std::nullopt;
+    };
+    const words::Loaded en = words::load_words(words::words_folder(), "en");
+    int changed = 0;
+    std::string said;
+    std::optional<render::Rectangle> first;
+    for (int i = 0; i < 120 && changed < 3; ++i) {
+        if (i == 60) one.key(platform::Key::h);
+        one.frame();
+        const auto& hint = one.playing().hints.shown;
+        const std::string now = hint ? hints::say(en.words, *hint) + std::to_string(hint->level) : "";
+        if (now == said && first) {
+            REQUIRE(hint_plate());
+            CHECK(first->low == hint_plate()->low);
+            CHECK(first->high == hint_plate()->high);
+            ++changed;
+        }
+        first = now != said && !now.empty() ? hint_plate() : std::nullopt;
+        said = now;
+    }
+    CHECK(changed == 3);
+}
+
 TEST_CASE("the name of what is due stands over no other nut, wherever one looks from") {
     test::Desk one(options(lesson::Mode::guided, false, "seen-names"));
     const auto fonts = text::load_fonts();

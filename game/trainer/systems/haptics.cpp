@@ -37,7 +37,8 @@ void step_ticks(Frame& frame) {
     Playing& p = frame.playing;
     play::Course& course = *p.course;
     if (!p.paused && !p.finished) p.owed += frame.seconds;
-    p.lagged += std::max(0.0, p.owed - longest_step);
+    if (!p.paused && !p.finished) p.lagged += frame.late + std::max(0.0, p.owed - longest_step);
+
     p.owed = std::min(p.owed, longest_step);
     const servo::Setup& setup = course.setup();
     for (; p.owed >= setup.dt && !course.over() && frame.status; p.owed -= setup.dt) {

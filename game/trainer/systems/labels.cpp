@@ -15,9 +15,8 @@ namespace {
 render::Label clamp_of(const Playing& p, const words::Words& words, std::size_t joint) {
     const play::Course& course = *p.course;
     render::Label label = scene::clamp_label(words, course.assembly(), course.setup(), course.state(), joint);
-    const auto verdict = view::verdict_of(course.lesson().joints[joint].result);
-    if (p.finished && verdict != lesson::Verdict::none)
-        label.text = fmt::format("{} {}", view::sign_of(verdict), label.text);
+    if (p.finished && p.verdicts[joint] != lesson::Verdict::none)
+        label.text = fmt::format("{} {}", view::sign_of(p.verdicts[joint]), label.text);
     return label;
 }
 

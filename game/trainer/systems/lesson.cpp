@@ -43,7 +43,7 @@ void lesson_system(scene::World& world, Frame& frame) {
         glm::vec4 color = nothing;
         if (outlined == static_cast<int>(i)) color = p.palette.due;
         if (p.under == i && !p.finished) color = under_color;
-        if (p.finished) color = view::color_of(p.palette, view::verdict_of(lesson.joints[i].result));
+        if (p.finished) color = view::color_of(p.palette, p.verdicts[i]);
         scene::outline_joint(world, i, color);
     }
     const bool wants_wrench = hint != nullptr && hint->arrow() == hints::Motion::take;
