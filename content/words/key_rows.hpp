@@ -122,6 +122,8 @@ inline constexpr KeyRow key_rows[] = {
     {"reason.out_of_turn.many", "count"},
     {"reason.done_already.one", ""},
     {"reason.done_already.many", "count"},
+    {"reason.wrong_way.one", ""},
+    {"reason.wrong_way.many", "count"},
     {"reason.unfinished", "step of"},
     // And what to do better next time.
     {"advice.broken", ""},
@@ -134,6 +136,7 @@ inline constexpr KeyRow key_rows[] = {
     {"advice.not_loosened", ""},
     {"advice.out_of_turn", ""},
     {"advice.done_already", ""},
+    {"advice.wrong_way", ""},
     {"advice.unfinished", ""},
     {"advice.nothing", ""},
     // Names of what programs know by enumerations (game/hints/terms.hpp).

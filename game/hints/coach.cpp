@@ -88,6 +88,10 @@ Review review(const content::Assembly& assembly, const lesson::LessonResult& res
                 remark.key = once ? Key("reason.done_already.one") : Key("reason.done_already.many");
                 advice = Key("advice.done_already");
                 break;
+            case Fault::wrong_way:
+                remark.key = once ? Key("reason.wrong_way.one") : Key("reason.wrong_way.many");
+                advice = Key("advice.wrong_way");
+                break;
             case Fault::unfinished:
                 remark.key = Key("reason.unfinished");
                 remark.places = {{"step", words::Number{1.0 * reason.count, 0}},

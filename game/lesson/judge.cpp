@@ -59,7 +59,7 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
     result.finished = lesson.due() == nullptr;
     result.score = 100.0;
     const double share = 100.0 / static_cast<double>(std::max<std::size_t>(1, lesson.joints.size()));
-    int rehits = 0, order_errors = 0;
+    int rehits = 0, order_errors = 0, wrong_ways = 0;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         JointResult joint = judge_joint(lesson, i, state);
         if (joint.condition != joint::Condition::sound)
@@ -73,6 +73,8 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
                          Fault::not_ok, static_cast<int>(i), 1});
         rehits += joint.rehits;
         order_errors += joint.order_errors;
+        wrong_ways += lesson.joints[i].wrong_ways;
+
         result.joints.push_back(std::move(joint));
     }
     if (order_errors > 0)
@@ -81,6 +83,9 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
     if (rehits > 0)
         take_points(result, {1.0 * rehits, times(rehits) + " a joint that was done already",
                              Fault::done_already, -1, rehits});
+    if (wrong_ways > 0)
+        take_points(result, {1.0 * wrong_ways, times(wrong_ways) + " a nut was turned the wrong way",
+                             Fault::wrong_way, -1, wrong_ways});
     if (!result.finished)
         take_points(result, {0.0,
                              fmt::format("the lesson was left at step {} of {}", lesson.current + 1,

@@ -161,6 +161,8 @@ void note_wrong_way(Lesson& lesson, std::size_t joint, const servo::State& state
     }
     if (beyond > -wrong_way || !track.seated || track.turned_back || track.overdone) return;
     track.turned_back = true;
+    ++track.wrong_ways;
+
     mistake(lesson, state.tick, loosens ? Cause::tightened : Cause::loosened, joint, 0.0,
             fmt::format("{} was turned the wrong way: that {} it", track.result.id,
                         loosens ? "tightens" : "loosens"));
@@ -301,6 +303,8 @@ bool back(Lesson& lesson, const servo::State& state, std::size_t steps) {
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         tracks[i].result.rehits = lesson.joints[i].result.rehits;
         tracks[i].result.order_errors = lesson.joints[i].result.order_errors;
+        tracks[i].wrong_ways = lesson.joints[i].wrong_ways;
+
         tracks[i].result.condition = state.joints[i].condition;
     }
     lesson.joints = std::move(tracks);

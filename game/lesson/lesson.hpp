@@ -33,17 +33,16 @@ struct JointTrack {
     double snug_angle = 0.0;     // rad, nut angle when it was reached first
     double peak_torque = 0.0;    // N·m, of the step that is due
     double turned_torque = 0.0;  // N·m, highest with which the nut turned on since it was last off its seat
-
-    double begin_angle = 0.0;  // rad, nut angle when the step began
-    bool yielded = false;      // the yield stage has been felt
-    bool clicked = false;      // the torque wrench did, in the step that is due
-    bool worked = false;       // the hand has done something with the nut in this visit
+    double begin_angle = 0.0;    // rad, nut angle when the step began
+    bool yielded = false;        // the yield stage has been felt
+    bool clicked = false;        // the torque wrench did, in the step that is due
+    bool worked = false;         // the hand has done something with the nut in this visit
     double furthest = 0.0;  // rad, nut angle, of this visit: the highest, in a lesson that loosens the lowest
     bool seated = false;    // the nut was on its seat there
     bool turned_back = false;  // from there, and that was said
-
-    bool overdone = false;  // more than its window was said, since it was last off its seat
-    int done_in_pass = -1;  // last pass in which a step of this joint was done
+    int wrong_ways = 0;        // visits in which it was turned back
+    bool overdone = false;     // more than its window was said, since it was last off its seat
+    int done_in_pass = -1;     // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };
 

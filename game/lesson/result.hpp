@@ -35,7 +35,7 @@ struct JointResult {
 };
 
 // What points were taken for. A session that is read again has the text alone.
-enum class Fault : std::uint8_t { none, damaged, not_ok, out_of_turn, done_already, unfinished };
+enum class Fault : std::uint8_t { none, damaged, not_ok, out_of_turn, done_already, wrong_way, unfinished };
 
 // A point taken from or given to the score, with its reason in words.
 struct ScoreReason {

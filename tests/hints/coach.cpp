@@ -97,6 +97,8 @@ TEST_CASE("each loss has its reason with numbers and its advice") {
              r.lesson.joints[2].result.rehits = 2;
              r.lesson.joints[1].result.rehits = 1;
          }},
+        {"2 times a nut was turned the wrong way.", "advice.wrong_way",
+         [](Outcome& r) { r.lesson.joints[1].wrong_ways = 2; }},
         {"The lesson was left at step 4 of 4.", "advice.unfinished",
          [](Outcome& r) { r.lesson.current = 3; }},
     };

@@ -122,6 +122,7 @@ TEST_CASE("a nut turned back from its seat was turned the wrong way: once a visi
     s.state.joints[0].stage = joint::Stage::navigation;  // off its seat, and still turned
     visit(s, 0.0, 40.0);
     CHECK(told(s, Cause::loosened) == 2);
+    CHECK(s.lesson.joints[0].wrong_ways == 2);
 
     SUBCASE("unless it had been pulled too far") {
         Script slackened;
