@@ -93,6 +93,8 @@ inline constexpr KeyRow key_rows[] = {
     {"control.device.move", ""},
     {"control.device.turn", ""},
     // Mistakes: why it was one, and what to do (game/hints/mistakes.cpp).
+    {"mistake.begins_again", ""},
+    {"mistake.take_back", "control"},
     {"mistake.out_of_turn", "held"},
     {"mistake.out_of_turn.do", "joint"},
     {"mistake.done_already", "held"},

@@ -15,7 +15,8 @@ constexpr double past_breakaway = 0.37;    // of the breakaway is left: it is th
 constexpr double turning_speed = 0.01;         // rad/s
 constexpr double wrong_way = to_radians(5.0);  // of nut angle: no play, and no wrench's own spring
 constexpr std::uint64_t hand_in_ticks = 3000;
-constexpr double working_torque = 0.5;  // N·m: the wrench is used, not only touching
+constexpr std::uint64_t regrip_ticks = 1000;  // in which fingers grip once more what they had
+constexpr double working_torque = 0.5;        // N·m: the wrench is used, not only touching
 
 const content::Specification& spec_of(const Lesson& lesson, std::size_t joint) {
     return lesson.assembly->joints[joint].spec;
@@ -89,12 +90,15 @@ void work_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& sta
 }
 
 void take(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state) {
+    // Fingers that spin a nut grip it again and again: that is one visit.
+    const bool again = grip == servo::Grip::fingers && lesson.grip == grip && lesson.left == joint &&
+                       state.tick - lesson.released_at < regrip_ticks;
     lesson.held = joint;
     lesson.grip = grip;
     JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
-    track.worked = track.turned_back = track.seated = false;
+    track.worked = again && track.worked;
+    track.turned_back = track.seated = false;
     track.furthest = state.joints[static_cast<std::size_t>(joint)].nut.angle;
-
     say(lesson, state.tick, "engage", joint, 0.0,
         grip == servo::Grip::wrench ? "wrench on the nut" : "fingers on the nut");
 }
@@ -105,6 +109,7 @@ void release(Lesson& lesson, const servo::State& state) {
     say(lesson, state.tick, "release", lesson.held, track.peak_torque, {});
     track.result.clamp_at_release = state.joints[joint].clamp;
     if (track.worked && lesson.grip == servo::Grip::wrench) ++track.result.strokes;
+    lesson.left = lesson.held;
     lesson.held = -1;
     lesson.released_at = state.tick;
     const Step* due = lesson.due();

@@ -56,6 +56,7 @@ struct Lesson {
     std::vector<JointTrack> joints;
     int held = -1;  // joint in the hand at the last tick
     servo::Grip grip = servo::Grip::none;
+    int left = -1;                               // joint that was in the hand last
     std::uint64_t released_at = 0;               // tick
     int announced = -1;                          // pass that was announced last
     std::vector<std::vector<JointTrack>> begun;  // by step: all tracks when it began, for back()

@@ -166,6 +166,11 @@ void draw_hint(const Playing& p, const Said& said, const glm::dvec2& size, float
     if (p.mistakes.shown) {
         lines.push_back({hints::say_why(w, *p.mistakes.shown), warm});
         lines.push_back({hints::say_what_to_do(w, *p.mistakes.shown), white});
+        lines.push_back({p.course->lesson().mode == lesson::Mode::guided
+                             ? w["mistake.begins_again"]
+                             : words::say(w, "mistake.take_back",
+                                          {{"control", key_name(p.controls.keys, Action::restart_step)}}),
+                         pale});
     }
     if (p.hints.shown) {
         lines.push_back({hints::say(w, *p.hints.shown), white});

@@ -18,6 +18,7 @@
 #include "game/trainer/captions.hpp"
 #include "game/trainer/close_up.hpp"
 #include "game/trainer/controls.hpp"
+#include "game/trainer/going_back.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "game/trainer/plot.hpp"
 
@@ -55,8 +56,7 @@ struct Playing {
     hints::Hints hints;
     std::optional<std::pair<std::size_t, Pose>> ghost;  // of the wrench: for which step, and where
     hints::Mistakes mistakes;
-    std::optional<std::size_t> undo;  // steps to go back by, as soon as the hand is out of the way
-    double undo_for = 0.0;            // s that this has been wished
+    GoingBack back;  // as soon as the hand is out of the way
     std::unique_ptr<sound::Live> sound;
     bool quiet = false;
     double volume = 1.0;               // 0 … 1, as the trainee has it

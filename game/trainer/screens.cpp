@@ -140,11 +140,11 @@ void App::draw_pause(const glm::dvec2& size) {
     if (button("menu.go_on")) playing_->paused = false;
     const bool may_undo = playing_->course->lesson().mode != lesson::Mode::assessment;
     if (may_undo && button("menu.undo")) {
-        playing_->undo = 1;
+        go_back(playing_->back, playing_->course->lesson(), 1);
         playing_->paused = false;
     }
     if (may_undo && button("menu.restart_step")) {
-        playing_->undo = 0;
+        go_back(playing_->back, playing_->course->lesson(), 0);
         playing_->paused = false;
     }
     if (button("menu.settings")) open_settings();

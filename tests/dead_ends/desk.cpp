@@ -9,7 +9,6 @@ namespace dead_ends {
 namespace {
 
 constexpr double fastest_hand = 0.03;  // m in a tick, beyond which the servo would not believe it
-constexpr double undo_patience = 6.0;  // s, as in game/trainer/systems/lesson.cpp
 
 }  // namespace
 
@@ -34,16 +33,16 @@ bool Desk::tick(servo::Input input, bool wrench_in_hand, double room, bool asks)
 
 void Desk::frame(trainer::Wish wish, std::optional<std::size_t> takes_back, bool asks) {
     trainer::MouseHand& hand = player.hand;
-    if (takes_back) undo = takes_back;
-    if (course.lesson().mode == lesson::Mode::assessment) undo.reset();
-    if (undo && hand.nut) wish.retreat = true;
+    if (takes_back) trainer::go_back(back, course.lesson(), *takes_back);
+    if (back.to && hand.nut) wish.retreat = true;
     trainer::wish(hand, wish, course.setup(), course.state());
     for (int i = 0; i < frame_ticks && !course.over(); ++i) {
         const Vec3 before = hand.pose.position;
         servo::Input input = trainer::move(hand, course.setup(), course.state());
         if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
-        if (undo && hand.doing == trainer::Doing::resting && !hand.nut) course.go_back(*undo);
+        const auto steps = trainer::steps_back(back, course.lesson());
+        if (steps && hand.doing == trainer::Doing::resting && !hand.nut) course.go_back(*steps);
         double room = std::numeric_limits<double>::infinity();
         if (hand.wrench && hand.doing == trainer::Doing::holding)
             room = hand.room - std::abs(hand.handle - hand.begun_at);
@@ -56,10 +55,9 @@ void Desk::frame(trainer::Wish wish, std::optional<std::size_t> takes_back, bool
             watch.trouble(fmt::format("a hand at a mouse leaps by {:.1f} mm, doing {}", 1e3 * leap,
                                       static_cast<int>(hand.doing)));
         if (!tick(input, hand.wrench, room, asks)) return;
-        if (output.undone > 0) undo.reset();
+        for (const lesson::Event& event : course.events()) trainer::note(back, course.lesson(), event);
     }
-    undo_for = undo ? undo_for + frame_seconds : 0.0;
-    if (undo_for > undo_patience) undo.reset();
+    trainer::wait(back, frame_seconds);
 }
 
 }  // namespace dead_ends

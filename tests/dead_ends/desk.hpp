@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "game/trainer/going_back.hpp"
 #include "tests/dead_ends/watch.hpp"
 #include "tests/trainer/player.hpp"
 
@@ -17,8 +18,7 @@ struct Desk {
     servo::Output output;
     servo::Input last;
     trainer_test::Player player;
-    std::optional<std::size_t> undo;
-    double undo_for = 0.0;
+    trainer::GoingBack back;
     double sets = 1.0;  // a torque wrench to this share of what is right
 
     Desk(play::Course& c, Watch& w);

@@ -89,11 +89,13 @@ int finish_at_mouse(Desk& desk) {
                 break;
             }
             undo = patient.back(desk.course, restarts);
-            player.held = false;
         }
         trainer::Wish wish;
-        const bool waits = undo || desk.undo;
-        if (!waits) wish = trainer_test::wish_of(player, desk.course, frame_seconds);
+        const bool waits = undo || desk.back.to;
+        if (waits)
+            player.held = false;
+        else
+            wish = trainer_test::wish_of(player, desk.course, frame_seconds);
         desk.frame(wish, undo);
     }
     return restarts;

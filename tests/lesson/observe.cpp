@@ -72,6 +72,22 @@ TEST_CASE(
     CHECK(s.count("mistake") == 2);
 }
 
+TEST_CASE("fingers that spin a nut out of turn grip it again and again, and are out of turn once") {
+    Script s;
+    s.idle();
+    const auto grips = [&s](int times) {
+        for (int i = 0; i < times; ++i) {
+            for (int k = 0; k < 300; ++k) s.tick(1, servo::Grip::fingers, 0.1, 1.0);
+            s.idle(150);
+        }
+    };
+    grips(5);
+    CHECK(s.lesson.joints[1].result.order_errors == 1);
+    s.idle(1000);
+    grips(2);
+    CHECK(s.lesson.joints[1].result.order_errors == 2);
+}
+
 TEST_CASE("fingers that feel once more whether a nut is down make no mistake, a wrench there does") {
     Script s;
     s.seat(0);
@@ -95,6 +111,7 @@ TEST_CASE(
     s.idle();
     CHECK(s.count("mistake") == 0);
     s.state.joints[1].stage = joint::Stage::navigation;
+    s.idle(1000);
     s.tick(1, servo::Grip::fingers, 0.1, 1.0);
     s.idle();
     CHECK(s.lesson.joints[1].result.order_errors == 1);

@@ -172,6 +172,33 @@ TEST_CASE("what is pressed in a frame is done in that frame's ticks, and its pic
     CHECK(shown() != picture);
 }
 
+TEST_CASE("a mistake in a guided lesson begins its step again and says why; in practice it asks") {
+    for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice}) {
+        AppOptions o = options("cover-m8", false);
+        o.choice.mode = mode;
+        Desk desk(o);
+        desk.frame();
+        const Playing& p = desk.playing();
+        const std::size_t other = (p.course->lesson().due()->joint + 1) % 4;
+        const glm::dvec2 at = desk.hold(other);
+        desk.move(at + glm::dvec2(100.0, 0.0));
+        for (int i = 0; i < 30 && !p.mistakes.shown; ++i) desk.frame();
+        REQUIRE(p.mistakes.shown);
+        CHECK(p.mistakes.shown->cause == lesson::Cause::out_of_turn);
+        REQUIRE(p.course->state().joints[other].nut.angle > 0.0);
+        for (int i = 0; i < 10; ++i)
+            desk.frame();  // a hand that goes on grips anew, and makes no other mistake
+        desk.release(at);
+        for (int i = 0; i < 40 && p.course->state().joints[other].nut.angle > 0.0; ++i) desk.frame();
+
+        const bool guided = mode == lesson::Mode::guided;
+        CHECK((p.course->state().joints[other].nut.angle == 0.0) == guided);
+        CHECK(p.hand.nut.has_value() != guided);
+        CHECK(p.course->lesson().joints[other].result.order_errors == 1);
+        if (guided) CHECK(p.mistakes.shown);
+    }
+}
+
 TEST_CASE("what a slow machine loses of the clock is known, and is not lost in a pause") {
     Desk desk(options("cover-m8", false));
     desk.frame();

@@ -14,7 +14,10 @@ constexpr double longest_step = 0.25;  // s of lesson that one frame catches up 
 
 void say(Playing& p, std::span<const lesson::Event> events) {
     for (const lesson::Event& event : events) {
-        hints::note(p.mistakes, p.course->lesson(), event);
+        // What begins again because of a mistake is still told why.
+        const bool by_mistake = event.kind == "back" && p.back.by_mistake;
+        if (!by_mistake) hints::note(p.mistakes, p.course->lesson(), event);
+        note(p.back, p.course->lesson(), event);
         p.said.push_back(event);
     }
 }
@@ -30,7 +33,6 @@ void note(Playing& p, servo::Grip grip, const servo::Output& output) {
     if (p.captions)
         note(*p.captions, sound::hear(p.ear, p.course->setup(), output, sound::cues_of(p.course->events())),
              p.course->setup().dt);
-    if (output.undone > 0) p.undo.reset();
 }
 
 void step_ticks(Frame& frame) {
@@ -38,14 +40,14 @@ void step_ticks(Frame& frame) {
     play::Course& course = *p.course;
     if (!p.paused && !p.finished) p.owed += frame.seconds;
     if (!p.paused && !p.finished) p.lagged += frame.late + std::max(0.0, p.owed - longest_step);
-
     p.owed = std::min(p.owed, longest_step);
     const servo::Setup& setup = course.setup();
     for (; p.owed >= setup.dt && !course.over() && frame.status; p.owed -= setup.dt) {
         servo::Input input = move(p.mouse, setup, course.state());
         if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
-        if (p.undo && p.mouse.doing == Doing::resting && !p.mouse.nut) course.go_back(*p.undo);
+        const auto back = steps_back(p.back, course.lesson());
+        if (back && p.mouse.doing == Doing::resting && !p.mouse.nut) course.go_back(*back);
         const Result<servo::Output> output = course.step(input);
         if (!output) {
             frame.status = fail(output.error());
@@ -74,7 +76,7 @@ void follow_station(Frame& frame) {
                             "the session until then is whole");
     wish(at, *p.course,
          {p.paused || p.finished, frame.wanted.wants(Action::tool), frame.wanted.wants(Action::recentre),
-          p.undo, glm::angleAxis(p.camera.shown.yaw, Vec3(0, 1, 0))});
+          steps_back(p.back, p.course->lesson()), glm::angleAxis(p.camera.shown.yaw, Vec3(0, 1, 0))});
     const bool had = p.hand.wrench;
     p.hand = hand_of(at);
 

@@ -8,7 +8,6 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double undo_patience = 6.0;  // s
 constexpr glm::vec4 under_color{0.9F, 0.95F, 1.0F, 0.8F}, nothing{0.0F};
 
 // What hints are made of.
@@ -27,15 +26,13 @@ hints::Scene hint_scene(const Playing& p) {
 void lesson_system(scene::World& world, Frame& frame) {
     Playing& p = frame.playing;
     const lesson::Lesson& lesson = p.course->lesson();
-    // A wish that cannot be granted is forgotten: nothing leaps when nobody expects it any more.
-    p.undo_for = p.undo ? p.undo_for + frame.seconds : 0.0;
-    if (p.undo_for > undo_patience) p.undo.reset();
+    wait(p.back, frame.seconds);
     if (frame.wanted.wants(Action::quiet)) p.quiet = !p.quiet;
     if (p.sound) p.sound->set_volume(p.quiet || p.paused ? 0.0 : p.volume);
     if (p.captions && !p.paused) update(*p.captions, frame.seconds);
     if (!p.paused) {
         hints::update(p.hints, hint_scene(p), frame.seconds, frame.wanted.wants(Action::hint));
-        hints::update(p.mistakes, frame.seconds);
+        hints::update(p.mistakes, p.back.by_mistake ? 0.0 : frame.seconds);
     }
     const hints::Hint* hint = p.hints.shown && !p.finished ? &*p.hints.shown : nullptr;
     const int outlined = hint != nullptr ? hint->outlined() : -1;

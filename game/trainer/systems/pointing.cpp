@@ -58,9 +58,8 @@ void pointing_system(scene::World&, Frame& frame) {
         const auto off = pixels_to(screen, pointer, p.hand.rest.position, end);
         p.over_wrench = !p.hand.wrench && !p.under && off && *off < wrench_reach;
     }
-    if (wanted.wants(Action::restart_step)) p.undo = 0;
-    if (wanted.wants(Action::undo)) p.undo = 1;
-    if (p.course->lesson().mode == lesson::Mode::assessment) p.undo.reset();
+    if (wanted.wants(Action::restart_step)) go_back(p.back, p.course->lesson(), 0);
+    if (wanted.wants(Action::undo)) go_back(p.back, p.course->lesson(), 1);
     if (p.station) {
         p.under.reset();
         p.over_wrench = p.station->near_wrench;
@@ -80,7 +79,7 @@ void pointing_system(scene::World&, Frame& frame) {
         wish.turn = drag_of(p, screen, wanted.dragged);
         wish.spin = (wanted.pointer.x - p.press.x) / spin_reach;
     }
-    if (p.undo && p.hand.nut) wish.retreat = true;
+    if (p.back.to && p.hand.nut) wish.retreat = true;
     if (p.finished || p.paused) wish = {};
     trainer::wish(p.mouse, wish, p.course->setup(), p.course->state());
     move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
