@@ -266,7 +266,6 @@ void add_replay(CLI::App& app, int& exit_code) {
     replay->add_option("--language", options->language,
                        "Of what stands in the picture: en, de, zh; the desktop's if not given");
     replay->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
-
     replay->add_flag("--stereo", options->stereo, "Both eyes, side by side");
     replay->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     replay->add_flag("--validate", options->validate,

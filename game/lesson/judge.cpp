@@ -74,7 +74,6 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
         rehits += joint.rehits;
         order_errors += joint.order_errors;
         wrong_ways += lesson.joints[i].wrong_ways;
-
         result.joints.push_back(std::move(joint));
     }
     if (order_errors > 0)

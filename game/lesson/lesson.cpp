@@ -167,7 +167,6 @@ void note_wrong_way(Lesson& lesson, std::size_t joint, const servo::State& state
     if (beyond > -wrong_way || !track.seated || track.turned_back || track.overdone) return;
     track.turned_back = true;
     ++track.wrong_ways;
-
     mistake(lesson, state.tick, loosens ? Cause::tightened : Cause::loosened, joint, 0.0,
             fmt::format("{} was turned the wrong way: that {} it", track.result.id,
                         loosens ? "tightens" : "loosens"));
@@ -309,7 +308,6 @@ bool back(Lesson& lesson, const servo::State& state, std::size_t steps) {
         tracks[i].result.rehits = lesson.joints[i].result.rehits;
         tracks[i].result.order_errors = lesson.joints[i].result.order_errors;
         tracks[i].wrong_ways = lesson.joints[i].wrong_ways;
-
         tracks[i].result.condition = state.joints[i].condition;
     }
     lesson.joints = std::move(tracks);

@@ -70,7 +70,6 @@ std::optional<render::Label> work_label(const words::Words& words, const lesson:
     const bool fits = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
     render::Label label =
         plate(figures(words, lesson, output, wrench), above_nut(setup, state, joint), 22.0F);
-
     if (wrench && lesson.mode != lesson::Mode::assessment)
         show_standing(label, lesson.assembly->joints[joint].spec.torque, torque, fits ? due->fraction : 1.0,
                       palette);

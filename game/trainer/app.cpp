@@ -311,7 +311,6 @@ Status App::end_lesson() {
     playing_->finished = true;
     for (std::size_t i = 0; i < playing_->verdicts.size(); ++i)
         playing_->verdicts[i] = view::verdict_of(played_->result.joints[i]);
-
     shows_ = Shows::result;
     tell(fmt::format("lesson ended: {}, score {:.0f}", played_->result.finished ? "finished" : "broken off",
                      played_->result.score));

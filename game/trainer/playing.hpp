@@ -21,7 +21,6 @@
 #include "game/trainer/going_back.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "game/trainer/plot.hpp"
-
 #include "game/trainer/pointing.hpp"
 #include "game/view/orbit.hpp"
 #include "game/view/palette.hpp"
@@ -52,7 +51,6 @@ struct Playing {
     Vec3 shoulder{0.0};    // m, of whoever works
     Plot plot;
     std::vector<lesson::Verdict> verdicts;  // of the joints, once the lesson has ended
-
     hints::Hints hints;
     std::optional<std::pair<std::size_t, Pose>> ghost;  // of the wrench: for which step, and where
     hints::Mistakes mistakes;

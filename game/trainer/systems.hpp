@@ -9,10 +9,8 @@ namespace bolt::trainer {
 struct Frame {
     Playing& playing;
     const words::Words& words;
-
     double seconds = 0.0;  // since the last one, as far as anything moves by it
     double late = 0.0;     // s that it took longer than that: a slow machine
-
     glm::dvec2 size{1.0};  // px, of the picture
     Wanted wanted;
     const text::Fonts* fonts = nullptr;
