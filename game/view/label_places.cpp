@@ -41,11 +41,18 @@ void add_ways_out(const LabelBox& box, std::span<const LabelBox> placed, std::ve
     }
 }
 
+// The shortest way by which none of it is cut off.
+glm::vec2 way_in(const LabelBox& box, const glm::vec2& picture) {
+    return glm::max(-box.low, glm::vec2(0.0F)) + glm::min(picture - box.high, glm::vec2(0.0F));
+}
+
 // Where the box is free of all that is placed, for the least cost; where it is, if that is nowhere.
 glm::vec2 nearest_free(const LabelBox& box, std::span<const LabelBox> placed, float step,
                        const glm::vec2& picture) {
     std::vector<glm::vec2> starts{glm::vec2(0.0F)};
+    if (box.names_seen) starts.push_back(way_in(box, picture));
     add_ways_out(box, placed, starts);
+    const float cut_off = box.names_seen ? 1000.0F : 4.0F;
     glm::vec2 best(0.0F);
     float least = 1e9F;
     for (const glm::vec2& start : starts)
@@ -54,7 +61,7 @@ glm::vec2 nearest_free(const LabelBox& box, std::span<const LabelBox> placed, fl
                 const glm::vec2 moved = start + step * glm::vec2(right, -up);
                 // Up rather than down, over its joint rather than beside it.
                 const float cost = glm::length(moved) + (moved.y > 0.0F ? 0.5F * step : 0.0F) +
-                                   0.1F * std::abs(moved.x) + 4.0F * outside(box, moved, picture);
+                                   0.1F * std::abs(moved.x) + cut_off * outside(box, moved, picture);
                 if (cost >= least) continue;
                 const auto taken = [&](const LabelBox& other) { return overlap(box, other, moved); };
                 if (std::any_of(placed.begin(), placed.end(), taken)) continue;
@@ -70,13 +77,15 @@ LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const rend
                 const glm::vec2& picture) {
     const glm::vec4 clip = eye.clip_from_world * glm::vec4(label.position, 1.0F);
     if (clip.w <= 0.0F) return {};
-    const glm::vec2 at =
-        (0.5F * glm::vec2(clip) / clip.w + 0.5F) * picture + glm::vec2(label.moved_px.x, -label.moved_px.y);
+    const glm::vec2 named = (0.5F * glm::vec2(clip) / clip.w + 0.5F) * picture;
+    const bool in_picture =
+        named.x >= 0.0F && named.y >= 0.0F && named.x <= picture.x && named.y <= picture.y;
+    const glm::vec2 at = named + glm::vec2(label.moved_px.x, -label.moved_px.y);
     const glm::vec2 size = text::lay_out(fonts, label.text, label.anchor.x).size;
     const glm::vec2 left_below = -label.anchor * size - margin,
                     right_above = left_below + size + 2.0F * margin;
     return {at + label.height * glm::vec2(left_below.x, -right_above.y),
-            at + label.height * glm::vec2(right_above.x, -left_below.y), true};
+            at + label.height * glm::vec2(right_above.x, -left_below.y), true, in_picture};
 }
 
 void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,

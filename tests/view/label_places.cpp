@@ -111,3 +111,23 @@ TEST_CASE(
         CHECK(box.high.x <= picture.x);
     }
 }
+
+TEST_CASE("a crowd at the picture's upper edge is pushed along it or down, not out") {
+    const Scenery s;
+    std::vector<render::Label> crowd;
+    for (int i = 0; i < 8; ++i)
+        crowd.push_back(Scenery::label("0.0 turns", {0.01F * static_cast<float>(i % 2), 0.6F, 0.0F}));
+    move_apart(s.fonts, crowd, s.eye, picture);
+    CHECK(s.overlaps(crowd) == 0);
+    for (const render::Label& label : crowd) {
+        const LabelBox box = box_of(s.fonts, label, s.eye, picture);
+        REQUIRE(box.names_seen);
+        CHECK(box.low.y >= -0.05F);
+    }
+    // What is out of the picture has its label there too.
+    std::vector<render::Label> away = {Scenery::label("B1", {0.0F, 0.8F, 0.0F})};
+    move_apart(s.fonts, away, s.eye, picture);
+    const LabelBox box = box_of(s.fonts, away[0], s.eye, picture);
+    CHECK_FALSE(box.names_seen);
+    CHECK(box.high.y < 0.0F);
+}
