@@ -9,9 +9,7 @@ namespace bolt::lesson {
 
 namespace {
 
-constexpr double moved = to_radians(0.2);  // of nut angle: the wrench has moved it
-constexpr double past_breakaway = 0.37;    // of the breakaway is left: it is the torque that turns the nut
-
+constexpr double moved = to_radians(0.2);      // of nut angle: the wrench has moved it
 constexpr double turning_speed = 0.01;         // rad/s
 constexpr double wrong_way = to_radians(5.0);  // of nut angle: no play, and no wrench's own spring
 constexpr std::uint64_t hand_in_ticks = 3000;
@@ -132,16 +130,20 @@ void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
     work_out_of_turn(lesson, joint, state);
 }
 
-// What the nut was turned with, whichever step it was: once past breakaway, also where a hand turns it by
-// fits and starts. Taken off its seat, a nut begins anew.
-void note_turning(const Lesson& lesson, JointTrack& track, const joint::JointState& joint, double work) {
+// What the nut was turned with, whichever step it was, less what breakaway added: also where a hand turns it
+// by fits and starts, and it breaks away anew each time (`breakaway`: mechanistic.hpp, r; of what only
+// friction takes, so a little too much comes off). Taken off its seat, a nut begins anew.
+void note_turning(Lesson& lesson, std::size_t index, const joint::JointState& joint, double work) {
+    JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
         track.snug = track.yielded = track.overdone = false;
         track.turned_torque = track.result.torque = track.result.angle = 0.0;
     }
-    if (joint.nut.speed > turning_speed && joint.breakaway < past_breakaway)
-        track.turned_torque = std::max(track.turned_torque, work);
+    const double ratio = lesson.assembly->joints[index].design.friction.static_ratio;
+    const double breakaway = 1.0 + (ratio - 1.0) * joint.breakaway;
+    if (joint.nut.speed > turning_speed)
+        track.turned_torque = std::max(track.turned_torque, work / breakaway);
 }
 
 // Once until the nut is off its seat again. Breakaway turns nothing, and is not too much.
@@ -180,7 +182,7 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     if (!track.worked && (work > working_torque || (fingers && work > 0.01)))
         first_work(lesson, joint, state);
     track.peak_torque = std::max(track.peak_torque, work);
-    note_turning(lesson, track, state.joints[joint], work);
+    note_turning(lesson, joint, state.joints[joint], work);
     note_overdone(lesson, joint, state.tick);
     if (!fingers) note_wrong_way(lesson, joint, state);
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&

@@ -69,7 +69,9 @@ void follow(Following& following, const servo::State& state, const servo::Output
     for (const lesson::Event& event : lesson.events) following.begun += event.kind == "step_begin" ? 1U : 0U;
     if (output.undone == 0) return;
     const std::uint32_t unmarked = following.begun - (state.marked + output.undone - 1U);
-    (void)lesson::back(lesson, state, output.undone - 1U + unmarked);
+    // The last mark is the due step's, or, once all is done, the last step's.
+    const std::uint32_t done = lesson.due() == nullptr ? 1U : 0U;
+    (void)lesson::back(lesson, state, output.undone - 1U + unmarked + done);
     following.begun = state.marked;  // what it has gone back to has its mark
 }
 
@@ -142,8 +144,9 @@ Result<servo::Output> Course::step(const servo::Input& given, std::vector<lesson
 
 std::uint8_t Course::undo_by(std::size_t steps) const {
     const lesson::Lesson& l = lesson();
-    const bool may = l.mode != lesson::Mode::assessment && steps < servo::most_marks && steps <= l.current;
-    return may ? static_cast<std::uint8_t>(steps + 1) : std::uint8_t{0};
+    const std::size_t marks = steps + (over() ? 0 : 1);  // as in follow()
+    const bool may = l.mode != lesson::Mode::assessment && marks <= servo::most_marks && steps <= l.current;
+    return may ? static_cast<std::uint8_t>(marks) : std::uint8_t{0};
 }
 
 Status Course::take(const servo::Input& input, const servo::Output& output,

@@ -93,8 +93,9 @@ class Course {
     [[nodiscard]] std::uint8_t undo_by(std::size_t steps) const;
 
     // With the next tick the nuts and the lesson go back to the beginning of the due step, or to that of a
-    // step before it. Nothing happens where the lesson allows no way back (an assessment), further back than
-    // marks are kept, and as long as a nut is held or the tool is beside one (servo::Input::undo).
+    // step before it, also when all are done. Nothing happens where the lesson allows no way back (an
+    // assessment), further back than marks are kept, and as long as a nut is held or the tool is beside one
+    // (servo::Input::undo).
     void go_back(std::size_t steps) { back_ = steps; }
 
     // What happened in the last tick.

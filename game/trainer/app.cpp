@@ -404,7 +404,7 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         if (p.sound)
             if (const auto news = p.sound->news()) tell(*news);
         if (!now.status) return now.status;
-        if (p.course->over() && shows_ == Shows::lesson)
+        if (p.finished && shows_ == Shows::lesson)
             if (Status ended = end_lesson(); !ended) return ended;
         eye = screen_of(p, extent).eye;
         scene = &p.scene;

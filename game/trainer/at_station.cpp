@@ -85,7 +85,7 @@ void wish(AtStation& at, const play::Course& course, const Asked& asked) {
     station::Wishes& w = at.wishes;
     const bool held = at.gloved && at.now.input.grip == servo::Grip::wrench;
     const bool closes = at.keys.closes() || at.now.pressed || (at.gloved && !held && pinches(at.fingers));
-    w.pause = asked.paused || course.over();
+    w.pause = asked.paused;
     w.rest = at.rest;
     w.bare_wrist = at.bare_wrist;
     w.grip = grip_of(at, closes, asked);

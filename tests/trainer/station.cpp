@@ -92,7 +92,9 @@ struct Played {
                 if (event.kind == "mistake") mistakes.push_back(event.text);
             if (tick.output.undone > 0) asked.undo.reset();
         }
-        wish(at, *course, asked);
+        Asked now = asked;
+        now.paused = now.paused || course->over();
+        wish(at, *course, now);
         asked.tool = asked.recentre = false;
     }
     void pictures(double seconds) {

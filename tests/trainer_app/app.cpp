@@ -3,9 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "game/play/replay.hpp"
 #include "game/record/session.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/trainer_app/desk.hpp"
 
@@ -29,6 +33,7 @@ class Person {
         while (going() && p().course->time() < longest && p().course->lesson().current < steps) do_step();
     }
     int presses = 0, looks = 0;
+    double sought = 1.0;  // of the torque that is due
 
   private:
     [[nodiscard]] const Playing& p() const { return desk_.playing(); }
@@ -95,11 +100,12 @@ class Person {
         const lesson::Step& step_due = *due();
         const double torque = course.state().joints[joint].torque;
         const bool yields = course.state().joints[joint].stage == joint::Stage::yield;
-        if (lesson::into_yield(course.lesson(), step_due) ? yields : torque >= step_due.torque) return true;
+        const double until = sought * step_due.torque;
+        if (lesson::into_yield(course.lesson(), step_due) ? yields : torque >= until) return true;
         if (p().hand.room < 0.03 * p().mouse.room) return true;
         const glm::dvec2 lever = lever_on_screen(desk_.screen(), p().output.tool, setup.nuts[joint].axis,
                                                  setup.wrench.handle_length);
-        const double turn = 0.9 * std::max(0.08, 1.0 - torque / step_due.torque) * step;
+        const double turn = 0.9 * std::max(0.08, 1.0 - torque / until) * step;
         pointer += lever * turn;
         desk_.move(pointer);
         return false;
@@ -197,6 +203,55 @@ TEST_CASE("a mistake in a guided lesson begins its step again and says why; in p
         CHECK(p.course->lesson().joints[other].result.order_errors == 1);
         if (guided) CHECK(p.mistakes.shown);
     }
+}
+
+TEST_CASE("a mistake in the last step of a guided lesson begins that again, too; only then it is over") {
+    if (test::sanitized) return;  // ten times slower
+    const test::Folder content;
+    const std::filesystem::path one = content / "one";
+    std::filesystem::copy(std::filesystem::path(std::getenv("BOLTWRIGHT_CONTENT")) / "assemblies/cover-m8",
+                          one);
+    nlohmann::json assembly = nlohmann::json::parse(std::ifstream(one / "assembly.json"));
+    assembly["joints"] = {assembly["joints"][0]};
+    assembly["order"] = {"B1"};
+    assembly["passes"] = {assembly["passes"][0], assembly["passes"][2]};  // run down, and to 100 %
+    std::ofstream(one / "assembly.json") << assembly;
+
+    AppOptions o = options(one.c_str(), false);
+    o.out = content / "out";
+    Desk desk(o);
+    desk.frame();
+    desk.key(platform::Key::i);  // as above
+    const Playing& p = desk.playing();
+    REQUIRE(p.course->lesson().steps.size() == 2);
+    Person person(desk);
+    person.play(200.0, 1);
+    REQUIRE(p.course->lesson().current == 1);
+    const double seated = p.course->state().joints[0].nut.angle;
+    person.sought = 1.3;
+    for (int i = 0; i < 20 && !p.mistakes.shown; ++i) person.play(p.course->time() + 1.0, 2);
+    REQUIRE(p.mistakes.shown);
+    CHECK(p.mistakes.shown->cause == lesson::Cause::over_torque);
+    CHECK(p.course->state().joints[0].nut.angle > seated);
+    for (int i = 0; i < 60 && p.course->state().joints[0].nut.angle > seated; ++i) desk.frame();
+    CHECK(p.course->state().joints[0].nut.angle == seated);
+    CHECK(p.course->lesson().current == 1);
+    CHECK(p.mistakes.shown);
+    REQUIRE(desk.app().shows() == Shows::lesson);
+
+    person.sought = 1.0;
+    person.play(200.0, 2);
+    desk.frame();
+    REQUIRE(desk.app().shows() == Shows::result);
+    CHECK(desk.played()->result.finished);
+    CHECK(desk.played()->result.joints[0].torque < 22.0);
+    const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
+    REQUIRE(reader);
+    auto at = play::prepare_again(*reader);
+    REQUIRE(at);
+    const auto replayed = play::replay(*reader, std::move(*at), [](const play::Moment&) { return true; });
+    REQUIRE(replayed);
+    CHECK(replayed->wrong == 0);
 }
 
 TEST_CASE("what a slow machine loses of the clock is known, and is not lost in a pause") {

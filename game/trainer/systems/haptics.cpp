@@ -35,6 +35,13 @@ void note(Playing& p, servo::Grip grip, const servo::Output& output) {
              p.course->setup().dt);
 }
 
+// Of the last step, too, a mistake is taken back: until then the lesson is not over.
+bool goes_on(const Playing& p) {
+    if (!p.course->over()) return true;
+    const auto back = steps_back(p.back, p.course->lesson());
+    return p.back.by_mistake && back && p.course->undo_by(*back) != 0;
+}
+
 void step_ticks(Frame& frame) {
     Playing& p = frame.playing;
     play::Course& course = *p.course;
@@ -42,7 +49,7 @@ void step_ticks(Frame& frame) {
     if (!p.paused && !p.finished) p.lagged += frame.late + std::max(0.0, p.owed - longest_step);
     p.owed = std::min(p.owed, longest_step);
     const servo::Setup& setup = course.setup();
-    for (; p.owed >= setup.dt && !course.over() && frame.status; p.owed -= setup.dt) {
+    for (; p.owed >= setup.dt && goes_on(p) && frame.status; p.owed -= setup.dt) {
         servo::Input input = move(p.mouse, setup, course.state());
         if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
@@ -64,19 +71,20 @@ void step_ticks(Frame& frame) {
 void follow_station(Frame& frame) {
     Playing& p = frame.playing;
     AtStation& at = *p.station;
-    for (station::Ticked tick; !p.course->over() && frame.status && at.bench->next(tick);) {
+    for (station::Ticked tick; goes_on(p) && frame.status && at.bench->next(tick);) {
         frame.status = p.course->take(tick.input, tick.output);
         if (tick.output.joint >= 0 && p.output.joint < 0) at.taken_at = tick.output.nut_angle;
         if (frame.status) note(p, tick.input.grip, tick.output);
     }
-    if (at.bench->lost() > 0 && !p.course->over() && frame.status)
+    if (at.bench->lost() > 0 && goes_on(p) && frame.status)
         frame.status = fail(ErrorCode::failed,
                             fmt::format("pictures took so long that {} ticks of the servo could not be kept",
                                         at.bench->lost()),
                             "the session until then is whole");
     wish(at, *p.course,
-         {p.paused || p.finished, frame.wanted.wants(Action::tool), frame.wanted.wants(Action::recentre),
-          steps_back(p.back, p.course->lesson()), glm::angleAxis(p.camera.shown.yaw, Vec3(0, 1, 0))});
+         {p.paused || p.finished || !goes_on(p), frame.wanted.wants(Action::tool),
+          frame.wanted.wants(Action::recentre), steps_back(p.back, p.course->lesson()),
+          glm::angleAxis(p.camera.shown.yaw, Vec3(0, 1, 0))});
     const bool had = p.hand.wrench;
     p.hand = hand_of(at);
 
@@ -107,7 +115,7 @@ void haptic_system(scene::World& world, Frame& frame) {
         follow_station(frame);
     else
         step_ticks(frame);
-    p.finished = p.finished || p.course->over();
+    p.finished = p.finished || !goes_on(p);
     const scene::Held held = held_of(p, frame.seconds);
     scene::place_nuts(world, p.course->setup(), p.course->state().joints);
     scene::place_tool(world, held);
