@@ -11,8 +11,10 @@ constexpr double patience = 6.0;  // s
 }  // namespace
 
 void go_back(GoingBack& back, const lesson::Lesson& lesson, std::size_t steps) {
-    if (lesson.mode == lesson::Mode::assessment || steps > lesson.current) return;
-    back = {lesson.current - steps};
+    // A step that a mistake begins anew is as good as due.
+    const std::size_t due = back.by_mistake ? *back.to : lesson.current;
+    if (lesson.mode == lesson::Mode::assessment || steps > due) return;
+    back = {due - steps, back.by_mistake};
 }
 
 void note(GoingBack& back, const lesson::Lesson& lesson, const lesson::Event& event) {
@@ -30,6 +32,12 @@ void wait(GoingBack& back, double seconds) {
 std::optional<std::size_t> steps_back(const GoingBack& back, const lesson::Lesson& lesson) {
     if (!back.to || *back.to > lesson.current) return std::nullopt;
     return lesson.current - *back.to;
+}
+
+bool goes_on(const GoingBack& back, const play::Course& course) {
+    if (!course.over()) return true;
+    const auto steps = steps_back(back, course.lesson());
+    return back.by_mistake && steps && course.undo_by(*steps) != 0;
 }
 
 }  // namespace bolt::trainer

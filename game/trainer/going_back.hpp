@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "game/lesson/lesson.hpp"
+#include "game/play/course.hpp"
 
 namespace bolt::trainer {
 
@@ -26,5 +26,9 @@ void wait(GoingBack& back, double seconds);
 // By how many steps, as the lesson stands now: work that ends a step on the way out is taken back as well.
 // None: nothing is wished.
 std::optional<std::size_t> steps_back(const GoingBack& back, const lesson::Lesson& lesson);
+
+// Whether there are more ticks to come. Of the last step, too, a mistake is taken back: until then the lesson
+// is not over.
+bool goes_on(const GoingBack& back, const play::Course& course);
 
 }  // namespace bolt::trainer

@@ -35,7 +35,7 @@ Life live(const Person& who, const content::Assembly& assembly, Met& met) {
         }
 
         life.random_time = course.time();
-        life.done_by_random = course.over();
+        life.done_by_random = desk.over();
         life.restarts = who.at_mouse ? finish_at_mouse(desk) : finish_at_device(desk, who.seed);
         life.rescue_time = course.time() - life.random_time;
         for (const double lost : course.state().rounded) met.rounded += lost > 0.0 ? 1 : 0;

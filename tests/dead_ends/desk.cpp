@@ -28,7 +28,7 @@ bool Desk::tick(servo::Input input, bool wrench_in_hand, double room, bool asks)
     last = input;
     watch.tick(output);
     if (course.state().tick % frame_ticks == 0) watch.frame(output, wrench_in_hand, room, asks);
-    return !course.over();
+    return true;
 }
 
 void Desk::frame(trainer::Wish wish, std::optional<std::size_t> takes_back, bool asks) {
@@ -36,7 +36,7 @@ void Desk::frame(trainer::Wish wish, std::optional<std::size_t> takes_back, bool
     if (takes_back) trainer::go_back(back, course.lesson(), *takes_back);
     if (back.to && hand.nut) wish.retreat = true;
     trainer::wish(hand, wish, course.setup(), course.state());
-    for (int i = 0; i < frame_ticks && !course.over(); ++i) {
+    for (int i = 0; i < frame_ticks && !over(); ++i) {
         const Vec3 before = hand.pose.position;
         servo::Input input = trainer::move(hand, course.setup(), course.state());
         if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)

@@ -23,7 +23,9 @@ struct Desk {
 
     Desk(play::Course& c, Watch& w);
 
-    // One tick; false where the lesson is over.
+    // As the trainer has it: a mistake in the last step is still to be taken back.
+    [[nodiscard]] bool over() const { return !trainer::goes_on(back, course); }
+    // One tick; false where nothing can go on.
     bool tick(servo::Input input, bool wrench_in_hand, double room, bool asks = false);
     // A frame at the mouse: wishes and undos as the trainer's systems treat them.
     void frame(trainer::Wish wish, std::optional<std::size_t> takes_back = std::nullopt, bool asks = false);

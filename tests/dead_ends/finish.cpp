@@ -19,6 +19,7 @@ constexpr int most_restarts = 4, experts_restarts = 2;
 
 void dead_end(Desk& desk) {
     const lesson::Step* due = desk.course.lesson().due();
+    if (due == nullptr) return desk.watch.trouble("a dead end: the last step's mistake is never taken back");
     const auto& joint = desk.course.state().joints[due->joint];
     desk.watch.trouble(
         fmt::format("a dead end: {} joint {}, {:.1f} N·m, nut at {:.1f}°, {:.2f} mm rounded, clamp {:.0f} N",
@@ -36,7 +37,10 @@ struct Patience {
 
     bool over(const play::Course& course) {
         const lesson::Step* due = course.lesson().due();
-        if (due == nullptr) return false;
+        if (due == nullptr) {  // a mistake in the last step is to be taken back
+            if (std::exchange(step, course.lesson().current) != step) since = course.time();
+            return course.time() - since > lasts;
+        }
         const double sense = due->kind == lesson::StepKind::loosen ? -1.0 : 1.0;
         const double turned = sense * course.state().joints[due->joint].nut.angle;
         const double torque = sense * course.state().joints[due->joint].torque;
@@ -62,7 +66,7 @@ void come_to_rest(Desk& desk, const Vec3& at) {
     const double begun = desk.course.time();
     const Pose from = desk.player.hand.pose;
     const double seconds = 0.5 + glm::distance(from.position, at) / 0.4;
-    while (!desk.course.over() && desk.course.time() - begun < seconds) {
+    while (!desk.over() && desk.course.time() - begun < seconds) {
         const double share = (desk.course.time() - begun) / (seconds - 0.3);
         servo::Input input;
         const Pose now{glm::mix(from.position, at, std::clamp(share, 0.0, 1.0)), Quat(1, 0, 0, 0)};
@@ -81,10 +85,11 @@ int finish_at_mouse(Desk& desk) {
     int restarts = 0;
     trainer_test::Player& player = desk.player;
     player.held = false;
-    while (!desk.course.over() && !desk.stuck()) {
+    while (!desk.over() && !desk.stuck()) {
         std::optional<std::size_t> undo;
         if (patient.over(desk.course)) {
-            if (++restarts > most_restarts || desk.course.lesson().mode == lesson::Mode::assessment) {
+            if (++restarts > most_restarts || desk.course.lesson().mode == lesson::Mode::assessment ||
+                desk.course.over()) {
                 dead_end(desk);
                 break;
             }
@@ -109,19 +114,19 @@ int finish_at_device(Desk& desk, std::uint64_t seed) {
     int restarts = 0;
     Patience patient;
     patient.lasts = experts_patience;
-    while (!desk.course.over() && !desk.stuck()) {
+    while (!desk.over() && !desk.stuck()) {
         come_to_rest(desk, rest);
         if (restarts > 0) desk.course.go_back(patient.back(desk.course, restarts));
         operators::Operator trainee(expert, seed + static_cast<std::uint64_t>(restarts), setup);
         bool wrench = false;
-        while (!desk.course.over() && !desk.stuck() && !patient.over(desk.course)) {
+        while (!desk.over() && !desk.stuck() && !patient.over(desk.course)) {
             const servo::Input input = trainee.act(setup, desk.course.state(), desk.course.lesson());
             if (input.grip != servo::Grip::none) wrench = input.grip == servo::Grip::wrench;
             const float* at = input.device.position;
             desk.player.hand.pose.position = Vec3(at[0], at[1], at[2]);
             desk.tick(input, wrench, std::numeric_limits<double>::infinity());
         }
-        if (desk.course.over() || desk.stuck()) break;
+        if (desk.over() || desk.stuck()) break;
         // Simulated experts feel their way, and are led astray where a wrench rubs against something else;
         // what counts
         // is whether anybody can go on from there.

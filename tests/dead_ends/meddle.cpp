@@ -127,7 +127,7 @@ Pose onward(const Grab& grab, Random& random, const play::Course& course, const 
 void meddle_at_mouse(Desk& desk, std::uint64_t seed, double span, bool rough) {
     Random random(seed, 9101);
     Whim whim;
-    while (desk.course.time() < span && !desk.course.over() && !desk.stuck()) {
+    while (desk.course.time() < span && !desk.over() && !desk.stuck()) {
         if (desk.course.time() >= whim.until) whim = whim_of(random, desk.course, rough);
         trainer::Wish wish = whim.wish;
         if (!std::exchange(whim.press, false)) {
@@ -144,7 +144,7 @@ void meddle_at_device(Desk& desk, std::uint64_t seed, double span, bool rough) {
     const play::Course& course = desk.course;
     Grab grab;
     Pose hand = desk.player.hand.pose;
-    while (course.time() < span && !course.over() && !desk.stuck()) {
+    while (course.time() < span && !desk.over() && !desk.stuck()) {
         const bool other = course.time() >= grab.until;
         if (other) grab = grab_of(random, course, rough);
         if (course.state().engagement.joint >= 0) grab.handle += grab.rate * course.setup().dt;

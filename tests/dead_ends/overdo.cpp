@@ -79,10 +79,11 @@ trainer::Wish wish_of(Venture& v, trainer_test::Player& p, const play::Course& c
 void overdo_at_mouse(Desk& desk, std::uint64_t seed, double span) {
     Random random(seed, 9103);
     std::optional<Venture> venture;
-    while (desk.course.time() < span && !desk.course.over() && !desk.stuck()) {
+    while (desk.course.time() < span && !desk.over() && !desk.stuck()) {
         if (venture && done(*venture, desk.course) && !desk.player.held) venture.reset();
-        const bool runs_down = desk.course.lesson().due()->kind == lesson::StepKind::run_down;
-        if (!venture && runs_down) {
+        const lesson::Step* due = desk.course.lesson().due();
+        // Nothing is due while a mistake in the last step is taken back.
+        if (!venture && (due == nullptr || due->kind == lesson::StepKind::run_down)) {
             desk.frame(trainer_test::wish_of(desk.player, desk.course, frame_seconds));
             continue;
         }
@@ -100,7 +101,7 @@ void overdo_at_device(Desk& desk, std::uint64_t seed, double span) {
     strong.load_rate = 6.0;
     operators::Operator trainee(strong, seed, desk.course.setup());
     bool wrench = false;
-    while (desk.course.time() < span && !desk.course.over() && !desk.stuck()) {
+    while (desk.course.time() < span && !desk.over() && !desk.stuck()) {
         const servo::Input input =
             trainee.act(desk.course.setup(), desk.course.state(), desk.course.lesson());
         if (input.grip != servo::Grip::none) wrench = input.grip == servo::Grip::wrench;

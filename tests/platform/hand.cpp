@@ -78,6 +78,11 @@ void Hand::move(int x, int y) {
     x_->send(event, PointerMotionMask);
 }
 
+void Hand::point(int x, int y) {
+    XWarpPointer(x_->display, 0, x_->window, 0, 0, 0, 0, x, y);
+    XSync(x_->display, False);
+}
+
 void Hand::press(int x, int y, unsigned button) { x_->button(ButtonPress, x, y, button); }
 void Hand::release(int x, int y, unsigned button) { x_->button(ButtonRelease, x, y, button); }
 

@@ -16,6 +16,7 @@ class Hand {
 
     void key(const char* keysym);  // pressed and let go: "F11", "r", "Escape"
     void move(int x, int y);
+    void point(int x, int y);                       // the same with the screen's own pointer, which is seen
     void press(int x, int y, unsigned button = 1);  // 1 left, 2 middle, 3 right; 4 and 5 turn the wheel
     void release(int x, int y, unsigned button = 1);
     void close();  // as the window manager asks for it

@@ -62,6 +62,9 @@ TEST_CASE("a mistake returns to the beginning of its step, in a guided lesson on
         CHECK(steps_back(back, s.lesson).has_value() == returns);
         if (!returns) continue;
         CHECK(back.by_mistake);
+        go_back(back, s.lesson, 0);  // a key that asks for the same
+        CHECK(back.by_mistake);
+        CHECK(steps_back(back, s.lesson) == 0);
         s.pull(0, 35.0);  // what it goes on to do meanwhile is taken back, too
         REQUIRE(s.lesson.current == step + 1);
         CHECK(steps_back(back, s.lesson) == 1);
@@ -69,6 +72,11 @@ TEST_CASE("a mistake returns to the beginning of its step, in a guided lesson on
         take(back, s);
         CHECK_FALSE(steps_back(back, s.lesson));
         CHECK(s.lesson.current == step);
+        s.pull(1, 20.0);
+        take(back, s);
+        s.pull(0, 35.0);
+        go_back(back, s.lesson, 1);  // a key that asks for the step before
+        CHECK(steps_back(back, s.lesson) == 2);
     }
 }
 

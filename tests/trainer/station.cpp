@@ -10,9 +10,11 @@
 #include "game/play/replay.hpp"
 #include "game/record/session.hpp"
 #include "game/trainer/at_station.hpp"
+#include "game/trainer/going_back.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "tests/station/virtual_bench.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/trainer/one_joint.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
@@ -32,12 +34,13 @@ struct Played {
     AtStation at;
     test::VirtualBench* bench = nullptr;
     Asked asked;
+    GoingBack back;
     std::set<Key> down;
     fs::path file;
     Status status;
     std::vector<std::string> mistakes;
 
-    explicit Played(const char* name, lesson::Mode mode = lesson::Mode::guided, bool gloved = false) {
+    explicit Played(const std::string& name, lesson::Mode mode = lesson::Mode::guided, bool gloved = false) {
         content::Loaded loaded = content::load_assembly(name);
         REQUIRE(loaded.ok());
         assembly = std::move(loaded.assembly);
@@ -86,14 +89,16 @@ struct Played {
     }
     void picture() {
         bench->pass(frame);
-        for (station::Ticked tick; status && !course->over() && at.bench->next(tick);) {
+        for (station::Ticked tick; status && goes_on(back, *course) && at.bench->next(tick);) {
             status = course->take(tick.input, tick.output);
-            for (const lesson::Event& event : course->events())
+            for (const lesson::Event& event : course->events()) {
                 if (event.kind == "mistake") mistakes.push_back(event.text);
-            if (tick.output.undone > 0) asked.undo.reset();
+                note(back, course->lesson(), event);
+            }
         }
         Asked now = asked;
-        now.paused = now.paused || course->over();
+        now.paused = now.paused || !goes_on(back, *course);
+        now.undo = steps_back(back, course->lesson());
         wish(at, *course, now);
         asked.tool = asked.recentre = false;
     }
@@ -114,6 +119,7 @@ struct Played {
 class Keyboard {
   public:
     explicit Keyboard(Played& played) : p_(played) {}
+    double sought = 1.0;  // of the torque that is due
 
     void play(double longest, std::size_t steps = SIZE_MAX) {
         while (p_.status && p_.due() != nullptr && p_.course->time() < longest &&
@@ -213,7 +219,7 @@ class Keyboard {
         const lesson::Step step = *p_.due();
         double still = 0.0, angle = 0.0;
         while (p_.status && p_.engaged() >= 0 && still < 1.0 &&
-               p_.course->state().joints[step.joint].torque < step.torque) {
+               p_.course->state().joints[step.joint].torque < sought * step.torque) {
             go_on({Key::right});
             const double now = p_.course->state().joints[step.joint].torque;
             still = now > angle + 0.02 || p_.course->state().joints[step.joint].nut.speed > 0.02
@@ -232,6 +238,22 @@ class Keyboard {
     Played& p_;
 };
 
+// The file replays to the bit, and ends where the lesson did.
+void expect_replay(const Played& played) {
+    const auto reader = record::Reader::open(played.file);
+    REQUIRE(reader);
+    auto at = play::prepare_again(*reader);
+    REQUIRE(at);
+    std::size_t current = SIZE_MAX;
+    const auto replayed = play::replay(*reader, std::move(*at), [&](const play::Moment& moment) {
+        current = moment.lesson.current;
+        return true;
+    });
+    REQUIRE(replayed);
+    CHECK(replayed->wrong == 0);
+    CHECK(current == played.course->lesson().current);
+}
+
 }  // namespace
 
 TEST_CASE("a lesson played with keys at a station whose servo has its own time") {
@@ -248,19 +270,7 @@ TEST_CASE("a lesson played with keys at a station whose servo has its own time")
     CHECK(finished->result.finished);
     CHECK(finished->result.score > 80.0);
     MESSAGE("score " << finished->result.score);
-    // And the file replays it to the bit.
-    const auto reader = record::Reader::open(played.file);
-    REQUIRE(reader);
-    auto at = play::prepare_again(*reader);
-    REQUIRE(at);
-    std::size_t steps = 0;
-    const auto replayed = play::replay(*reader, std::move(*at), [&](const play::Moment& moment) {
-        steps = moment.lesson.current;
-        return true;
-    });
-    REQUIRE(replayed);
-    CHECK(replayed->wrong == 0);
-    CHECK(steps == played.course->lesson().current);
+    expect_replay(played);
 }
 
 TEST_CASE("a gloved hand pinches nuts and spins them, closes on the wrench, and opens again") {
@@ -307,26 +317,46 @@ TEST_CASE("paused, a station's lesson stands still; a step is taken back there a
     CHECK(played.course->time() == before);
     played.asked.paused = false;
     played.hold({});
-    played.asked.undo = 1;
+    go_back(played.back, played.course->lesson(), 1);
     played.pictures(0.5);
-    CHECK_FALSE(played.asked.undo);
+    CHECK_FALSE(played.back.to);
     CHECK(played.course->lesson().current == 0);
     CHECK(played.course->state().joints[first].nut.angle == 0.0);
     played.pictures(0.2);
     REQUIRE(played.status);
     REQUIRE(played.course->finish());
-    const auto reader = record::Reader::open(played.file);
-    REQUIRE(reader);
-    auto at = play::prepare_again(*reader);
-    REQUIRE(at);
-    std::size_t current = 9;
-    const auto replayed = play::replay(*reader, std::move(*at), [&](const play::Moment& moment) {
-        current = moment.lesson.current;
-        return true;
-    });
-    REQUIRE(replayed);
-    CHECK(replayed->wrong == 0);
-    CHECK(current == 0);
+    expect_replay(played);
+}
+
+TEST_CASE("at a station, too, a mistake in the last step begins that again; only then it is over") {
+    if (test::sanitized) return;  // ten times slower
+    const test::OneJoint one("cover-m8");
+    Played played(one.name());
+    Keyboard keyboard(played);
+    keyboard.play(60.0, 1);
+    REQUIRE(played.course->lesson().current == 1);
+    REQUIRE(played.course->lesson().steps.size() == 2);
+    const joint::JointState& joint = played.course->state().joints[0];
+    const double seated = joint.nut.angle;
+    keyboard.sought = 1.3;
+    for (int i = 0; i < 60 && played.mistakes.empty(); ++i) keyboard.play(played.course->time() + 1.0, 2);
+    REQUIRE(played.mistakes.size() == 1);
+    for (int i = 0; i < 100 && joint.nut.angle > seated; ++i) played.picture();
+    CHECK(joint.nut.angle == seated);
+    CHECK(played.course->lesson().current == 1);
+    CHECK_FALSE(played.back.to);
+    REQUIRE(goes_on(played.back, *played.course));
+
+    keyboard.sought = 1.0;
+    keyboard.play(200.0);
+    CHECK_FALSE(goes_on(played.back, *played.course));
+    if (!played.status) FAIL(played.status.error().message());
+    const auto finished = played.course->finish();
+    REQUIRE(finished);
+    CHECK(finished->result.finished);
+    CHECK(finished->result.joints[0].overall == lesson::Verdict::ok);
+    CHECK(played.mistakes.size() == 1);
+    expect_replay(played);
 }
 
 TEST_CASE("a gloved hand that twists a nut runs out of forearm, other hands do not") {

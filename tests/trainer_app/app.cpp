@@ -3,15 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "game/play/replay.hpp"
 #include "game/record/session.hpp"
-#include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/trainer/one_joint.hpp"
 #include "tests/trainer_app/desk.hpp"
+#include "tests/trainer_app/person.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
@@ -20,99 +18,7 @@ namespace {
 
 using test::Desk;
 using test::options;
-
-constexpr VkExtent2D size = test::Display{}.size;
-constexpr double step = test::Display{}.step;
-
-// Somebody who sees the picture and does what is due.
-class Person {
-  public:
-    explicit Person(Desk& desk) : desk_(desk) {}
-
-    void play(double longest, std::size_t steps = SIZE_MAX) {
-        while (going() && p().course->time() < longest && p().course->lesson().current < steps) do_step();
-    }
-    int presses = 0, looks = 0;
-    double sought = 1.0;  // of the torque that is due
-
-  private:
-    [[nodiscard]] const Playing& p() const { return desk_.playing(); }
-    [[nodiscard]] const lesson::Step* due() const { return p().course->lesson().due(); }
-    void wait(double seconds) {
-        for (double t = 0.0; t < seconds && going(); t += step) desk_.frame();
-    }
-    [[nodiscard]] bool going() const { return desk_.app().shows() == Shows::lesson; }
-
-    void do_step() {
-        const bool fingers = due()->kind == lesson::StepKind::run_down;
-        if (p().hand.wrench == fingers) {
-            desk_.key(platform::Key::t);
-            for (int i = 0; i < 200 && p().hand.wrench == fingers; ++i) desk_.frame();
-            return;
-        }
-        const auto at = nut_on_screen();
-        if (!at) {
-            ++looks;
-            REQUIRE(looks < 100);
-            desk_.key(platform::Key::v);
-            wait(0.8);
-            return;
-        }
-        ++presses;
-        desk_.press(*at);
-        const std::size_t joint = due()->joint;
-        glm::dvec2 pointer = *at;
-        double held = 0.0;
-        while (going() && desk_.playing().mouse.held && held < 12.0) {
-            if (fingers ? spin(*at, pointer) : pull(joint, pointer)) break;
-            held += step;
-        }
-        desk_.release(pointer);
-        wait(0.5);
-    }
-
-    // Where the due nut is, if a press there would mean it.
-    std::optional<glm::dvec2> nut_on_screen() {
-        const servo::Setup& setup = p().course->setup();
-        const std::size_t joint = due()->joint;
-        const auto at =
-            project(desk_.screen(),
-                    servo::nut_centre(setup.nuts[joint], p().course->state().joints[joint].nut.angle));
-        if (!at || at->x < 4 || at->y < 4 || at->x > size.width - 4 || at->y > size.height - 4) return {};
-        desk_.move(*at);
-        if (p().under != joint) return {};
-        return at;
-    }
-
-    bool spin(const glm::dvec2& from, glm::dvec2& pointer) {
-        pointer = from + glm::dvec2(110.0, 0.0);
-        desk_.move(pointer);
-        return p().course->state().joints[*p().hand.nut].stage != joint::Stage::navigation;
-    }
-
-    bool pull(std::size_t joint, glm::dvec2& pointer) {
-        const play::Course& course = *p().course;
-        const servo::Setup& setup = course.setup();
-        if (p().hand.doing != Doing::holding || course.state().engagement.joint != static_cast<int>(joint)) {
-            desk_.frame();
-            return false;
-        }
-        const lesson::Step& step_due = *due();
-        const double torque = course.state().joints[joint].torque;
-        const bool yields = course.state().joints[joint].stage == joint::Stage::yield;
-        const double until = sought * step_due.torque;
-        if (lesson::into_yield(course.lesson(), step_due) ? yields : torque >= until) return true;
-        if (p().hand.room < 0.03 * p().mouse.room) return true;
-        const glm::dvec2 lever = lever_on_screen(desk_.screen(), p().output.tool, setup.nuts[joint].axis,
-                                                 setup.wrench.handle_length);
-        const double turn = 0.9 * std::max(0.08, 1.0 - torque / until) * step;
-        pointer += lever * turn;
-        desk_.move(pointer);
-        return false;
-    }
-
-    Desk& desk_;
-};
+using test::Person;
 
 }  // namespace
 
@@ -207,18 +113,9 @@ TEST_CASE("a mistake in a guided lesson begins its step again and says why; in p
 
 TEST_CASE("a mistake in the last step of a guided lesson begins that again, too; only then it is over") {
     if (test::sanitized) return;  // ten times slower
-    const test::Folder content;
-    const std::filesystem::path one = content / "one";
-    std::filesystem::copy(std::filesystem::path(std::getenv("BOLTWRIGHT_CONTENT")) / "assemblies/cover-m8",
-                          one);
-    nlohmann::json assembly = nlohmann::json::parse(std::ifstream(one / "assembly.json"));
-    assembly["joints"] = {assembly["joints"][0]};
-    assembly["order"] = {"B1"};
-    assembly["passes"] = {assembly["passes"][0], assembly["passes"][2]};  // run down, and to 100 %
-    std::ofstream(one / "assembly.json") << assembly;
-
-    AppOptions o = options(one.c_str(), false);
-    o.out = content / "out";
+    const test::OneJoint one("cover-m8");
+    AppOptions o = options(one.name().c_str(), false);
+    o.out = one.folder() / "out";
     Desk desk(o);
     desk.frame();
     desk.key(platform::Key::i);  // as above

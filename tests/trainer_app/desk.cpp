@@ -87,19 +87,6 @@ void Desk::release(const glm::dvec2& at) {
     frame({platform::ButtonEvent{platform::Button::left, false, at}});
 }
 
-void Desk::push(words::Key label, float off) {
-    for (int i = 0; i < 2; ++i) frame();  // new panels have found their size
-    for (const ButtonPlace& button : app_->buttons()) {
-        if (button.label != label) continue;
-        const glm::dvec2 at(button.middle + glm::vec2(0.5F * off * button.width, 0.0F));
-        press(at);
-        release(at);
-        frame();
-        return;
-    }
-    FAIL("nothing is called " << label.row().name);
-}
-
 glm::dvec2 Desk::hold(std::size_t joint) {
     const auto on = [&] { return playing().course->state().engagement.joint == static_cast<int>(joint); };
     const play::Course& course = *playing().course;
@@ -112,10 +99,6 @@ glm::dvec2 Desk::hold(std::size_t joint) {
     for (int i = 0; i < 60 && !on(); ++i) frame();
     REQUIRE(on());
     return *at;
-}
-
-Screen Desk::screen() const {
-    return screen_of(playing(), glm::dvec2(display_.size.width, display_.size.height));
 }
 
 render::Picture Desk::picture() {

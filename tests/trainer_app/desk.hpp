@@ -7,7 +7,7 @@
 
 #include "engine/render/picture.hpp"
 #include "game/trainer/app.hpp"
-#include "game/trainer/pointing.hpp"
+#include "tests/trainer_app/seat.hpp"
 
 namespace bolt::test {
 
@@ -26,36 +26,34 @@ inline trainer::AppOptions options(const char* assembly, bool menu) {
     return o;
 }
 
-class Desk {
+class Desk : public Seat {
   public:
     // Its sessions are kept in `options.out`; empty: in a folder of the assembly's name below the tests'
     // output.
     explicit Desk(trainer::AppOptions options, Display display = {});
-    ~Desk();
+    ~Desk() override;
     Desk(const Desk&) = delete;
     Desk& operator=(const Desk&) = delete;
 
     // As the window does when a GPU is lost.
     void another_gpu();
 
-    void frame(const std::vector<platform::Event>& events = {}) { frame(events, display_.step); }
+    void frame() override { frame({}, display_.step); }
+    void frame(const std::vector<platform::Event>& events) { frame(events, display_.step); }
     void frame(const std::vector<platform::Event>& events, double seconds);
     Status try_frame();
     void wait(double seconds);
 
-    void key(platform::Key key);  // pressed and let go
-    void move(const glm::dvec2& to);
-    void press(const glm::dvec2& at);
-    void release(const glm::dvec2& at);
-    // Presses on what has that label, so far from its middle (of half its width). It has to be there.
-    void push(words::Key label, float off = 0.0F);
+    void key(platform::Key key) override;
+    void move(const glm::dvec2& to) override;
+    void press(const glm::dvec2& at) override;
+    void release(const glm::dvec2& at) override;
     // On the nut, held: until the hand has arrived and is on it. Where that is.
     glm::dvec2 hold(std::size_t joint);
 
     trainer::App& app() { return *app_; }
-    [[nodiscard]] const trainer::App& app() const { return *app_; }
-    [[nodiscard]] const trainer::Playing& playing() const { return *app_->playing(); }
-    [[nodiscard]] trainer::Screen screen() const;
+    [[nodiscard]] const trainer::App& app() const override { return *app_; }
+    [[nodiscard]] glm::dvec2 size() const override { return {display_.size.width, display_.size.height}; }
     [[nodiscard]] render::Picture picture();
     [[nodiscard]] const std::vector<std::string>& told() const { return told_; }
     [[nodiscard]] const std::optional<play::Played>& played() const { return played_; }

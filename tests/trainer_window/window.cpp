@@ -1,81 +1,27 @@
 // The trainer in a real window, with somebody at its keys and mouse.
-#include "game/trainer/window.hpp"
-
-#include <doctest/doctest.h>
-
-#include <filesystem>
-#include <mutex>
 #include <thread>
 
 #include "game/record/session.hpp"
 #include "tests/platform/hand.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/screen_picture.hpp"
+#include "tests/trainer_window/program.hpp"
 
 using namespace bolt;
 
 namespace {
 
-template <class T>
-T need(Result<T> result) {
-    if (!result) FAIL(result.error().message());
-    return std::move(*result);
-}
-
-// What the program says, for another thread to wait for.
-class Log {
-  public:
-    void add(const std::string& line) {
-        const std::lock_guard lock(mutex_);
-        lines_.push_back(line);
-    }
-    bool has(const std::string& part) {
-        const std::lock_guard lock(mutex_);
-        for (const std::string& line : lines_)
-            if (line.find(part) != std::string::npos) return true;
-        return false;
-    }
-
-  private:
-    std::mutex mutex_;
-    std::vector<std::string> lines_;
-};
-
-constexpr int width = 320, height = 200;
-
-struct Program {
-    std::filesystem::path out = std::filesystem::path(BOLT_TRAINER_OUT) / "window";
-    Log log;
-    platform::Desktop desktop = need(platform::Desktop::open());
-    platform::Window window = need(platform::Window::open(desktop, {"boltwright", width, height}));
-    std::optional<gpu::Instance> instance;
-    std::optional<trainer::App> app;
-
-    Program() {
-        gpu::InstanceOptions validated;
-        validated.validation = true;
-        const std::vector<const char*> extensions = need(desktop.vulkan_extensions());
-        validated.extensions = extensions;
-        instance.emplace(need(gpu::Instance::create(validated)));
-        std::filesystem::create_directories(out);
-        trainer::AppOptions options;
-        options.choice.assembly = "cover-m8";
-        options.out = out;
-        options.tell = [this](const std::string& line) { log.add(line); };
-        app.emplace(std::move(options));
-    }
-    ~Program() {
-        app->drop();
-        for (const std::string& message : instance->log().messages) FAIL_CHECK(message);
-    }
-};
+constexpr std::uint32_t width = 320, height = 200;
 
 }  // namespace
 
 TEST_CASE(
     "somebody who has read nothing: Enter begins, a press on the wrench takes it, closing keeps the "
     "session") {
-    Program program;
+    trainer::AppOptions options;
+    options.choice.assembly = "cover-m8";
+    options.out = std::filesystem::path(BOLT_TRAINER_OUT) / "window";
+    test::Program program(std::move(options), {width, height});
     bool begun = false, taken = false, large = false;
     std::thread somebody([&] {
         test::Hand hand("boltwright");
@@ -90,7 +36,7 @@ TEST_CASE(
             return program.log.has("in the hand");
         });
         hand.key("F11");
-        large = test::eventually([&] { return test::Hand("boltwright").place().width > width; });
+        large = test::eventually([&] { return test::Hand("boltwright").place().width > int{width}; });
         hand.close();
     });
     const Status run = trainer::run_in_window(*program.app, program.window, *program.instance);

@@ -35,12 +35,7 @@ void note(Playing& p, servo::Grip grip, const servo::Output& output) {
              p.course->setup().dt);
 }
 
-// Of the last step, too, a mistake is taken back: until then the lesson is not over.
-bool goes_on(const Playing& p) {
-    if (!p.course->over()) return true;
-    const auto back = steps_back(p.back, p.course->lesson());
-    return p.back.by_mistake && back && p.course->undo_by(*back) != 0;
-}
+bool goes_on(const Playing& p) { return goes_on(p.back, *p.course); }
 
 void step_ticks(Frame& frame) {
     Playing& p = frame.playing;

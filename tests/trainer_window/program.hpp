@@ -1,0 +1,77 @@
+// The trainer in a window of a test's screen, validated.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <mutex>
+
+#include "game/trainer/window.hpp"
+
+namespace bolt::test {
+
+template <class T>
+T need(Result<T> result) {
+    if (!result) FAIL(result.error().message());
+    return std::move(*result);
+}
+
+// What the program says, for another thread to wait for.
+class Log {
+  public:
+    void add(const std::string& line) {
+        const std::lock_guard lock(mutex_);
+        lines_.push_back(line);
+    }
+    bool has(const std::string& part) {
+        const std::lock_guard lock(mutex_);
+        for (const std::string& line : lines_)
+            if (line.find(part) != std::string::npos) return true;
+        return false;
+    }
+
+    std::vector<std::string> lines() {
+        const std::lock_guard lock(mutex_);
+        return lines_;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::string> lines_;
+};
+
+struct Program {
+    Log log;
+    std::filesystem::path out;
+    platform::Desktop desktop = need(platform::Desktop::open());
+    platform::Window window;
+    std::optional<gpu::Instance> instance;
+    std::optional<trainer::App> app;
+    std::optional<play::Played> played;
+
+    Program(trainer::AppOptions options, platform::Size size)
+        : out(options.out),
+          window(need(platform::Window::open(desktop, {"boltwright", size.width, size.height}))) {
+        gpu::InstanceOptions validated;
+        validated.validation = true;
+        const std::vector<const char*> extensions = need(desktop.vulkan_extensions());
+        validated.extensions = extensions;
+        instance.emplace(need(gpu::Instance::create(validated)));
+        std::filesystem::create_directories(out);
+        options.tell = [this](const std::string& line) { log.add(line); };
+        options.ended = [this](const content::Assembly&, const play::CourseOptions&,
+                               const play::Played& how) {
+            played = how;
+            return Status{};
+        };
+        app.emplace(std::move(options));
+    }
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+    ~Program() {
+        app->drop();
+        for (const std::string& message : instance->log().messages) FAIL_CHECK(message);
+    }
+};
+
+}  // namespace bolt::test

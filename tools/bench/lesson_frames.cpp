@@ -1,0 +1,72 @@
+// What a lesson costs the frames of a picture, beside rendering: its servo's ticks, the lesson that watches
+// them and the session that keeps them. A simulated expert plays among obstacles; what counts are the
+// counters, in milliseconds of the thread's own work in a frame of 1/60 s.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "content/format/load.hpp"
+#include "game/operators/operator.hpp"
+#include "game/play/course.hpp"
+#include "tools/bench/need.hpp"
+#include "tools/bench/tick_times.hpp"
+
+namespace {
+
+using namespace bolt;
+using bench::guarded;
+using bench::need;
+
+constexpr double frame = 1.0 / 60.0;  // s
+
+void lesson_frames(benchmark::State& state, const char* name, play::Obstacles obstacles) {
+    guarded(state, [&] {
+        const content::Loaded loaded = content::load_assembly(name);
+        if (!loaded.ok()) throw std::runtime_error(loaded.errors.front().message());
+        const auto file = std::filesystem::temp_directory_path() / "bolt-bench-frames.boltwright";
+        play::CourseOptions options;
+        options.obstacles = obstacles;
+        std::vector<double> frames, touching;
+        for (auto _ : state) {
+            const auto begun = need(play::Course::begin(loaded.assembly, options, file));
+            play::Course& course = *begun;
+            operators::Operator expert(operators::find_profile("expert").value(), 1, course.setup());
+            double spent = 0.0;
+            bool touches = false;
+            for (double shown = 0.0; !course.over();) {
+                const servo::Input input = expert.act(course.setup(), course.state(), course.lesson());
+                const double start = bench::thread_microseconds();
+                const servo::Output output = need(course.step(input, expert.take_noticed()));
+                spent += 1e-3 * (bench::thread_microseconds() - start);
+                touches = touches || output.touched >= 0;
+                if (course.time() < shown + frame) continue;
+                shown += frame;
+                frames.push_back(spent);
+                if (touches) touching.push_back(spent);
+                spent = 0.0;
+                touches = false;
+            }
+            state.counters["s"] = course.time();
+        }
+        for (const auto& [share_name, share] :
+             {std::pair("p50", 0.5), std::pair("p99", 0.99), std::pair("max", 1.0)}) {
+            state.counters[share_name] = bench::quantile(frames, share);
+            state.counters["touching_" + std::string(share_name)] = bench::quantile(touching, share);
+        }
+        double over = 0.0;
+        for (const double spent : frames) over += spent > 1.0 ? 1.0 : 0.0;
+        state.counters["over_1_ms"] = over / static_cast<double>(frames.size());
+        for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + end);
+    });
+}
+
+#define LESSON_FRAMES(name, ...) \
+    BENCHMARK_CAPTURE(lesson_frames, name, __VA_ARGS__)->Iterations(1)->Unit(benchmark::kMillisecond)
+
+LESSON_FRAMES(cover_m8, "cover-m8", play::Obstacles::required);
+LESSON_FRAMES(zq350, "zq350", play::Obstacles::required);
+// Baseline: where nothing can be bumped into.
+LESSON_FRAMES(zq350_without_obstacles, "zq350", play::Obstacles::none);
+
+}  // namespace
