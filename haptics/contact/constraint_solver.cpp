@@ -12,20 +12,25 @@ namespace bolt::contact {
 // Newton method: Castro, Permenter and Han, IEEE T-RO 39(2), 2023. Coulomb's law is not the optimum of a
 // convex problem: a cone alone would let a slipping contact rise by friction × slip. De Saxcé's correction
 // (de Saxcé and Feng, Math. Comput. Modelling 28, 1998) gives that rise back as slack, from the slip of the
-// last round.
+// last round. That is a fixed point, and between two jaws one that is run away from: what one side rises by,
+// the other slips by, times a lever. Irons and Tuck's relaxation (Int. J. Numer. Methods Eng. 1, 1969, as
+// "Aitken's" in Küttler and Wall, Comput. Mech. 43, 2008) finds it. Rows that contradict each other push
+// against each other ever more while the motion has long come to rest: that ends it, not the forces.
 //
 // Forces are in metres (divided by the linear stiffness), turns in metres (times the metric's length).
 
 namespace {
 
-// Of a contact's violation, against 1 for the deviation: it grows tenfold a round, as the way to the answer
-// is shorter where the cost is smooth.
-constexpr double first_penalty = 10.0, most_penalty = 1e3;
-constexpr int rounds = 8;         // multiplier and slip are renewed this often at most
+// Of a contact's violation, against 1 for the deviation. From far away it grows tenfold a round, as the way
+// to the answer is shorter where the cost is smooth.
+constexpr double first_penalty = 10.0, penalty_afar = 1e3, penalty_near = 1e4;
+constexpr int rounds = 8;         // with the full penalty, in which multiplier and rise are renewed
 constexpr int newton_steps = 16;  // in a round at most
-constexpr int searches = 8;       // along a Newton direction at most
+constexpr int searches = 16;      // along a Newton direction at most
 constexpr double enough = 1e-9;   // m
 constexpr double nearly = 1e-6;   // m, while the penalty grows
+constexpr double at_rest = 1e-7;  // m, from round to round: of the stiffest coupling less than a millinewton
+constexpr double first_relaxation = 0.7, least_relaxation = 0.3;  // of the rise
 
 using Six = std::array<double, 6>;
 
@@ -34,10 +39,11 @@ struct Row {
     Vec3 normal{0.0};
     double slack = 0.0;
     double friction = 0.0;
-    double rise = 0.0;  // m of slack for slipping
-    Vec3 force{0.0};    // the multiplier
-    Vec3 pull{0.0};     // force - penalty × room at the current motion
-    Vec3 borne{0.0};    // of the pull, what the contact can bear
+    double rise = 0.0;      // m of slack for slipping
+    double short_of = 0.0;  // m, by what its slip asked for more in the last round
+    Vec3 force{0.0};        // the multiplier
+    Vec3 pull{0.0};         // force - penalty × room at the current motion
+    Vec3 borne{0.0};        // of the pull, what the contact can bear
     Vec3 pull_rate{0.0};
     Vec3 borne_ahead{0.0};  // at the end of the Newton direction
 };
@@ -223,10 +229,102 @@ int descend(Problem& p, double to) {
     return newton_steps;
 }
 
+Six six_of(const Twist& twist, double length) {
+    const Vec3 turn = twist.angular * length;
+    return {twist.linear.x, twist.linear.y, twist.linear.z, turn.x, turn.y, turn.z};
+}
+
+double furthest(const Six& a, const Six& b) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < 6; ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+}
+
+// The slack that a contact is to have for how far it slips.
+double rise_for(const Row& row, const Six& motion) {
+    if (row.friction <= 0.0) return 0.0;
+    const Vec3 u = point_motion(row, motion);
+    return row.friction * glm::length(u - glm::dot(u, row.normal) * row.normal);
+}
+
+// The multipliers become what the contacts bear; returns the greatest change, in m of violation.
+double renew_forces(Problem& p) {
+    double change = 0.0;
+    for (std::size_t k = 0; k < p.count; ++k) {
+        Row& row = p.rows[k];
+        change = std::max(change, glm::length(row.borne - row.force) / p.penalty);
+        row.force = row.borne;
+    }
+    return change;
+}
+
+// Every rise goes a share of the way to what the slip asks for; returns the furthest, m. The share is such
+// that the last two rounds' shortages of those that bear something, drawn out in a straight line, end at
+// none.
+double renew_rises(Problem& p, bool first, double& relaxation) {
+    double along = 0.0, across = 0.0;
+    for (std::size_t k = 0; k < p.count; ++k) {
+        Row& row = p.rows[k];
+        const double before = row.short_of;
+        const bool bears = row.borne != Vec3(0.0);
+        row.short_of = rise_for(row, p.motion) - row.rise;
+        const double counted = bears ? row.short_of - before : 0.0;
+        along += before * counted;
+        across += square(counted);
+    }
+    if (!first && across > 0.0) relaxation = std::clamp(-relaxation * along / across, least_relaxation, 1.0);
+    double risen = 0.0;
+    for (std::size_t k = 0; k < p.count; ++k) {
+        const double by = relaxation * p.rows[k].short_of;
+        p.rows[k].rise += by;
+        risen = std::max(risen, std::abs(by));
+    }
+    return risen;
+}
+
+// Rounds until motion and rises rest, so many with the full penalty at most. What Newton's method does not
+// end in `newton_steps` is left there if there is another way: false.
+bool settle(Problem& p, double full_penalty, bool other_way, int& factorisations) {
+    double relaxation = first_relaxation;
+    for (int round = 0, full_rounds = 0; full_rounds < rounds; ++round) {
+        const bool full = p.penalty >= full_penalty;
+        const Six before = p.motion;
+        const int steps = descend(p, full ? enough : nearly);
+        factorisations += steps;
+        if (other_way && steps == newton_steps) return false;
+        const double change = renew_forces(p);
+        const double risen = renew_rises(p, round == 0, relaxation);
+        const bool rests = change <= enough || (round > 0 && furthest(p.motion, before) <= at_rest);
+        if (full && rests && risen <= at_rest) break;
+        p.penalty = std::min(full_penalty, 10.0 * p.penalty);
+        full_rounds += full ? 1 : 0;
+    }
+    return true;
+}
+
+bool from_near(Problem& p, const Six& expected, int& factorisations) {
+    p.motion = expected;
+    p.penalty = penalty_near;
+    for (std::size_t k = 0; k < p.count; ++k) p.rows[k].rise = rise_for(p.rows[k], expected);
+    return settle(p, penalty_near, true, factorisations);
+}
+
+void from_afar(Problem& p, int& factorisations) {
+    p.motion = p.wanted;
+    p.penalty = first_penalty;
+    for (std::size_t k = 0; k < p.count; ++k) {
+        Row& row = p.rows[k];
+        row.force = Vec3(0.0);
+        row.rise = row.short_of = 0.0;
+    }
+    (void)settle(p, penalty_afar, false, factorisations);
+}
+
 }  // namespace
 
 ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
-                            std::span<const Constraint> constraints, std::span<Vec3> forces) {
+                            std::span<const Constraint> constraints, std::span<Vec3> forces,
+                            const std::optional<Twist>& expected) {
     const double length = std::sqrt(metric.angular / metric.linear);
     Problem p;
     p.count = std::min(constraints.size(), most_constraints);
@@ -238,27 +336,11 @@ ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
         row.slack = c.slack;
         row.friction = c.friction;
     }
-    const Vec3 turn = wanted.angular * length;
-    p.wanted = {wanted.linear.x, wanted.linear.y, wanted.linear.z, turn.x, turn.y, turn.z};
-    p.motion = p.wanted;
+    p.wanted = six_of(wanted, length);
 
     ConstrainedMotion result;
-    for (int round = 0; round < rounds; ++round) {
-        result.factorisations += descend(p, p.penalty < most_penalty ? nearly : enough);
-        double change = 0.0;
-        for (std::size_t k = 0; k < p.count; ++k) {
-            Row& row = p.rows[k];
-            change = std::max(change, glm::length(row.borne - row.force) / p.penalty);
-            row.force = row.borne;
-            if (row.friction <= 0.0) continue;
-            const Vec3 u = point_motion(row, p.motion);
-            const double rise = row.friction * glm::length(u - glm::dot(u, row.normal) * row.normal);
-            change = std::max(change, std::abs(rise - row.rise));
-            row.rise = rise;
-        }
-        if (p.penalty >= most_penalty && change <= enough) break;
-        p.penalty = std::min(most_penalty, 10.0 * p.penalty);
-    }
+    if (!expected || !from_near(p, six_of(*expected, length), result.factorisations))
+        from_afar(p, result.factorisations);
     for (std::size_t k = 0; k < p.count; ++k) {
         const double normal = glm::dot(point_motion(p.rows[k], p.motion), p.rows[k].normal);
         result.violation = std::max(result.violation, -normal - p.rows[k].slack);

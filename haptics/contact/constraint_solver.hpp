@@ -3,6 +3,7 @@
 // Redon and Coquillart, IEEE TVCG 13(3), 2007), with Coulomb's friction at each contact.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "haptics/contact/twist.hpp"
@@ -38,7 +39,9 @@ struct ConstrainedMotion {
 // without reaching the cone stays where it is. Redundant, degenerate and contradicting constraints are
 // allowed; the answer is unique without friction and continuous in all numbers given. A fixed bound of work,
 // no allocation, the same bits for the same numbers. `forces`, where given, gets what each contact bears, N.
+// `expected` is about what it will come to, if somebody knows: the nearer, the less work.
 ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
-                            std::span<const Constraint> constraints, std::span<Vec3> forces = {});
+                            std::span<const Constraint> constraints, std::span<Vec3> forces = {},
+                            const std::optional<Twist>& expected = {});
 
 }  // namespace bolt::contact

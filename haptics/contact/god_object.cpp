@@ -67,6 +67,7 @@ class Stepper {
           finder_(finder),
           dt_(dt),
           pose_(before.tool),
+          expected_(before.let_go),
           recovery_left_(parameters.recovery * dt) {}
 
     GodObjectStep run() {
@@ -89,6 +90,7 @@ class Stepper {
     }
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
+    [[nodiscard]] Twist let_go() const { return let_go_.value_or(Twist{}); }
     [[nodiscard]] force::OutputCommand event_of(const force::OutputCommand& felt) const {
         return {force_.event_of(felt.force - before_.felt.force),
                 torque_.event_of(felt.torque - before_.felt.torque)};
@@ -123,10 +125,16 @@ class Stepper {
     }
 
     Twist solve(const Twist& wanted, const Rows& rows) {
-        if (rows.count == 0) return wanted;
-        ++step_.solves;
-        const Metric metric{p_.coupling.stiffness, p_.coupling.torsion};
-        return constrain(metric, wanted, std::span(rows.rows.data(), rows.count)).motion;
+        Twist motion = wanted;
+        if (rows.count > 0) {
+            const Metric metric{p_.coupling.stiffness, p_.coupling.torsion};
+            const auto all = std::span(rows.rows).first(rows.count);
+            motion = constrain(metric, wanted, all, {}, expected_).motion;
+            ++step_.solves;
+        }
+        if (!let_go_) let_go_ = motion;
+        expected_ = motion;
+        return motion;
     }
 
     [[nodiscard]] Rows rows_here() const {
@@ -293,6 +301,8 @@ class Stepper {
     void arrive(const Pose& there, const Twist& by) {
         came_by_ = by;
         has_moved_ = true;
+        // What is left of it.
+        expected_ = {expected_.linear - by.linear, expected_.angular - by.angular};
         recovery_left_ -= std::clamp(p_.skin - here_.nearest, 0.0, recovery_left_);
         pose_ = there;
     }
@@ -345,7 +355,9 @@ class Stepper {
     Pose pose_;
     Look here_;
     bool recovering_ = false;
-    Twist came_by_;  // the last motion of this tick
+    Twist came_by_;   // the last motion of this tick
+    Twist expected_;  // about what will be solved for next
+    std::optional<Twist> let_go_;
     bool has_moved_ = false;
     std::uint32_t charged_ = 0;   // of the work in this tick
     double recovery_left_ = 0.0;  // m in this tick
@@ -367,6 +379,7 @@ GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectSt
     Stepper stepper(parameters, state, device, finder, dt);
     const GodObjectStep step = stepper.run();
     state.tool = stepper.pose();
+    state.let_go = stepper.let_go();
     const force::Offset offset = force::offset_between(device, state.tool);
     const force::OutputCommand felt = force::coupling_force(parameters.coupling, offset, state.offset, dt);
     state.event = stepper.event_of(felt);

@@ -60,6 +60,8 @@ struct GodObjectState {
     force::OutputCommand event;  // what of its change was not the hand's own
     // m: the nearest of what was found about it; infinite where that was nothing.
     double free = std::numeric_limits<double>::infinity();
+    // Where contacts, if any, let it go, first of all; the next tick's will not differ much.
+    Twist let_go;
 };
 
 // What a step did.

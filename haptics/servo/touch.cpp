@@ -19,6 +19,7 @@ constexpr double against = 2.0;  // skins: nearer than this an obstacle holds th
 
 // Kept between jaw and hexagon, m: of a clearance of a tenth of a millimetre the skin would take half.
 constexpr double jaw_skin = 2e-6;
+constexpr double both_skins = 2.5;  // over the skin: that a jaw on a nut has on either side, with some room
 
 // Of the opening: a nut this near to the jaw's middle touches nothing of the wrench but its jaw.
 constexpr double beside = 0.15, ahead = 0.25;
@@ -54,12 +55,15 @@ void place_nuts(const Setup& setup, Touch& touch, std::span<const joint::JointSt
     }
 }
 
-// Where the hexagon stands for the jaw that sits on it: turned with it beyond the play.
+// Where the hexagon stands for the jaw that sits on it: turned with it beyond the play, and so little before
+// that both jaws have their skin. Pressed together they would contradict each other, and rub without limit.
 Pose turned_with(const Setup& setup, const NutPlace& nut, const Pose& place, const Pose& wrench) {
     const double off =
         contact::seat_of(setup.wrench.jaw, prism_of(nut), inverse(place) * wrench).misalignment;
     const double play = joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, 0.0);
-    const double beyond = off - std::clamp(off, -play, play);
+    const double lever = 0.5 * nut.across_flats * (std::cos(play) / std::sqrt(3.0) - std::sin(play));
+    const double room = std::max(0.0, play - both_skins * jaw_skin / lever);
+    const double beyond = off - std::clamp(off, -room, room);
     return {place.position, place.orientation * glm::angleAxis(-beyond, Vec3(0, 0, 1))};
 }
 

@@ -189,7 +189,7 @@ TEST_CASE("frictionless: the optimum of a brute-force search over all sets of co
     CHECK(offs[1500] < 1e-7);
     CHECK(offs[2970] < 1e-4);
     // In wedges of a few degrees the violation of less than a micrometre that is left is a way along them.
-    CHECK(offs.back() < 0.05);
+    CHECK(offs.back() < 0.02);
     CHECK(most <= 96);
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("friction: every contact's force keeps Coulomb's law, and the forces a
                                  << "; most factorisations " << most);
     CHECK(residuals[1500] < 1e-6);
     CHECK(residuals[2850] < 1e-3);
-    CHECK(residuals[2970] < 0.02);
+    CHECK(residuals[2970] < 5e-3);
     // Wedged between contacts Coulomb's law may have no single answer; what is not settled is slip, not
     // depth.
     CHECK(residuals.back() < 0.2);
@@ -254,6 +254,42 @@ TEST_CASE("friction: every contact's force keeps Coulomb's law, and the forces a
     CHECK(worst_balance < 1e-4);
     CHECK(slipping > 100);
     CHECK(sticking > 100);
+}
+
+TEST_CASE("who knows about what comes of it comes to the same, with half the work") {
+    Random random(9);
+    std::vector<double> offs;
+    int with = 0, without = 0, most = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const auto rows = random_contacts(random, 1 + random.bits() % 12, random.uniform(0.0, 0.3));
+        const Twist from = random_motion(random), by = random_motion(random);
+        std::optional<Twist> before;
+        for (int i = 0; i < 20; ++i) {
+            const Twist wanted{from.linear + 1e-3 * i * by.linear, from.angular + 1e-3 * i * by.angular};
+            const ConstrainedMotion alone = constrain({}, wanted, rows);
+            const ConstrainedMotion led = constrain({}, wanted, rows, {}, before);
+            before = led.motion;
+            if (i == 0) continue;
+            with += led.factorisations;
+            without += alone.factorisations;
+            most = std::max(most, led.factorisations);
+            const double size = glm::length(wanted.linear) + 0.1 * glm::length(wanted.angular);
+            const Twist& a = alone.motion;
+            offs.push_back((glm::length(a.linear - led.motion.linear) +
+                            0.1 * glm::length(a.angular - led.motion.angular)) /
+                           size);
+        }
+    }
+    std::sort(offs.begin(), offs.end());
+    const auto below = [&](double share) {
+        return offs[static_cast<std::size_t>(share * static_cast<double>(offs.size()))];
+    };
+    MESSAGE("off by, of the wanted motion: median "
+            << below(0.5) << ", 95 % below " << below(0.95) << ", 99 % below " << below(0.99) << "; " << with
+            << " factorisations, " << without << " without, at most " << most);
+    CHECK(below(0.5) < 2e-5);
+    CHECK(below(0.95) < 5e-3);
+    CHECK(2 * with < without);
 }
 
 TEST_CASE("contacts that contradict each other end in a compromise, not in a crash or a leap") {

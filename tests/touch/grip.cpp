@@ -273,6 +273,28 @@ TEST_CASE("wholly on, it turns the joint to its torque and nothing is rounded") 
     CHECK(watch.torque_step < 0.95 * bench.setup.limits.torque_rate * bench.setup.dt);
 }
 
+TEST_CASE("under load the jaws do not press against each other: along the bolt nothing rubs") {
+    test::Workbench bench("cover-m8");
+    REQUIRE(play::pretighten(bench.assembly, bench.setup, bench.state));
+    Watch watch;
+    const Pose on = put_on(bench, watch);
+    const Vec3 axis = bench.setup.nuts[0].axis;
+    const Pose loaded = turned(on, axis, -to_radians(5.0));
+    go(bench, watch, on, loaded, 0.5);
+    REQUIRE(watch.last.wrench_torque > 10.0);
+    Pose up = loaded;
+    up.position += 2e-3 * axis;
+    Watch way;
+    double rubs = 0.0;
+    for (int i = 1; i <= 200; ++i) {
+        const Output o = bench.step({glm::mix(loaded.position, up.position, i / 200.0), loaded.orientation});
+        if (i > 60)  // off the washer, and what was felt of it has faded
+            rubs = std::max(rubs, std::abs(glm::dot(o.force, axis)));
+    }
+    MESSAGE("along the bolt " << rubs << " N");
+    CHECK(rubs < 0.1);
+}
+
 namespace {
 
 // Somewhere around the nut, mostly near it, mostly fitting.
