@@ -126,6 +126,10 @@ inline constexpr KeyRow key_rows[] = {
     {"reason.done_already.many", "count"},
     {"reason.wrong_way.one", ""},
     {"reason.wrong_way.many", "count"},
+    {"reason.overdone.one", ""},
+    {"reason.overdone.many", "count"},
+    {"reason.slipped.one", ""},
+    {"reason.slipped.many", "count"},
     {"reason.unfinished", "step of"},
     // And what to do better next time.
     {"advice.broken", ""},

@@ -92,6 +92,14 @@ Review review(const content::Assembly& assembly, const lesson::LessonResult& res
                 remark.key = once ? Key("reason.wrong_way.one") : Key("reason.wrong_way.many");
                 advice = Key("advice.wrong_way");
                 break;
+            case Fault::overdone:
+                remark.key = once ? Key("reason.overdone.one") : Key("reason.overdone.many");
+                advice = Key("advice.torque_high");
+                break;
+            case Fault::slipped:
+                remark.key = once ? Key("reason.slipped.one") : Key("reason.slipped.many");
+                advice = Key("mistake.slipped.do");
+                break;
             case Fault::unfinished:
                 remark.key = Key("reason.unfinished");
                 remark.places = {{"step", words::Number{1.0 * reason.count, 0}},

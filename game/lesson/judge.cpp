@@ -59,7 +59,7 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
     result.finished = lesson.due() == nullptr;
     result.score = 100.0;
     const double share = 100.0 / static_cast<double>(std::max<std::size_t>(1, lesson.joints.size()));
-    int rehits = 0, order_errors = 0, wrong_ways = 0;
+    int rehits = 0, order_errors = 0, wrong_ways = 0, overdone = 0, slips = 0;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         JointResult joint = judge_joint(lesson, i, state);
         if (joint.condition != joint::Condition::sound)
@@ -74,6 +74,10 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
         rehits += joint.rehits;
         order_errors += joint.order_errors;
         wrong_ways += lesson.joints[i].wrong_ways;
+        slips += lesson.joints[i].slips;
+        const bool stays =
+            joint.torque_verdict == Verdict::high || joint.condition != joint::Condition::sound;
+        overdone += std::max(0, lesson.joints[i].times_overdone - (stays ? 1 : 0));
         result.joints.push_back(std::move(joint));
     }
     if (order_errors > 0)
@@ -85,6 +89,11 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
     if (wrong_ways > 0)
         take_points(result, {1.0 * wrong_ways, times(wrong_ways) + " a nut was turned the wrong way",
                              Fault::wrong_way, -1, wrong_ways});
+    if (overdone > 0)
+        take_points(result, {2.0 * overdone, times(overdone) + " too much torque that was made good",
+                             Fault::overdone, -1, overdone});
+    if (slips > 0)
+        take_points(result, {2.0 * slips, times(slips) + " the wrench slipped", Fault::slipped, -1, slips});
     if (!result.finished)
         take_points(result, {0.0,
                              fmt::format("the lesson was left at step {} of {}", lesson.current + 1,

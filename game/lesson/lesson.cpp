@@ -152,6 +152,7 @@ void note_overdone(Lesson& lesson, std::size_t joint, std::uint64_t tick) {
     const double most = spec_of(lesson, joint).torque.high;
     if (track.overdone || track.turned_torque <= most) return;
     track.overdone = true;
+    ++track.times_overdone;
     mistake(lesson, tick, Cause::over_torque, joint, track.turned_torque,
             fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, most));
 }
@@ -283,6 +284,7 @@ void observe(Lesson& lesson, const servo::State& state, const servo::Output& out
     if (lesson.held >= 0) watch(lesson, static_cast<std::size_t>(lesson.held), state, output);
     if (output.slipped >= 0) {
         const auto joint = static_cast<std::size_t>(output.slipped);
+        ++lesson.joints[joint].slips;
         mistake(lesson, state.tick, Cause::slipped, joint, output.rounded,
                 fmt::format("{}: the wrench slipped, {:.2f} mm of the nut's corners are gone",
                             lesson.joints[joint].result.id, 1e3 * output.rounded));
@@ -310,6 +312,8 @@ bool back(Lesson& lesson, const servo::State& state, std::size_t steps) {
         tracks[i].result.rehits = lesson.joints[i].result.rehits;
         tracks[i].result.order_errors = lesson.joints[i].result.order_errors;
         tracks[i].wrong_ways = lesson.joints[i].wrong_ways;
+        tracks[i].times_overdone = lesson.joints[i].times_overdone;
+        tracks[i].slips = lesson.joints[i].slips;
         tracks[i].result.condition = state.joints[i].condition;
     }
     lesson.joints = std::move(tracks);

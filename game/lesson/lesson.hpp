@@ -39,10 +39,11 @@ struct JointTrack {
     bool worked = false;         // the hand has done something with the nut in this visit
     double furthest = 0.0;  // rad, nut angle, of this visit: the highest, in a lesson that loosens the lowest
     bool seated = false;    // the nut was on its seat there
-    bool turned_back = false;  // from there, and that was said
-    int wrong_ways = 0;        // visits in which it was turned back
-    bool overdone = false;     // more than its window was said, since it was last off its seat
-    int done_in_pass = -1;     // last pass in which a step of this joint was done
+    bool turned_back = false;           // from there, and that was said
+    int wrong_ways = 0;                 // visits in which it was turned back
+    bool overdone = false;              // more than its window was said, since it was last off its seat
+    int times_overdone = 0, slips = 0;  // in all, also what was taken back
+    int done_in_pass = -1;              // last pass in which a step of this joint was done
     joint::Stage stage = joint::Stage::navigation;
 };
 

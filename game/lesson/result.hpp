@@ -35,7 +35,17 @@ struct JointResult {
 };
 
 // What points were taken for. A session that is read again has the text alone.
-enum class Fault : std::uint8_t { none, damaged, not_ok, out_of_turn, done_already, wrong_way, unfinished };
+enum class Fault : std::uint8_t {
+    none,
+    damaged,
+    not_ok,
+    out_of_turn,
+    done_already,
+    wrong_way,
+    overdone,  // and made good: what still is too much is `not_ok`
+    slipped,
+    unfinished
+};
 
 // A point taken from or given to the score, with its reason in words.
 struct ScoreReason {

@@ -99,6 +99,15 @@ TEST_CASE("each loss has its reason with numbers and its advice") {
          }},
         {"2 times a nut was turned the wrong way.", "advice.wrong_way",
          [](Outcome& r) { r.lesson.joints[1].wrong_ways = 2; }},
+        {"Once there was too much torque on a nut; that was made good.", "advice.torque_high",
+         [](Outcome& r) { r.lesson.joints[1].times_overdone = 1; }},
+        {"B1 has had 81.2 N·m; 80 N·m are the most.", "advice.torque_high",
+         [](Outcome& r) {
+             r.done(0, 81.2, 30.0);
+             r.lesson.joints[0].times_overdone = 1;
+         }},
+        {"2 times the wrench slipped off a nut.", "mistake.slipped.do",
+         [](Outcome& r) { r.lesson.joints[1].slips = 2; }},
         {"The lesson was left at step 4 of 4.", "advice.unfinished",
          [](Outcome& r) { r.lesson.current = 3; }},
     };

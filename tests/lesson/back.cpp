@@ -69,7 +69,8 @@ TEST_CASE("a step that is gone back to knows of the joints what it knew when it 
     }
 }
 
-TEST_CASE("what was pulled too far is as good as not done once its step is taken back") {
+TEST_CASE(
+    "what was pulled too far is as if not done once its step is taken back, and costs points all the same") {
     Script s;
     s.seat_both();
     const auto before = s.state.joints;
@@ -84,6 +85,10 @@ TEST_CASE("what was pulled too far is as good as not done once its step is taken
     s.pull(1, 70.0);
     REQUIRE(s.lesson.due() == nullptr);
     CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::ok);
+    const LessonResult result = judge(s.lesson, s.state, 1e-3);
+    REQUIRE(result.reasons.size() == 1);
+    CHECK(result.reasons[0].fault == Fault::overdone);
+    CHECK(result.score == 98.0);
 }
 
 TEST_CASE("mistakes stay counted, and events tell what happened") {

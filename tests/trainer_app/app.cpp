@@ -142,6 +142,7 @@ TEST_CASE("a mistake in the last step of a guided lesson begins that again, too;
     REQUIRE(desk.app().shows() == Shows::result);
     CHECK(desk.played()->result.finished);
     CHECK(desk.played()->result.joints[0].torque < 22.0);
+    CHECK(desk.played()->result.score == 98.0);
     const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
     REQUIRE(reader);
     auto at = play::prepare_again(*reader);

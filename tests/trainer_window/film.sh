@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A film of a whole lesson, as somebody plays it in the window: film.sh BUILD FILM.mp4 ASSEMBLY [MODE [TOOL]].
+# A film of a whole lesson, as somebody plays it in the window: film.sh BUILD FILM.mkv ASSEMBLY [MODE [TOOL]].
 # BOLT_FILM_OVERDO=1: one nut is pulled too far. The session stays in BUILD/trainer/lesson.
 set -euo pipefail
 if [[ $# -lt 3 ]]; then

@@ -21,20 +21,36 @@ std::string keysym(platform::Key key) {
 
 }  // namespace
 
+void WindowSeat::wait_for(Turn turn) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return turn_ == turn || left_ || gone_; });
+}
+
+void WindowSeat::pass_to(Turn turn) {
+    {
+        const std::lock_guard lock(mutex_);
+        turn_ = turn;
+    }
+    changed_.notify_all();
+}
+
 bool WindowSeat::turn() {
-    if (left_) return true;
-    sits_.release();
-    shows_.acquire();
+    pass_to(Turn::sits);
+    wait_for(Turn::shows);
+    const std::lock_guard lock(mutex_);
     return left_;
 }
 
 void WindowSeat::sit(const std::function<void()>& act) {
-    sits_.acquire();
     const auto leave = [&] {
-        left_ = true;
-        shows_.release();
+        {
+            const std::lock_guard lock(mutex_);
+            left_ = true;
+        }
+        changed_.notify_all();
     };
     try {
+        wait_for(Turn::sits);
         hand_ = std::make_unique<Hand>("boltwright");
         act();
     } catch (...) {
@@ -45,13 +61,17 @@ void WindowSeat::sit(const std::function<void()>& act) {
 }
 
 void WindowSeat::gone() {
-    gone_ = true;
-    sits_.release();
+    {
+        const std::lock_guard lock(mutex_);
+        gone_ = true;
+    }
+    changed_.notify_all();
 }
 
 void WindowSeat::frame() {
-    shows_.release();
-    sits_.acquire();
+    pass_to(Turn::shows);
+    wait_for(Turn::sits);
+    const std::lock_guard lock(mutex_);
     if (gone_) throw std::runtime_error("the window is gone");
 }
 

@@ -4,9 +4,9 @@
 // turns: the one works while the other waits, so what is seen here is the picture that has just been shown.
 #pragma once
 
-#include <atomic>
+#include <condition_variable>
 #include <functional>
-#include <semaphore>
+#include <mutex>
 
 #include "engine/platform/window.hpp"
 #include "tests/platform/hand.hpp"
@@ -37,8 +37,14 @@ class WindowSeat final : public Seat {
     const trainer::App& app_;
     const platform::Window& window_;
     std::unique_ptr<Hand> hand_;
-    std::binary_semaphore sits_{0}, shows_{0};
-    std::atomic<bool> left_ = false, gone_ = false;
+    // A semaphore would do, but that of libstdc++ 12 was seen to sleep on here when it had been released.
+    enum class Turn : std::uint8_t { shows, sits };
+    void wait_for(Turn turn);
+    void pass_to(Turn turn);
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    Turn turn_ = Turn::shows;
+    bool left_ = false, gone_ = false;
 };
 
 }  // namespace bolt::test

@@ -18,7 +18,7 @@ using namespace bolt;
 using bench::guarded;
 using bench::need;
 
-constexpr double frame = 1.0 / 60.0;  // s
+constexpr double frame = 1.0 / 60.0, longest = 3600.0;  // s
 
 void lesson_frames(benchmark::State& state, const char* name, play::Obstacles obstacles) {
     guarded(state, [&] {
@@ -34,7 +34,7 @@ void lesson_frames(benchmark::State& state, const char* name, play::Obstacles ob
             operators::Operator expert(operators::find_profile("expert").value(), 1, course.setup());
             double spent = 0.0;
             bool touches = false;
-            for (double shown = 0.0; !course.over();) {
+            for (double shown = 0.0; !course.over() && course.time() < longest;) {
                 const servo::Input input = expert.act(course.setup(), course.state(), course.lesson());
                 const double start = bench::thread_microseconds();
                 const servo::Output output = need(course.step(input, expert.take_noticed()));
