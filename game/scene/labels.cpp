@@ -12,11 +12,12 @@ namespace {
 
 constexpr glm::vec4 plate_color{0.06F, 0.07F, 0.08F, 0.82F};
 
-// How a torque lies to what is asked for, by a sign and by colour; what is still below it is only a number.
-void show_standing(render::Label& label, const content::Window& window, double torque, double share,
+// How a torque lies to what is asked for now, by a sign and by colour; what is still below it is only a
+// number. Breakaway turns nothing (`turned`: with what the nut was turned), and is not too much.
+void show_standing(render::Label& label, const content::Window& window, double torque, double turned,
                    const view::Palette& palette) {
-    if (torque < share * window.low) return;
-    const bool too_much = torque > window.high;
+    if (torque < window.low) return;
+    const bool too_much = torque > window.high && turned > window.high;
     label.color = too_much ? palette.wrong : palette.right;
     label.text = fmt::format("{} {}", view::sign_of(too_much ? lesson::Verdict::high : lesson::Verdict::ok),
                              label.text);
@@ -71,8 +72,8 @@ std::optional<render::Label> work_label(const words::Words& words, const lesson:
     render::Label label =
         plate(figures(words, lesson, output, wrench), above_nut(setup, state, joint), 22.0F);
     if (wrench && lesson.mode != lesson::Mode::assessment)
-        show_standing(label, lesson.assembly->joints[joint].spec.torque, torque, fits ? due->fraction : 1.0,
-                      palette);
+        show_standing(label, fits ? lesson::window(lesson, *due) : lesson.assembly->joints[joint].spec.torque,
+                      torque, lesson.joints[joint].turned_torque, palette);
     label.moved_px = {0.0F, 34.0F};
     return label;
 }

@@ -37,6 +37,20 @@ TEST_CASE("figures at the wrench are in the language of who holds it") {
     CHECK(shown("zh", s, false) == "2.0 圈");
 }
 
+TEST_CASE("a torque is right or too much for the pass that is due, and breakaway is neither") {
+    Script s;
+    s.seat_both();  // then to half of 70 N·m, 31.5 to 38.5
+    const auto sign = [&](double torque, double speed) {
+        s.tick(0, servo::Grip::wrench, torque, speed);
+        const std::string text = shown("en", s, true);
+        return text.substr(0, text.find_first_of("0123456789"));
+    };
+    CHECK(sign(20.0, 1.0).empty());
+    CHECK(sign(35.0, 1.0) == std::string(view::sign_of(lesson::Verdict::ok)) + " ");
+    CHECK(sign(45.0, 0.0) == std::string(view::sign_of(lesson::Verdict::ok)) + " ");
+    CHECK(sign(45.0, 1.0) == std::string(view::sign_of(lesson::Verdict::high)) + " ");
+}
+
 TEST_CASE("a nut out of its turn has no angle: it would count the turns on the thread") {
     Script s;
     s.seat_both();
