@@ -8,13 +8,21 @@ namespace {
 
 constexpr double patience = 6.0;  // s
 
+std::size_t step_at(const GoingBack& back, const lesson::Lesson& lesson) {
+    return back.by_mistake ? *back.to : lesson.current;
+}
+
 }  // namespace
 
+const lesson::Step* due(const GoingBack& back, const lesson::Lesson& lesson) {
+    const std::size_t at = step_at(back, lesson);
+    return at < lesson.steps.size() ? &lesson.steps[at] : nullptr;
+}
+
 void go_back(GoingBack& back, const lesson::Lesson& lesson, std::size_t steps) {
-    // A step that a mistake begins anew is as good as due.
-    const std::size_t due = back.by_mistake ? *back.to : lesson.current;
-    if (lesson.mode == lesson::Mode::assessment || steps > due) return;
-    back = {due - steps, back.by_mistake};
+    const std::size_t at = step_at(back, lesson);
+    if (lesson.mode == lesson::Mode::assessment || steps > at) return;
+    back = {at - steps, back.by_mistake};
 }
 
 void note(GoingBack& back, const lesson::Lesson& lesson, const lesson::Event& event) {

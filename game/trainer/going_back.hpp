@@ -14,6 +14,10 @@ struct GoingBack {
     double wished_for = 0.0;        // s
 };
 
+// The step the trainee is at, and is shown: one that a mistake begins anew is as good as due, also while the
+// hand is still on its way off the nut. None after the last.
+const lesson::Step* due(const GoingBack& back, const lesson::Lesson& lesson);
+
 // By so many steps from the one that is due: 0 begins it anew. An assessment takes nothing back.
 void go_back(GoingBack& back, const lesson::Lesson& lesson, std::size_t steps);
 

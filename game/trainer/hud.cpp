@@ -131,11 +131,11 @@ void draw_strain(const Playing& p, const words::Words& w, const glm::dvec2& size
 
 void draw_step(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
     const lesson::Lesson& lesson = p.course->lesson();
-    const lesson::Step* due = lesson.due();
+    const lesson::Step* due = trainer::due(p.back, lesson);
     const auto whole = [](std::size_t n) { return words::Number{static_cast<double>(n), 0}; };
-    std::vector<Line> lines{{words::say(w, "hud.step",
-                                        {{"step", whole(std::min(lesson.current + 1, lesson.steps.size()))},
-                                         {"of", whole(lesson.steps.size())}}) +
+    const std::size_t steps = lesson.steps.size();
+    const std::size_t at = due == nullptr ? steps : static_cast<std::size_t>(due - lesson.steps.data()) + 1;
+    std::vector<Line> lines{{words::say(w, "hud.step", {{"step", whole(at)}, {"of", whole(steps)}}) +
                                  fmt::format("   {:.0f} s", p.course->time()),
                              white}};
     if (due != nullptr && lesson.mode != lesson::Mode::assessment) {

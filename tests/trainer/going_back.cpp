@@ -68,10 +68,12 @@ TEST_CASE("a mistake returns to the beginning of its step, in a guided lesson on
         s.pull(0, 35.0);  // what it goes on to do meanwhile is taken back, too
         REQUIRE(s.lesson.current == step + 1);
         CHECK(steps_back(back, s.lesson) == 1);
+        CHECK(due(back, s.lesson) == &s.lesson.steps[step]);
         REQUIRE(lesson::back(s.lesson, s.state, 1));
         take(back, s);
         CHECK_FALSE(steps_back(back, s.lesson));
         CHECK(s.lesson.current == step);
+        CHECK(due(back, s.lesson) == s.lesson.due());
         s.pull(1, 20.0);
         take(back, s);
         s.pull(0, 35.0);

@@ -6,6 +6,7 @@
 
 #include "game/play/replay.hpp"
 #include "game/record/session.hpp"
+#include "game/view/palette.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/trainer/one_joint.hpp"
 #include "tests/trainer_app/desk.hpp"
@@ -130,7 +131,18 @@ TEST_CASE("a mistake in the last step of a guided lesson begins that again, too;
     REQUIRE(p.mistakes.shown);
     CHECK(p.mistakes.shown->cause == lesson::Cause::over_torque);
     CHECK(p.course->state().joints[0].nut.angle > seated);
-    for (int i = 0; i < 60 && p.course->state().joints[0].nut.angle > seated; ++i) desk.frame();
+    const auto marked = [&] {
+        return std::any_of(p.scene.labels.begin(), p.scene.labels.end(), [](const render::Label& label) {
+            return label.text.rfind(view::due_sign, 0) == 0;
+        });
+    };
+    int left = 0;  // frames between the end of the step and its return
+    for (int i = 0; i < 60 && p.course->state().joints[0].nut.angle > seated; ++i) {
+        desk.frame();
+        CHECK(marked());  // nothing else seems due meanwhile
+        left += p.course->lesson().current == 2 ? 1 : 0;
+    }
+    CHECK(left > 0);
     CHECK(p.course->state().joints[0].nut.angle == seated);
     CHECK(p.course->lesson().current == 1);
     CHECK(p.mistakes.shown);

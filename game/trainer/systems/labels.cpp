@@ -42,7 +42,7 @@ void label_system(scene::World&, Frame& frame) {
     const play::Course& course = *p.course;
     const servo::Setup& setup = course.setup();
     const servo::State& state = course.state();
-    const lesson::Step* due = course.lesson().due();
+    const lesson::Step* due = trainer::due(p.back, course.lesson());
     p.scene.labels.clear();
     // What a trainee at a real machine would not see is no part of an assessment.
     const bool helps = course.lesson().mode != lesson::Mode::assessment;

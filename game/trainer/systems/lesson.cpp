@@ -31,7 +31,11 @@ void lesson_system(scene::World& world, Frame& frame) {
     if (p.sound) p.sound->set_volume(p.quiet || p.paused ? 0.0 : p.volume);
     if (p.captions && !p.paused) update(*p.captions, frame.seconds);
     if (!p.paused) {
-        hints::update(p.hints, hint_scene(p), frame.seconds, frame.wanted.wants(Action::hint));
+        // Work that ended the step on the way out is about to be undone: there is no next one to speak of.
+        if (due(p.back, lesson) == lesson.due())
+            hints::update(p.hints, hint_scene(p), frame.seconds, frame.wanted.wants(Action::hint));
+        else
+            p.hints.shown.reset();
         hints::update(p.mistakes, p.back.by_mistake ? 0.0 : frame.seconds);
     }
     const hints::Hint* hint = p.hints.shown && !p.finished ? &*p.hints.shown : nullptr;

@@ -13,7 +13,7 @@ constexpr double lost_below = 0.15, lost_after = 3.0;  // of nut and jaw; s
 std::optional<std::size_t> at_work(const Playing& p) {
     if (p.course->lesson().mode == lesson::Mode::assessment) return p.hand.nut;
     if (p.hand.nut && p.hand.doing != Doing::resting) return p.hand.nut;
-    const lesson::Step* due = p.course->lesson().due();
+    const lesson::Step* due = trainer::due(p.back, p.course->lesson());
     return due != nullptr ? std::optional(due->joint) : std::nullopt;
 }
 
