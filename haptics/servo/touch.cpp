@@ -44,13 +44,14 @@ bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.o
 void place_nuts(const Setup& setup, Touch& touch, std::span<const joint::JointState> joints, bool held) {
     for (std::size_t i = 0; i < touch.places.size(); ++i) {
         const Pose place = nut_pose(setup.nuts[i], joints[i].nut.angle);
-        touch.found.holds = touch.found.holds && same(place, touch.places[i]);
+        const bool stays = same(place, touch.places[i]);
+        touch.found.nuts_hold = touch.found.nuts_hold && stays;
         touch.places[i] = place;
         if (!touch.nuts[i]) continue;
         contact::Body& body = touch.world.bodies[*touch.nuts[i]];
         body.pose = place;
         const bool on = !held || !jaw_only(setup, setup.nuts[i], place, touch.god_object.tool);
-        touch.found.holds = touch.found.holds && on == body.on;
+        touch.found.meshes_hold = touch.found.meshes_hold && on == body.on && (stays || !on);
         body.on = on;
     }
 }
@@ -94,40 +95,50 @@ contact::Found find_on_nuts(const Setup& setup, const Touch& touch, const Pose& 
     return found;
 }
 
-contact::Found find(const Setup& setup, Touch& touch, const Pose& pose, double band,
-                    std::span<contact::Contact> out) {
-    contact::Found found = find_on_nuts(setup, touch, pose, band, out);
-    const auto rest = out.subspan(found.count);
-    const contact::Found meshes =
-        contact::find_contacts(touch.world, touch.wrench, pose, band, touch.proximity, rest);
-    contact::smooth_normals(touch.world, touch.wrench, pose, rest.first(meshes.count));
-    for (std::size_t k = 0; k < meshes.count; ++k) {
-        const bool said =
-            rest[k].body >= first_nut && contact::stand_for(touch.jaw, inverse(pose) * rest[k].on_tool);
-        if (!said) out[found.count++] = rest[k];
-    }
-    found.clearance = std::min(found.clearance, meshes.clearance);
-    found.crowded = found.crowded || meshes.crowded;
-    found.work = meshes.work;
+// Contacts of all but the nuts' own with the jaw, which are closed form.
+contact::Found find_on_meshes(Touch& touch, const Pose& pose, double band, std::span<contact::Contact> out) {
+    contact::Found found =
+        contact::find_contacts(touch.world, touch.wrench, pose, band, touch.proximity, out);
+    contact::smooth_normals(touch.world, touch.wrench, pose, out.first(found.count));
+    const auto said = [&](const contact::Contact& c) {
+        return c.body >= first_nut && contact::stand_for(touch.jaw, inverse(pose) * c.on_tool);
+    };
+    const auto end = out.begin() + static_cast<std::ptrdiff_t>(found.count);
+    found.count = static_cast<std::size_t>(std::remove_if(out.begin(), end, said) - out.begin());
     return found;
 }
 
-// A tick often begins where the one before ended: then nothing has to be asked.
-contact::Found find_once(const Setup& setup, Touch& touch, const Pose& pose, double band,
-                         std::span<contact::Contact> out) {
+// A tick often begins where the one before ended: then only what has moved is asked again, which is often
+// nothing, and of a nut that turns in the jaw only that nut.
+contact::Found find(const Setup& setup, Touch& touch, const Pose& pose, double band,
+                    std::span<contact::Contact> out) {
     LastFound& last = touch.found;
-    if (last.holds && last.band == band && same(last.pose, pose)) {
-        std::copy_n(last.contacts.begin(), last.found.count, out.begin());
-        contact::Found again = last.found;
-        again.work = 0;
-        return again;
-    }
-    last.found = find(setup, touch, pose, band, out);
-    std::copy_n(out.begin(), last.found.count, last.contacts.begin());
+    const bool here = last.band == band && same(last.pose, pose);
+    const auto kept = std::span(last.contacts).first(last.count);
+    const bool nuts_hold = here && last.nuts_hold;
+    // How many contacts of meshes are told depends on the room that is left to them.
+    const std::size_t room_taken = last.nuts.count;
+    if (nuts_hold)
+        std::copy_n(kept.begin(), last.nuts.count, out.begin());
+    else
+        last.nuts = find_on_nuts(setup, touch, pose, band, out);
+    const auto rest = out.subspan(last.nuts.count);
+    contact::Found found = last.meshes;
+    found.work = 0;
+    if (here && last.meshes_hold && last.nuts.count == room_taken)
+        std::copy_n(kept.begin() + static_cast<std::ptrdiff_t>(room_taken), found.count, rest.begin());
+    else
+        found = last.meshes = find_on_meshes(touch, pose, band, rest);
+    found.count += last.nuts.count;
+    found.clearance = std::min(found.clearance, last.nuts.clearance);
+    found.crowded = found.crowded || last.nuts.crowded;
+
+    std::copy_n(out.begin(), found.count, last.contacts.begin());
+    last.count = found.count;
     last.pose = pose;
     last.band = band;
-    last.holds = true;
-    return last.found;
+    last.nuts_hold = last.meshes_hold = true;
+    return found;
 }
 
 // A jaw that was on a nut and holds it no more is off it when it is clear of the hexagon as that stands.
@@ -195,7 +206,7 @@ force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint
         touch.around = held_nut;
     else if (touch.around >= 0 && (!held || is_off(touch, static_cast<std::size_t>(touch.around))))
         touch.around = -1;
-    touch.found.holds = touch.found.holds && touch.around == around;
+    touch.found.nuts_hold = touch.found.nuts_hold && touch.around == around;
     if (!held || !touch.in_hand) {
         touch.god_object = contact::start_god_object(hand);
         touch.last = {};
@@ -204,7 +215,7 @@ force::Wanted step_touch(const Setup& setup, Touch& touch, std::span<const joint
         if (!held) return {};
     }
     const auto finder = [&](const Pose& pose, double band, std::span<contact::Contact> out) {
-        const contact::Found found = find_once(setup, touch, pose, band, out);
+        const contact::Found found = find(setup, touch, pose, band, out);
         touch.touched = touched_of(out.first(found.count), touch.parameters.skin);
         return found;
     };

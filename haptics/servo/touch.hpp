@@ -29,12 +29,14 @@ struct TouchDescription {
 // Ids of obstacles: what stands still in the order given, and from here on the nuts by joint.
 inline constexpr std::int32_t first_nut = 1000;
 
-// What was found last, and for what.
+// What was found last, and for what: contacts of the jaw with nuts first, then those of meshes.
 struct LastFound {
-    bool holds = false;  // nothing moved since
+    // Nothing that they are with has moved since.
+    bool nuts_hold = false, meshes_hold = false;
     Pose pose;
     double band = 0.0;
-    contact::Found found;
+    contact::Found nuts, meshes;
+    std::size_t count = 0;
     std::array<contact::Contact, contact::most_contacts> contacts;
 };
 

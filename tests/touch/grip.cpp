@@ -325,7 +325,7 @@ Watch wander(std::uint64_t seed, int legs, std::vector<double>* trace = nullptr,
         const double speed = random.uniform(0.05, 0.5), seconds = 1.875 * way / speed + 0.02;
         test::sweep(bench, at, to, seconds, [&](const Output& o) {
             watch(bench, o);
-            if (forgets) bench.state.touch->found.holds = false;
+            if (forgets) bench.state.touch->found.nuts_hold = bench.state.touch->found.meshes_hold = false;
             if (trace != nullptr) trace->insert(trace->end(), {o.force.x, o.torque.y, o.nut_angle});
         });
         at = to;
