@@ -13,9 +13,9 @@ namespace bolt::test {
 
 // What stands on the desk.
 struct Display {
-    VkExtent2D size{320, 180};
-    float scale = 0.3F;  // small letters: all of a panel fits
-    double step = 0.1;   // s a frame
+    VkExtent2D size{160, 90};  // a lesson is a thousand pictures
+    float scale = 0.15F;       // small letters: all of a panel fits
+    double step = 0.1;         // s a frame
 };
 
 inline trainer::AppOptions options(const char* assembly, bool menu) {

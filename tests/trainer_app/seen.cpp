@@ -11,7 +11,7 @@ using namespace bolt::trainer;
 
 namespace {
 
-constexpr test::Display big_letters{.scale = 0.5F};
+constexpr test::Display big_letters{{320, 180}, 0.5F};
 
 AppOptions options(lesson::Mode mode, bool menu, const char* folder) {
     AppOptions o = test::options("cover-m8", menu);
