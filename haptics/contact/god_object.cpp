@@ -18,9 +18,10 @@ constexpr double fine = 50e-6;  // m: what is left after so short a motion can w
 constexpr double finest = 25e-6;
 // Of the energy of the coupling, which is twice the share of the force.
 constexpr double unfelt = 1e-3;
-constexpr double least_share = 0.2;  // of the skin: nearer than this is a penetration to be
-constexpr double unseen = 250e-6;    // m: a feature is found before it is deeper than this
-constexpr int attempts = 4;          // motions tried from a pose
+constexpr double beyond_skin = 50e-6;  // m: so much more is looked at than can hold it
+constexpr double least_share = 0.2;    // of the skin: nearer than this is a penetration to be
+constexpr double unseen = 250e-6;      // m: a feature is found before it is deeper than this
+constexpr int attempts = 4;            // motions tried from a pose
 constexpr int halvings = 24;
 
 struct Look {
@@ -111,7 +112,7 @@ class Stepper {
     // came in this tick. Then one query does.
     Look ask(const Pose& pose, double free = 0.0) {
         const double band = std::clamp(free, p_.stride, p_.reach);
-        const Look found = look(finder_, pose, band + 2.0 * p_.skin);
+        const Look found = look(finder_, pose, band + p_.skin + beyond_skin);
         // Where the tick before ended is known to who remembers, and costs those who do not no motion.
         if (++step_.queries > 1 || band > p_.stride) charged_ += found.work;
         step_.work += found.work;

@@ -138,7 +138,7 @@ class Cells {
 
 // How far apart points may be at each vertex so that the surface rises by `round_rise` between them; 0: the
 // vertex is a corner, infinite: it needs none.
-std::vector<double> spacings(const Solid& solid) {
+std::vector<double> spacings(const Solid& solid, double along_edges) {
     const ContactMesh& mesh = solid.mesh;
     std::vector<double> curvature(mesh.vertices.size(), 0.0);
     for (const auto& t : mesh.triangles)
@@ -168,8 +168,8 @@ std::vector<double> spacings(const Solid& solid) {
             2.0 * turn /
             (glm::length(from - Vec3(mesh.vertices[v])) + glm::length(to - Vec3(mesh.vertices[v])));
         spacing[v] = turn > to_radians(20.0)  ? 0.0
-                     : bend < least_curvature ? keen_spacing
-                                              : std::min(keen_spacing, spacing_on_round(bend));
+                     : bend < least_curvature ? along_edges
+                                              : std::min(along_edges, spacing_on_round(bend));
     }
     return spacing;
 }
@@ -179,25 +179,26 @@ struct Offer {
     double spacing;  // m
 };
 
-// The points that divide the way evenly in pieces of at most `spacing`.
+// The points that divide the way evenly in pieces of at most `spacing`, and a hair: of a length that is a
+// whole number of them rounding must not make one more.
 template <class Take>
 void between(const Vec3& a, const Vec3& b, double spacing, const Take& take) {
-    const int pieces = static_cast<int>(std::ceil(glm::length(b - a) / spacing));
+    const int pieces = static_cast<int>(std::ceil(glm::length(b - a) / spacing - 1e-3));
     for (int i = 1; i < pieces; ++i) take(glm::mix(a, b, static_cast<double>(i) / pieces));
 }
 
-void add_along_edges(const Solid& solid, bool round, std::vector<Sample>& out) {
+void add_along_edges(const Solid& solid, const SampleOptions& options, std::vector<Sample>& out) {
     for (const Ridge& r : solid.ridges) {
         const SharpEdge& edge = solid.mesh.sharp_edges[r.sharp_edge];
-        if (static_cast<double>(edge.angle) < keen_angle && !round) continue;
-        between(Vec3(r.ends[0]), Vec3(r.ends[1]), keen_spacing,
+        if (static_cast<double>(edge.angle) < keen_angle && !options.round) continue;
+        between(Vec3(r.ends[0]), Vec3(r.ends[1]), options.along_edges,
                 [&](const Vec3& at) { out.push_back({.at = at, .triangle = edge.triangle}); });
     }
 }
 
-void offer_vertices(const Solid& solid, std::vector<Offer>& out) {
+void offer_vertices(const Solid& solid, double along_edges, std::vector<Offer>& out) {
     const ContactMesh& mesh = solid.mesh;
-    const std::vector<double> spacing = spacings(solid);
+    const std::vector<double> spacing = spacings(solid, along_edges);
     std::vector<std::uint32_t> triangle(mesh.vertices.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         for (const std::uint32_t v : mesh.triangles[t]) triangle[v] = t;
@@ -345,10 +346,10 @@ std::vector<Cluster> group(const std::vector<Cluster>& clusters) {
 Samples make_samples(const Solid& solid, const SampleOptions& options) {
     Samples made;
     std::vector<Offer> offers;
-    offer_vertices(solid, offers);
+    offer_vertices(solid, options.along_edges, offers);
     if (options.round) offer_along_round_edges(solid, offers);
     add_thinned(std::move(offers), made.samples);
-    add_along_edges(solid, options.round, made.samples);
+    add_along_edges(solid, options, made.samples);
     if (options.on_faces > 0) {
         const Spreading points(solid.mesh, options.on_faces);
         made.samples.insert(made.samples.end(), points.taken().begin(), points.taken().end());

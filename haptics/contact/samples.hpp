@@ -49,12 +49,14 @@ struct SampleOptions {
     // Of two solids one has pieces of its edges (and is asked with them about the other's), the other has
     // points along its round faces: where these meet each other, one side's are enough.
     bool edges = true, round = false;
+    // m, between points along edges. A fillet of the other that crosses one between two of them is seen too
+    // late: over half of 1.5 mm a fillet of 1 mm falls by 0.28 mm, over half of 1 mm by 0.13.
+    double along_edges = 1.5e-3;
     std::size_t on_faces = 0;  // points spread evenly over everything, for round faces that curve too little
 };
 
-// Edges sharper than this get points along them, this far apart: round faces touch them anywhere.
+// Edges sharper than this get points along them: round faces touch them anywhere.
 inline constexpr double keen_angle = 20.0 * pi / 180.0;
-inline constexpr double keen_spacing = 1.5e-3;
 
 // The same for the same mesh.
 Samples make_samples(const Solid& solid, const SampleOptions& options);

@@ -8,8 +8,9 @@
 
 namespace bolt::contact {
 
-// Full up to `near`, none from `far` on, m: planes further off would be tilted for nothing.
-inline constexpr double smooth_near = 0.1e-3, smooth_far = 0.3e-3;
+// Full up to `near`, which is more than a skin (god_object.hpp), none from `far` on, m: planes further off
+// would be tilted for nothing.
+inline constexpr double smooth_near = 0.16e-3, smooth_far = 0.36e-3;
 // No further from the facets' own normal than this, rad.
 inline constexpr double most_smoothed = 20.0 * pi / 180.0;
 

@@ -15,7 +15,7 @@ namespace {
 // Between two queries nothing goes further than merged contacts allow for.
 static_assert(contact::GodObjectParameters{}.stride <= contact::merge_stride);
 
-constexpr double against = 2.0;  // skins: nearer than this an obstacle holds the wrench
+constexpr double against = 1.5;  // skins: nearer than this an obstacle holds the wrench
 
 // Kept between jaw and hexagon, m: of a clearance of a tenth of a millimetre the skin would take half.
 constexpr double jaw_skin = 2e-6;
