@@ -50,7 +50,7 @@ struct SampleOptions {
     // points along its round faces: where these meet each other, one side's are enough.
     bool edges = true, round = false;
     // m, between points along edges. A fillet of the other that crosses one between two of them is seen too
-    // late: over half of 1.5 mm a fillet of 1 mm falls by 0.28 mm, over half of 1 mm by 0.13.
+    // late: over half of 1.5 mm a fillet of 1 mm falls by 0.28 mm, over half of 1.1 mm by 0.15.
     double along_edges = 1.5e-3;
     std::size_t on_faces = 0;  // points spread evenly over everything, for round faces that curve too little
 };

@@ -15,7 +15,7 @@ Status add_shape(World& world, std::span<const ContactMesh> parts, std::vector<s
     world.shapes.push_back({std::move(*solid), {}, {}, std::move(ids)});
     Shape& shape = world.shapes.back();
     shape.vicinity = make_vicinity(shape.solid, options.cell);
-    shape.samples = make_samples(shape.solid, {.edges = false, .round = true, .along_edges = 1e-3});
+    shape.samples = make_samples(shape.solid, {.edges = false, .round = true, .along_edges = 1.1e-3});
     return {};
 }
 
