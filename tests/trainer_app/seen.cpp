@@ -32,6 +32,10 @@ void put_on(test::Desk& one) {
 
 // Of the picture's pixels those that are not as in the other.
 double share_changed(const render::Picture& a, const render::Picture& b, const render::Rectangle& in) {
+    for (const render::Picture* picture : {&a, &b}) {
+        REQUIRE(in.high.x <= static_cast<float>(picture->width));
+        REQUIRE(in.high.y <= static_cast<float>(picture->height));
+    }
     int changed = 0, all = 0;
     for (auto y = static_cast<std::size_t>(in.low.y); y < static_cast<std::size_t>(in.high.y); ++y)
         for (auto x = static_cast<std::size_t>(in.low.x); x < static_cast<std::size_t>(in.high.x); ++x) {
@@ -102,7 +106,7 @@ TEST_CASE("in an assessment there is no close-up, whatever is pressed, and no ar
 }
 
 TEST_CASE("behind the menu stands the machine that is chosen, and the menu does not wait for it") {
-    test::Desk one(options(lesson::Mode::guided, true, "seen-menu"));
+    test::Desk one(options(lesson::Mode::guided, true, "seen-menu"), big_letters);
     one.frame();
     const render::Picture bare = one.picture();
     CHECK(one.app().shows() == Shows::menu);
