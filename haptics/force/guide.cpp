@@ -29,13 +29,13 @@ void begin(GuideState& s, const Vec3& tool, const GuideGoal& goal, Free free, do
     if (s.path.count > 1) s.along = glm::length(s.path.points[1] - s.path.points[0]);
 }
 
-// The point that it pulls to runs ahead as far as the tool sees it, and back where it does not. False: it
-// cannot be seen at all.
-bool run_ahead(GuideState& s, const Vec3& tool, Free free, double dt) {
+// The point that it pulls to runs ahead as far as the tool sees it and, down the axis, as far as `most`; back
+// where it does not. False: it cannot be seen at all.
+bool run_ahead(GuideState& s, const Vec3& tool, double most, Free free, double dt) {
     const GuideTarget& target = s.goal.target;
-    const double step = carrot_speed * dt, whole = length(s.path);
-    s.along = std::min(s.along, whole);
-    const double ahead = std::min(s.along + step, whole);
+    const double step = carrot_speed * dt;
+    s.along = std::min(s.along, std::max(most, s.along - 4.0 * step));
+    const double ahead = std::max(s.along, std::min(s.along + step, most));
     if (free_to(tool, point_at(s.path, ahead), target, free)) {
         s.along = ahead;
         return true;
@@ -69,16 +69,20 @@ Wanted guide(const Guiding& g, GuideState& s, const GuidedTool& tool, const Guid
         move_end(s.path, goal.target);
         if (s.at_end) s.along = s.farthest = length(s.path);
     }
-    const bool seen = run_ahead(s, tool.position, free, dt);
-    const double remaining = length(s.path) - s.along;
+    const double whole = length(s.path);
+    // A way of one piece leads straight.
+    const double most = s.path.count > 2 ? whole - lowest_ahead(s.goal.target, tool.position) : whole;
+    s.along = std::min(s.along, whole);
+    const bool seen = run_ahead(s, tool.position, most, free, dt);
+    const double remaining = whole - s.along;
     s.at_end = remaining <= 0.0;
     const Vec3 away = point_at(s.path, s.along) - tool.position;
     const double distance = glm::length(away), left = distance + remaining;
 
     // Driven back, or come to the last point that can be seen: something stands in this way now, there may be
-    // another.
-    s.farthest = std::max(s.farthest, s.along);
-    s.stuck = !s.at_end && distance < 2.0 * soft ? s.stuck + dt : 0.0;
+    // another. What waits for the tool to be over the target is neither.
+    s.farthest = std::min(std::max(s.farthest, s.along), std::max(s.along, most));
+    s.stuck = s.along < most && distance < 2.0 * soft ? s.stuck + dt : 0.0;
     const bool good = seen && s.farthest - s.along < driven_back && s.stuck < patience;
 
     const double wanted = here && good ? std::clamp(g.strength, 0.0, 1.0) : 0.0;

@@ -7,6 +7,24 @@ namespace bolt::force {
 
 namespace {
 
+constexpr double on_axis = 2.5e-3;  // m beside the axis: as good as on it
+constexpr double cone = 0.1;        // m aside for every m above, some 6°
+
+struct Place {
+    double above, aside;  // m, of the target
+};
+
+Place place_of(const GuideTarget& target, const Vec3& tool) {
+    const Vec3 from = tool - target.point;
+    const double above = glm::dot(from, target.axis);
+    return {above, glm::length(from - above * target.axis)};
+}
+
+bool leads_straight(const GuideTarget& target, const Vec3& tool) {
+    const Place place = place_of(target, tool);
+    return place.above < 0.5 * target.shell || place.aside <= on_axis + cone * place.above;
+}
+
 GuidePath path_of(std::initializer_list<Vec3> points) {
     GuidePath path;
     for (const Vec3& p : points) path.points[path.count++] = p;
@@ -39,6 +57,7 @@ bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, Free f
 
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, Free free) {
     const Vec3 above = target.point + target.axis * target.approach;
+    const GuidePath straight = path_of({from, target.point});
     GuidePath best;
     double shortest = 0.0;
     const auto consider = [&](const GuidePath& path) {
@@ -48,9 +67,9 @@ GuidePath plan_path(const Vec3& from, const GuideTarget& target, Free free) {
         best = path;
         shortest = way;
     };
-    consider(path_of({from, target.point}));
-    if (best.count > 0) return best;
-    if (!free_to(above, target.point, target, free)) return best;
+    const bool is_free = all_free(straight, target, free);
+    if (is_free && leads_straight(target, from)) return straight;
+    if (!free_to(above, target.point, target, free)) return is_free ? straight : best;
     consider(path_of({from, above, target.point}));
     if (best.count > 0) return best;
 
@@ -69,7 +88,12 @@ GuidePath plan_path(const Vec3& from, const GuideTarget& target, Free free) {
             consider(path_of({from, above + aside + 0.5 * height * target.axis, above, target.point}));
         }
     }
-    return best;
+    return best.count == 0 && is_free ? straight : best;
+}
+
+double lowest_ahead(const GuideTarget& target, const Vec3& tool) {
+    const Place place = place_of(target, tool);
+    return std::clamp(std::min((place.aside - on_axis) / cone, place.above), 0.0, target.approach);
 }
 
 void move_end(GuidePath& path, const GuideTarget& target) {

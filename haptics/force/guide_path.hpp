@@ -25,9 +25,15 @@ struct GuidePath {
     std::size_t count = 0;         // 0: no way was found
 };
 
-// Straight; to the approach point and down; over it at some height; or round one side. The shortest of these
-// that is free from end to end. Asks at most 100 times.
+// Straight, where that leads along the axis or level from the side; to the approach point and down; over it
+// at some height; or round one side. The shortest of these that is free from end to end; straight all the
+// same where none of them is. Asks at most 100 times.
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, Free free);
+
+// m above the target: a tool there is not to be led lower than this yet. The ways are asked for as lines, a
+// tool is wide, and near the target it is only along the axis that all of it is known to fit: level until it
+// is within a cone about the axis, then down.
+double lowest_ahead(const GuideTarget& target, const Vec3& tool);
 
 // The way's end may move with the nut.
 void move_end(GuidePath& path, const GuideTarget& target);

@@ -67,10 +67,18 @@ void follow(Vec3& hand, const Vec3& force) {
 
 }  // namespace
 
-TEST_CASE("a free way is the straight one; one behind a wall goes over it, and is free piece by piece") {
+TEST_CASE(
+    "a free way is the straight one, from over the nut or level; one behind a wall goes over it, and is free "
+    "piece by piece") {
     const GuideTarget target = nut_at(Vec3(0.2, 0, 0)).target;
-    const GuidePath straight = plan_path(Vec3(-0.2, 0.1, 0), target, all_free);
-    CHECK(straight.count == 2);
+    CHECK(plan_path(Vec3(0.22, 0.3, 0), target, all_free).count == 2);
+    CHECK(plan_path(Vec3(-0.2, 0.01, 0), target, all_free).count == 2);
+    CHECK(plan_path(Vec3(-0.2, 0.1, 0), target, all_free).count == 3);
+    // Where over the nut there is no room it has to be the slanting one.
+    const auto lid = [&](const Vec3& a, const Vec3& b) {
+        return std::max(a.y, b.y) < 0.06 || std::min(a.x, b.x) < 0.1;
+    };
+    CHECK(plan_path(Vec3(-0.2, 0.05, 0), target, lid).count == 2);
     const GuidePath path = plan_path(Vec3(-0.2, 0, 0), target, over_the_wall);
     REQUIRE(path.count > 2);
     CHECK(path.points[0] == Vec3(-0.2, 0, 0));
@@ -147,7 +155,7 @@ TEST_CASE(
     const Guiding guiding;
     GuideState state;
     const GuideGoal goal = nut_at(Vec3(0.0));
-    const Vec3 hand(0.3, 0.1, 0.0);
+    const Vec3 hand(0.02, 0.3, 0.0);
     Wanted wanted;
     for (int i = 1; i <= 250; ++i) {
         wanted = guide(guiding, state, tool_at(hand), goal, all_free, dt);
@@ -276,6 +284,35 @@ TEST_CASE("a nut that comes down as it turns is followed without a step") {
     CHECK(glm::length(last - guiding_force(guiding, tool.position, goal.target.point)) < 1e-12);
 }
 
+TEST_CASE("from aside the hand is led over the nut and then down, or level: a jaw is wide") {
+    const Guiding guiding;
+    const GuideGoal goal = nut_at(Vec3(0.0));
+    int outside = 0;
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        CAPTURE(seed);
+        Random random(seed, 4);
+        const double about = 2.0 * pi * random.uniform(), aside = 0.03 + 0.3 * random.uniform();
+        Vec3 hand(aside * std::cos(about), 0.02 + 0.2 * random.uniform(), aside * std::sin(about));
+        GuideState state;
+        Vec3 last(0.0);
+        int arrived = 0;
+        for (int i = 0; i < 10'000 && arrived < 100; ++i) {
+            const Vec3 force = guide(guiding, state, tool_at(hand), goal, all_free, dt).command.force;
+            REQUIRE(glm::length(force - last) < 0.4);
+            last = force;
+            // Not above the approach point, which it is led to, and not yet within 6 degrees of the axis.
+            if (hand.y < goal.target.approach && std::hypot(hand.x, hand.z) > 4e-3 + 0.1 * hand.y) {
+                REQUIRE(force.y > -0.05);
+                ++outside;
+            }
+            follow(hand, force);
+            arrived += glm::length(hand) < 2e-3;
+        }
+        CHECK(arrived == 100);
+    }
+    CHECK(outside > 5000);
+}
+
 TEST_CASE("help is not taken for energy made of nothing: led and aligned, the controller hardly acts") {
     // Arms that mean to stand where they are and give way to what leads them.
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -305,7 +342,7 @@ TEST_CASE("help is not taken for energy made of nothing: led and aligned, the co
         }
         CHECK(glm::length(arm.pose.position - goal.target.point) < 1e-3);
         CHECK(glm::length(arm.velocity) < 5e-3);
-        CHECK(arm.energy_out > 0.3);  // that is what help is
+        CHECK(arm.energy_out > 0.2);  // that is what help is
         CHECK(stage.passivity.removed < 0.15 * arm.energy_out);
     }
 }

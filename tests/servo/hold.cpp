@@ -162,7 +162,7 @@ TEST_CASE("an empty hand is led to the centre of the guided nut with k over the 
     for (std::int16_t guide = 0; guide < 2; ++guide) {
         Held held;
         const NutPlace& nut = held.setup.nuts[static_cast<std::size_t>(guide)];
-        const Vec3 away = Vec3(0.06, 0.08, 0.0) + 0.02 * nut.e2;
+        const Vec3 away = 0.1 * nut.axis + 0.01 * nut.e2;
         Input input = test::holding(Grip::none, test::tool_at(nut, nut_centre(nut, 0.0) + away, 0.0));
         input.guide = guide;
         Output output;
