@@ -5,7 +5,7 @@
 #   SEEDS=5 TRAINEES="expert" tools/study.sh OUT zq350   fewer, or others
 #   STUDY=view tools/study.sh OUT                        the help with the view, among guided lessons
 # BIN: where the programs are (build/release/bin); JOBS: lessons at a time (as many as cores). On 2 cores the 160 lessons take
-# about half an hour. Sessions stay in OUT/sessions, 10 MB each for zq350; lessons that are there already are not played again.
+# about a quarter of an hour. Sessions stay in OUT/sessions, 10 MB each for zq350; lessons that are there already are not played again.
 set -euo pipefail
 if [[ $# -lt 1 ]]; then
     sed -n '2,9s/^# \?//p' "$0" >&2

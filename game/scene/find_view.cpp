@@ -20,12 +20,14 @@ constexpr double dearer_pitch = 0.7;                         // a head is raised
 view::Orbit with_wrist(const view::Orbit& of_nut, const ViewOf& of) {
     view::Orbit orbit = of_nut;
     if (!of.wrist) return orbit;
-    for (const double further : {1.0, 1.15, 1.3, 1.5, 1.75})
-        for (const double aside : {0.0, 0.2, 0.35, 0.5}) {
-            orbit.target = glm::mix(of.nut, *of.wrist, aside);
-            orbit.distance = further * of_nut.distance;
-            if (holds(orbit, of.nut, of.aspect) && holds(orbit, *of.wrist, of.aspect)) return orbit;
-        }
+    for (const glm::dvec2& middle : {open_middle, whole_picture})
+        for (const double further : {1.0, 1.15, 1.3, 1.5, 1.75})
+            for (const double aside : {0.0, 0.2, 0.35, 0.5}) {
+                orbit.target = glm::mix(of.nut, *of.wrist, aside);
+                orbit.distance = further * of_nut.distance;
+                if (holds(orbit, of.nut, of.aspect, middle) && holds(orbit, *of.wrist, of.aspect))
+                    return orbit;
+            }
     return orbit;
 }
 
@@ -39,15 +41,14 @@ double seen_from(const ViewOf& of, operators::Sight& sight, const Vec3& eye) {
                      : operators::nut_seen(sight, *of.touch, of.joint, eye);
 }
 
-bool holds(const view::Orbit& orbit, const Vec3& point, double aspect) {
-    constexpr double inner = 0.88;
+bool holds(const view::Orbit& orbit, const Vec3& point, double aspect, const glm::dvec2& part) {
     const view::Viewpoint from = view::viewpoint_of(orbit);
     render::Perspective lens;
     lens.fov = static_cast<float>(orbit.fov);
     lens.aspect = static_cast<float>(aspect);
     const render::Eye eye = render::make_eye(from.eye, from.target, lens);
     const glm::dvec4 clip = glm::dmat4(eye.clip_from_world) * glm::dvec4(point, 1.0);
-    return clip.w > 0.0 && std::max(std::abs(clip.x), std::abs(clip.y)) < inner * clip.w;
+    return clip.w > 0.0 && std::abs(clip.x) < part.x * clip.w && std::abs(clip.y) < part.y * clip.w;
 }
 
 view::Orbit find_view(const ViewOf& of, operators::Sight& sight, const view::Orbit& from) {

@@ -26,10 +26,16 @@ double seen_from(const ViewOf& of, operators::Sight& sight, const Vec3& eye);
 // Enough of it, and nobody wants more.
 inline constexpr double well_seen = 0.6;
 
-// Whether a point is in the picture, and not at its very edge.
-bool holds(const view::Orbit& orbit, const Vec3& point, double aspect);
+// Of half the picture's width and height: all but its very edge; and the middle, over which nothing is laid
+// that is written at the edges.
+inline constexpr glm::dvec2 whole_picture(0.88, 0.88), open_middle(0.36, 0.6);
+
+// Whether a point is in that part of the picture.
+bool holds(const view::Orbit& orbit, const Vec3& point, double aspect,
+           const glm::dvec2& part = whole_picture);
 
 // The view nearest to `from` in which it is well seen, or the one in which most is; near enough to work by.
+// The nut is in the open middle unless only so the wrist is in the picture.
 view::Orbit find_view(const ViewOf& of, operators::Sight& sight, const view::Orbit& from);
 
 }  // namespace bolt::scene

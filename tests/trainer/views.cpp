@@ -20,6 +20,9 @@ TEST_CASE("a point is in the picture or not") {
     CHECK(scene::holds(orbit, {1.7 * up, 0.0, 0.0}, 2.0));
     CHECK_FALSE(scene::holds(orbit, {1.7 * up, 0.0, 0.0}, 1.0));
     CHECK_FALSE(scene::holds(orbit, {0.0, 0.0, 1.5}, 1.0));  // behind the eye
+    CHECK(scene::holds(orbit, {0.7 * up, 0.55 * up, 0.0}, 2.0, scene::open_middle));
+    CHECK_FALSE(scene::holds(orbit, {0.75 * up, 0.0, 0.0}, 2.0, scene::open_middle));
+    CHECK_FALSE(scene::holds(orbit, {0.0, 0.65 * up, 0.0}, 2.0, scene::open_middle));
 }
 
 TEST_CASE(
@@ -51,7 +54,7 @@ TEST_CASE(
         const double seen = scene::seen_from(of, sight, Vec3(view::viewpoint_of(found).eye));
         MESSAGE((*begun)->assembly().joints[i].design.id << " seen " << seen << " from " << found.distance
                                                          << " m");
-        CHECK(scene::holds(found, nut, of.aspect));
+        CHECK(scene::holds(found, nut, of.aspect, scene::open_middle));
         CHECK(scene::holds(found, wrist, of.aspect));
         CHECK(seen >= scene::well_seen);
         CHECK(found.distance < 0.8);
