@@ -41,7 +41,7 @@ struct GodObjectParameters {
     std::optional<Extent> box;  // in the tool's frame, and none is outside of it either
     double friction = 0.15;     // coefficient
     // m kept between tool and obstacles. What the finder sees too late, for it lies between its points, is up
-    // to 0.21 mm nearer (bolt-truth, on the ZQ350): so the tool is never deeper in anything than 0.1 mm.
+    // to 0.19 mm nearer (bolt-truth, on the ZQ350): so the tool is never deeper in anything than 0.1 mm.
     double skin = 110e-6;
     double stride = 0.4e-3;  // m that a point may move between two queries where nothing certifies more
     double reach = 5e-3;     // m, the widest band asked for

@@ -15,6 +15,7 @@ Status add_shape(World& world, std::span<const ContactMesh> parts, std::vector<s
     world.shapes.push_back({std::move(*solid), {}, {}, std::move(ids)});
     Shape& shape = world.shapes.back();
     shape.vicinity = make_vicinity(shape.solid, options.cell);
+    // Closer than the tool's: at 1.5 mm a fillet of the wrench got 0.14 mm deep onto a ridge (bolt-truth).
     shape.samples = make_samples(shape.solid, {.edges = false, .round = true, .along_edges = 1.1e-3});
     return {};
 }
