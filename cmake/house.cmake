@@ -1,4 +1,4 @@
-# How every target of the house is built: one place for warnings, sanitizers and reproducible floating point.
+# Build settings of all targets: warnings, sanitizers and reproducible floating point.
 
 find_program(BOLT_CCACHE ccache)
 if(BOLT_CCACHE)
@@ -9,10 +9,10 @@ add_library(house_options INTERFACE)
 target_compile_options(house_options INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
     -Woverloaded-virtual -Wcast-align -Wnull-dereference -Wdouble-promotion -Wformat=2 -Werror
-    # Same inputs, same bits: no contraction to FMA, so debug, release and both compilers agree.
+    # The same inputs must give the same bits: without contraction to FMA, debug, release and both compilers agree.
     -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # gcc 12 sees null dereferences and overreads in inlined libstdc++ code that are not there.
+    # gcc 12 reports null dereferences and overreads in inlined libstdc++ code that do not exist.
     target_compile_options(house_options INTERFACE -Wno-null-dereference -Wno-restrict)
 endif()
 target_include_directories(house_options INTERFACE ${CMAKE_SOURCE_DIR})
@@ -20,26 +20,25 @@ if(BOLT_SANITIZE)
     target_compile_options(house_options INTERFACE -fsanitize=${BOLT_SANITIZE} -fno-sanitize-recover=all
         -fno-omit-frame-pointer)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        # Instrumented code hides from gcc what is initialised where (libstdc++'s regex, std::function).
+        # Instrumentation hides initialisations from gcc (libstdc++'s regex, std::function).
         target_compile_options(house_options INTERFACE -Wno-maybe-uninitialized)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND BOLT_SANITIZE MATCHES "undefined")
-        # A fifth of the time to compile, a quarter of that to run. AddressSanitizer sees the first two as well, and the fuzz preset has
-        # all three, for what parses.
+        # These checks would take a fifth of the compile time and a quarter of the run time. AddressSanitizer detects the first
+        # two as well, and the fuzz preset enables all three for parsers.
         target_compile_options(house_options INTERFACE -fno-sanitize=null,object-size,alignment)
     endif()
     if(CMAKE_BUILD_TYPE STREQUAL "Debug")
-        # What tests have done a million times would take most of their time: HOT libraries are optimised here too.
+        # HOT libraries are optimised even in debug builds, because tests spend most of their time in them.
         set(BOLT_HOT -O2)
-        set(BOLT_HOT_HEADERS house_headers_hot)  # gcc 12 crashes on headers that were parsed at another level
+        set(BOLT_HOT_HEADERS house_headers_hot)  # gcc 12 crashes on precompiled headers of another optimisation level
     endif()
     string(REPLACE "fuzzer-no-link," "" BOLT_SANITIZE_LINK "${BOLT_SANITIZE}")
     target_link_options(house_options INTERFACE -fsanitize=${BOLT_SANITIZE_LINK})
 endif()
 
-# A machine that has no compiler cache builds all of it anew: there the headers that all have in common are parsed
-# once. Not elsewhere: caches see what is in a parsed header only as long as nothing is overlooked, and a file that
-# includes too little is found out.
+# Without a compiler cache the common headers are precompiled. With a cache they are not: a cache may overlook a change inside a
+# precompiled header, and files with missing includes would go unnoticed.
 if(NOT BOLT_CCACHE)
     foreach(headers house_headers ${BOLT_HOT_HEADERS})
         add_library(${headers} OBJECT ${CMAKE_SOURCE_DIR}/cmake/house_headers.cpp)
@@ -50,7 +49,7 @@ if(NOT BOLT_CCACHE)
         target_compile_options(${BOLT_HOT_HEADERS} PRIVATE ${BOLT_HOT})
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        # Of headers parsed before, gcc 12 forgets that they are the system's, whose warnings it keeps to itself.
+        # gcc 12 treats precompiled system headers as our own and reports their warnings.
         target_compile_options(house_options INTERFACE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
     endif()
 endif()
@@ -80,8 +79,8 @@ function(house_library name)
     endif()
 endfunction()
 
-# house_program(NAME SOURCES a.cpp ... LINK targets... [TOGETHER] [HOT]): TOGETHER compiles all sources as one, for programs of
-# many commands: every file that reads a command line brings all of CLI11's code along, and takes ten seconds for it.
+# house_program(NAME SOURCES a.cpp ... LINK targets... [TOGETHER] [HOT]): TOGETHER compiles all sources as one file, for
+# programs with many commands, because every file that includes CLI11 takes ten seconds to compile.
 function(house_program name)
     cmake_parse_arguments(ARG "TOGETHER;HOT" "" "SOURCES;LINK" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})

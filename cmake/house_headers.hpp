@@ -1,5 +1,5 @@
-// What nearly every file of the house includes, parsed once where no compiler cache remembers objects
-// (house.cmake). No file may rely on it: with a compiler cache it is not there.
+// Headers that almost every file includes, precompiled if there is no compiler cache (house.cmake). No file may
+// rely on them.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-# Every outside library, found once for the whole house. Where each comes from: packages.txt.
+# Finds all external libraries. packages.txt lists their sources.
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)
@@ -14,20 +14,20 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
 pkg_check_modules(openal REQUIRED IMPORTED_TARGET openal)
 
-# The author's tools that read and make STEP files; without it everything else still builds. The sanitizer presets leave it
-# out to keep ./test short; -DBOLT_OPENCASCADE=ON brings it back.
+# Programs for authors that read and create STEP files; everything else builds without it. The sanitizer presets disable it to
+# shorten ./test; -DBOLT_OPENCASCADE=ON enables it.
 option(BOLT_OPENCASCADE "Build import-step and the programs that make models" ON)
 if(BOLT_OPENCASCADE)
     find_package(OpenCASCADE QUIET)
 endif()
 
-# ./run needs neither; ./test installs both and fails if there is no test to run.
+# ./run needs neither; ./test installs both and fails if no test is found.
 find_package(doctest QUIET)
 find_package(benchmark QUIET)
 
 find_package(glfw3 REQUIRED)
 
-# The engine. volk loads Vulkan at run time; its header comes with Debian's libvulkan-volk-dev.
+# The engine. volk loads Vulkan at run time; its header is in Debian's libvulkan-volk-dev.
 find_program(GLSLANG glslangValidator REQUIRED)
 foreach(part core util glsl hlsl msl cpp reflect c)
     find_package(spirv_cross_${part} REQUIRED)

@@ -1,8 +1,8 @@
-# Also for shaders that are compiled while a program runs (engine/render/hot_shaders.hpp).
+# Also used for shaders that are compiled at run time (engine/render/hot_shaders.hpp).
 set(BOLT_GLSL_FLAGS -V --quiet --target-env vulkan1.3)
 
-# house_shaders(TARGET files.vert files.frag ...): GLSL compiled by glslang into a library whose one function gives the
-# SPIR-V by file name: std::span<const std::uint32_t> TARGET(std::string_view). Included files are dependencies.
+# house_shaders(TARGET files.vert files.frag ...): compiles GLSL with glslang into a library with one function, which returns
+# the SPIR-V by file name: std::span<const std::uint32_t> TARGET(std::string_view). Included files are dependencies.
 function(house_shaders target)
     set(includes "")
     set(rows "")

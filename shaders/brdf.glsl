@@ -1,5 +1,5 @@
-// The lighting model of the path-traced reference (tools/pathtrace/bsdf.hpp, where the sources stand), for light from a
-// direction and for image-based light:
+// The lighting model of the path-traced reference (tools/verify/pathtrace/bsdf.hpp names the sources), for directional and
+// image-based light:
 //   f = base (1 − c E_coat) + c coat,  base = (1 − m)(diffuse + specular(F0 dielectric)) + m specular(F0 = base colour)
 //   specular = D V F (1 + F0 (1/E − 1)),  diffuse = base colour / π (1 − E_F)
 const float pi = 3.14159265358979;
@@ -8,18 +8,18 @@ struct Surface {
     vec3 position, normal, coat_normal, tangent, out_dir;
     vec3 base_color;
     float metallic, roughness;
-    vec2 alpha;      // along tangent and bitangent
-    vec3 f0;         // of the dielectric
+    vec2 alpha;  // along tangent and bitangent
+    vec3 f0;     // of the dielectric
     float f90;
     float coat, coat_roughness, coat_alpha;
-    bool coated, brushed;  // known when the shader is compiled
+    bool coated, brushed;  // compile-time constants
     float occlusion;
     vec3 emission;
 };
 
 float pow5(float x) { return x * x * x * x * x; }
 
-// Trowbridge–Reitz with its Smith height-correlated visibility, D V.
+// Trowbridge–Reitz with the Smith height-correlated visibility: D V.
 float ggx_shape(vec3 n, vec3 t, vec2 alpha, vec3 v, vec3 l, vec3 h) {
     const vec3 b = cross(n, t);
     const vec3 lh = vec3(dot(t, h), dot(b, h), dot(n, h));
@@ -40,12 +40,12 @@ float ggx_shape(vec3 n, float alpha, vec3 v, vec3 l, vec3 h) {
     return a2 / (pi * d * d) * 0.5 / (nl * gv + nv * gl);
 }
 
-// What the formulas need of the albedo table under one view direction.
+// Values from the albedo table for one view direction.
 struct Seen {
-    float gain;             // 1/E − 1
-    vec3 specular;          // albedo of the specular layer, for image-based light
-    vec3 diffuse;           // albedo
-    float coat, below_coat; // albedo of the coat (times c), and what it lets through
+    float gain;              // 1/E − 1
+    vec3 specular;           // albedo of the specular layer, for image-based light
+    vec3 diffuse;            // albedo
+    float coat, below_coat;  // albedo of the coat (times c), and the fraction that it transmits
 };
 
 Seen see(Surface s, sampler2D albedo_table) {
@@ -71,7 +71,7 @@ Seen see(Surface s, sampler2D albedo_table) {
     return seen;
 }
 
-// Light of unit irradiance (on a surface that faces it) from direction `l`, with the cosine.
+// Light of unit irradiance (on a surface that faces it) from direction `l`, including the cosine.
 vec3 reflect_light(Surface s, Seen seen, vec3 l) {
     const vec3 h = normalize(s.out_dir + l);
     const float vh = pow5(1.0 - clamp(dot(s.out_dir, h), 0.0, 1.0));

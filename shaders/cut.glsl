@@ -1,6 +1,6 @@
-// What stands between an eye and the place that it wants to see fades: inside a cone from the eye to that place.
+// Fades objects inside a cone between an eye and the cut-away's focus.
 //
-// 0: as it is … 1: gone.
+// Returns 0: fully visible … 1: removed.
 float faded(vec3 at) {
     const vec3 eye = frame.views[view_index].eye.xyz;
     const vec3 way = frame.cut.xyz - eye, p = at - eye;
@@ -9,7 +9,7 @@ float faded(vec3 at) {
     const float off = length(p - t * way);
     const float radius = frame.cut.w * max(t, 0.0);
     const float beside = 1.0 - smoothstep(0.6 * radius, radius, off);
-    // Up to a radius before the place nothing is left; the place itself stays whole.
+    // Everything is removed up to one radius in front of the focus; the focus itself stays visible.
     const float margin = frame.cut.w * inversesqrt(distance2);
     const float before = smoothstep(0.6 * margin, margin, 1.0 - t);
     return t > 0.0 ? frame.cut_strength * beside * before : 0.0;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A part's vertices where its morph targets and joints move them: positions and attributes as the model has them, to be drawn in
-// their place. Sources: glTF 2.0 specification, 3.7.2.2 (morph targets come first) and 3.7.3.3 (skins).
+// Deforms a part's vertices by morph targets and joints; the output replaces the model's positions and attributes. Sources: glTF
+// 2.0 specification, 3.7.2.2 (morph targets come first) and 3.7.3.3 (skins).
 #include "shaders/shared.h"
 
 layout(local_size_x = 64) in;
@@ -16,7 +16,7 @@ layout(push_constant) uniform Push { DeformPart part; };
 
 const uint attribute_words = 7u;  // VertexAttributes: normal 2, tangent 2, texture coordinates 2, colour 1
 
-// What the targets add to a vertex's position (stream 0), normal (1) or tangent (2).
+// The targets' contribution to a vertex's position (stream 0), normal (1) or tangent (2).
 vec3 morph(uint vertex, uint stream) {
     vec3 sum = vec3(0.0);
     if (3u * stream >= part.delta_floats) return sum;
@@ -59,7 +59,7 @@ void main() {
     const uint from = attribute_words * (part.first_vertex + vertex);
     const vec3 rest = vec3(unpackSnorm2x16(attributes[from]), unpackSnorm2x16(attributes[from + 1u]).x);
     const vec4 tangent = vec4(unpackSnorm2x16(attributes[from + 2u]), unpackSnorm2x16(attributes[from + 3u]));
-    // Normals go by the cofactors, and so with the triangles' winding, as in scene.vert.
+    // Transform normals by the cofactor matrix, so that they follow the triangles' winding as in scene.vert.
     const mat3 a = mat3(m);
     const mat3 cofactors = mat3(cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1]));
     const float side = dot(a[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;

@@ -1,7 +1,7 @@
-// Light from all around: specular levels in a cube map, diffuse in spherical harmonics.
+// Image-based light: specular levels in a cube map, diffuse light in spherical harmonics.
 #include "shaders/lit_frame.glsl"
 
-LitFrame here;  // set first of all by main
+LitFrame here;  // main sets it first
 
 vec3 turned(vec3 d) {
     const float c = cos(here.environment.y), s = sin(here.environment.y);

@@ -1,8 +1,8 @@
-// Set 0: what is the same for the whole frame. No branch that these numbers alone decide: lavapipe (Mesa 22.3) puts what decides
-// it into the code and compiles anew with every block, which is every frame. Such a choice is a SCENE_… bit.
+// Set 0: data of the whole frame. Do not branch on these values alone: lavapipe (Mesa 22.3) compiles such branches into the code
+// and recompiles for every new block, that is every frame. Use a SCENE_… bit instead.
 #include "shaders/shared.h"
 #include "shaders/features.glsl"
 
-layout(set = 0, binding = 0, std140) uniform FrameBlock { Frame frame; };
+layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameData frame; };
 layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Materials { Material materials[]; };

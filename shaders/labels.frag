@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// How much of a pixel a glyph covers, from its distance field: four taps, each for its quarter of the pixel, with ramps as
-// wide as a quarter is seen under the angle at which the edge passes.
+// The fraction of a pixel that a glyph covers, from its distance field: four taps, one per quarter of the pixel, with ramps as wide
+// as a quarter of the pixel appears at the edge's angle.
 
 #include "shaders/shared.h"
 #include "shaders/features.glsl"
@@ -20,21 +20,20 @@ layout(location = 0) out vec4 color_out;
 
 const vec2 taps[4] = vec2[](vec2(-0.25, -0.25), vec2(0.25, -0.25), vec2(-0.25, 0.25), vec2(0.25, 0.25));
 
-// To the edge of a rectangle with round corners, positive inside; `uv` holds half its size.
+// Distance to the edge of a rounded rectangle, positive inside; `uv` holds half its size.
 float plate_distance(vec2 at) {
     const vec2 beyond = abs(at - middle) - (uv - kind.x);
     return kind.x - length(max(beyond, 0.0)) - min(max(beyond.x, beyond.y), 0.0);
 }
 
 void main() {
-    const vec2 em_x = dFdx(em), em_y = dFdy(em);  // a step on the screen
+    const vec2 em_x = dFdx(em), em_y = dFdy(em);  // one pixel on the screen
     const vec2 uv_x = dFdx(uv), uv_y = dFdy(uv);
     float d[4];
     for (int i = 0; i < 4; ++i)
         d[i] = kind.z > 0.5 ? plate_distance(em + taps[i].x * em_x + taps[i].y * em_y)
                             : textureLod(atlas, uv + taps[i].x * uv_x + taps[i].y * uv_y, 0.0).r + kind.x;
-    // The edge's normal in the glyph's plane, from how the distance changes over the screen; across it a pixel is
-    // this wide.
+    // The edge's normal in the glyph's plane, from the screen derivatives of the distance; a pixel has this width across the edge.
     const vec2 change = vec2(d[1] + d[3] - d[0] - d[2], d[2] + d[3] - d[0] - d[1]);
     vec2 normal = vec2(change.x * em_y.y - change.y * em_x.y, change.y * em_x.x - change.x * em_y.x);
     normal = dot(normal, normal) > 0.0 ? normalize(normal) : vec2(0.70710678);

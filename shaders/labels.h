@@ -1,4 +1,4 @@
-// Text in the scene, as CPU and GPU share it: see shared.h for how, engine/render/label_batch.hpp for what.
+// Labels in the layout that CPU and GPU share: see shared.h, and engine/render/label_batch.hpp for their meaning.
 #ifndef BOLT_SHADERS_LABELS_H
 #define BOLT_SHADERS_LABELS_H
 
@@ -8,24 +8,24 @@ namespace bolt::render::shared {
 #endif
 
 struct LabelFrame {
-    vec4 position;  // m; w: height of an em, m or pixels
-    vec4 right;     // along a line of text, length 1; w: LABEL_…
-    vec4 up;        // w: how much shows through parts in front of it
-    vec4 pixels;    // xy: moved on the screen, y up; z: m towards the eye, when it is held against the depth of parts
+    vec4 position;  // m; w: em size, m or pixels
+    vec4 right;     // unit vector along a line of text; w: LABEL_…
+    vec4 up;        // w: visible fraction behind parts
+    vec4 pixels;    // xy: offset on the screen, y up; z: m towards the eye for the depth comparison with parts
 };
 
-#define LABEL_FIXED 0.0     // lies in the plane of right and up
-#define LABEL_FACING 1.0    // turned to the eye, height in metres
-#define LABEL_ON_SCREEN 2.0 // turned to the eye, height in pixels
+#define LABEL_FIXED 0.0      // in the plane of right and up
+#define LABEL_FACING 1.0     // turned to the eye, size in metres
+#define LABEL_ON_SCREEN 2.0  // turned to the eye, size in pixels
 
-// A glyph, or the plate behind a text.
+// A glyph, or the background of a text.
 struct LabelQuad {
     vec4 rect;   // em from the label's position: left, below, right, above
-    vec4 uv;     // of the atlas, likewise; a plate: half of its width and height, em
-    vec4 color;  // linear, not multiplied by its alpha
-    float grow;  // em: how far it reaches beyond the glyph's edge; of a plate the radius of its corners
+    vec4 uv;     // in the atlas, in the same order; for a background half of its width and height, em
+    vec4 color;  // linear, straight alpha
+    float grow;  // em: extent beyond the glyph's edge; for a background its corner radius
     uint label;
-    uint plate;  // 1: it is one
+    uint plate;  // 1: a background
     uint unused;
 };
 

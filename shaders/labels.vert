@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// Text in the scene: six corners a glyph, from buffers alone.
+// Labels in the scene: six vertices per glyph, read from buffers.
 #include "shaders/shared.h"
 #include "shaders/features.glsl"
 #include "shaders/labels.h"
 
-layout(set = 0, binding = 0, std140) uniform FrameBlock { Frame frame; };
+layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameData frame; };
 layout(set = 0, binding = 1, std430) readonly buffer Labels { LabelFrame labels[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Quads { LabelQuad quads[]; };
 
@@ -15,7 +15,7 @@ layout(location = 1) out vec2 uv;
 layout(location = 2) flat out vec4 color;
 layout(location = 3) flat out vec4 kind;  // grow, through, plate
 layout(location = 4) flat out vec2 middle;
-layout(location = 5) noperspective out float depth;  // that parts are held against
+layout(location = 5) noperspective out float depth;  // compared with the depth of parts
 
 void main() {
     const LabelQuad quad = quads[gl_VertexIndex / 6];
@@ -29,13 +29,13 @@ void main() {
     middle = 0.5 * (quad.rect.xy + quad.rect.zw);
 
     const View view = frame.views[view_index];
-    const vec2 pixel = 2.0 * frame.picture.zw;  // in clip space, before the division
+    const vec2 pixel = 2.0 * frame.picture.zw;  // in clip space, before the perspective division
     vec2 moved = label.pixels.xy;
     vec3 at = label.position.xyz;
     if (label.right.w == LABEL_FIXED) {
         at += label.position.w * (em.x * label.right.xyz + em.y * label.up.xyz);
     } else if (label.right.w == LABEL_FACING) {
-        // Along these the picture's x and y change and nothing else does, whatever the projection.
+        // Along these vectors only the picture's x or y changes, for every projection.
         const vec3 right = normalize(view.world_from_clip[0].xyz), up = -normalize(view.world_from_clip[1].xyz);
         at += label.position.w * (em.x * right + em.y * up);
     } else {

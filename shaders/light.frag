@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// The picture from the surfaces that were drawn: samples of a pixel that show the same surface are lit once, together; where
-// an edge passes through, each side is lit for itself. One sample a pixel leaves it: the mean of the four.
+// Shades the geometry buffer. Samples of a pixel on one surface are shaded once; where an edge crosses the pixel, each side is
+// shaded separately. Writes one sample per pixel, the mean of the four.
 #include "shaders/frame.glsl"
 #include "shaders/lighting.glsl"
 #include "shaders/surface.glsl"
@@ -15,9 +15,9 @@ layout(set = 0, binding = 10) uniform sampler2DMSArray wide_roughs;
 layout(location = 0) flat in vec4 lit_inputs[LIT_INPUTS];
 layout(location = 0) out vec4 color_out;
 
-// Vulkan's standard sample locations, from the pixel's corner.
+// Vulkan's standard sample locations, relative to the pixel's corner.
 const vec2 places[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
-const float alike = 0.03;  // between packed normals of one surface: 4 to 8 degrees
+const float alike = 0.03;  // largest difference between packed normals of one surface: 4 to 8 degrees
 
 vec3 world_at(vec2 pixel, float depth) {
     const vec2 ndc = pixel * here.texel * 2.0 - 1.0;
@@ -31,18 +31,18 @@ void main() {
     const vec2 corner = vec2(pixel.xy);
     float depth[4];
     vec4 packed[4];
-    uint left = 0u;  // samples that wait for light
+    uint left = 0u;  // samples that are not shaded yet
     for (int i = 0; i < 4; ++i) {
         depth[i] = texelFetch(depths, pixel, i).r;
         packed[i] = texelFetch(surfaces, pixel, i);
         left |= depth[i] > 0.0 ? 1u << i : 0u;
     }
-    const float bare = 4.0 - float(bitCount(left));  // samples that show what lies behind
+    const float bare = 4.0 - float(bitCount(left));  // samples that show the background
     vec3 sum = vec3(0.0);
     if (bare > 0.0) sum = bare * behind_all(gl_FragCoord.xy);
-    // Tested at its end: lavapipe runs a loop until no pixel of eight wants it, so a test at the top alone costs one round more.
-    // And each way out of it says what comes of it: what only the body has computed, lavapipe takes from the last round of all
-    // eight.
+    // Test at the end of the loop: lavapipe runs a loop until none of eight pixels needs another iteration, and a test at the top
+    // costs one extra iteration. Every exit must set its results: lavapipe takes values computed only in the body from the last
+    // iteration of all eight pixels.
     for (;;) {
         if (left == 0u) {
             color_out = vec4(0.25 * sum, 1.0);
@@ -57,7 +57,7 @@ void main() {
                 one = packed[i];
                 d0 = depth[i];
             }
-        // The surface at the middle of the samples that show it.
+        // The surface point at the centre of the samples that show it.
         uint together = 0u;
         vec2 facing_packed = vec2(0.0);
         vec2 place = vec2(0.0);
@@ -81,7 +81,7 @@ void main() {
         s.out_dir = normalize(here.eye - s.position);
         const vec3 n = unpack_normal(facing_packed / share);
         s.coat_normal = n;
-        // A normal that looks away from the eye is bent back to the rim: what is seen faces the eye.
+        // A normal that points away from the eye is bent to the silhouette, because visible surfaces face the eye.
         const float facing = dot(n, s.out_dir);
         s.normal = facing < 0.0 ? normalize(n - facing * s.out_dir) : n;
         s.tangent = has(SCENE_ANISOTROPY) ? unpack_grain(n, one.w) : vec3(1.0, 0.0, 0.0);

@@ -1,5 +1,5 @@
-// What a surface sends to the eye: image-based light, then every lamp, tone-mapped. What a pipeline does not need is not in it
-// (features: SCENE_… bits).
+// The radiance that a surface sends to the eye: image-based light, then all lamps, tone-mapped. Features that a pipeline does not
+// need are compiled out (SCENE_… bits).
 #include "shaders/environment.glsl"
 #include "shaders/brdf.glsl"
 #include "shaders/tone.glsl"
@@ -9,8 +9,8 @@ layout(set = 0, binding = 4) uniform samplerCube specular_levels;
 layout(set = 0, binding = 5) uniform sampler2DShadow shadow_map;
 layout(set = 0, binding = 6) uniform sampler2DArray ambient_occlusion;
 
-// The shadow of light 0: four comparisons, each filtered by the sampler. Points are moved off their surface along the normal
-// by a little more than a texel, and by how far its level of detail may be from the map's, so that it does not shade itself.
+// The shadow of light 0: four comparisons, each filtered by the sampler. Points are offset along the normal by slightly more than a
+// texel plus the error of their level of detail, to avoid self-shadowing.
 float lit(vec3 at, vec3 normal) {
     const vec2 texel = 1.0 / vec2(textureSize(shadow_map, 0));
     const float width = 2.0 * texel.x / length(here.shadow[0].xyz);
@@ -27,7 +27,7 @@ float lit(vec3 at, vec3 normal) {
     return outside ? 1.0 : 0.25 * sum;
 }
 
-// What arrives of a light, and from where.
+// The irradiance of a light and its direction.
 vec3 arriving(Light light, vec3 at, out vec3 l) {
     const vec3 way = light.position.w == 0.0 ? -light.direction.xyz : light.position.xyz - at;
     const float d2 = dot(way, way);
@@ -39,19 +39,19 @@ vec3 arriving(Light light, vec3 at, out vec3 l) {
     return light.color.rgb * fade;
 }
 
-// What is kept away comes back in part from the neighbours that keep it away, the more the brighter they are; they are taken to
-// be as bright as the surface itself (Jimenez et al. 2016, as in occlusion.frag).
+// Approximates light reflected between neighbours: occlusion is reduced for bright surfaces, assuming that neighbours have the same
+// colour (Jimenez et al. 2016, as in occlusion.frag).
 vec3 returned(float ao, vec3 albedo) {
     const vec3 a = 2.0404 * albedo - 0.3324, b = -4.7951 * albedo + 0.6417, c = 2.7552 * albedo + 0.6903;
     return max(vec3(ao), ((ao * a + b) * ao + c) * ao);
 }
 
-// Specular occlusion from the ambient one (S. Lagarde and C. de Rousiers, Moving Frostbite to PBR, 2014).
+// Specular occlusion derived from ambient occlusion (S. Lagarde and C. de Rousiers, Moving Frostbite to PBR, 2014).
 float mirrored_share(float nv, float ao, float roughness) {
     return clamp(pow(nv + ao, exp2(-16.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);
 }
 
-// What is seen of a material whose base colour, metallic and roughness are known: alphas and what else follows from them.
+// Derives roughness alphas and reflectances from base colour, metallic and roughness.
 void finish_surface(inout Surface s, Material m) {
     const float alpha = max(s.roughness * s.roughness, 1e-3);
     s.alpha = vec2(alpha);
@@ -93,7 +93,7 @@ vec3 shade(Surface s, vec2 screen) {
     }
     if (light_count > 0u) color += from_light(here.light_0, s, seen, has(SCENE_SHADOW) ? lit(s.position, s.coat_normal) : 1.0);
     if (light_count > 1u) color += from_light(here.light_1, s, seen, 1.0);
-    // No loop: lavapipe does not unroll it, and everything in it would be done for every light.
+    // Unrolled by hand: lavapipe does not unroll loops and would execute the whole body for every light.
     if (light_count > 2u) color += from_light(frame.lights[2], s, seen, 1.0);
     if (light_count > 3u) color += from_light(frame.lights[3], s, seen, 1.0);
     if (light_count > 4u) color += from_light(frame.lights[4], s, seen, 1.0);

@@ -1,16 +1,16 @@
-// What light needs of the frame and the view. Of a block it comes by `of_block`. light.frag, which runs for every pixel, takes it
-// from flat inputs instead: lavapipe (Mesa 22.3) gathers each number of a block for each pixel of its own, and that was two fifths
-// of the instructions. The third light and those after it stand in the block.
+// The part of the frame data that lighting needs. `of_block` reads it from the block. light.frag runs per pixel and receives it
+// through flat inputs instead: lavapipe (Mesa 22.3) gathers block values for each pixel, which took two fifths of the instructions.
+// The third and later lights stay in the block.
 #define LIT_INPUTS 25
 
 struct LitFrame {
     mat4 world_from_clip;
     vec3 eye;
-    float level_off;  // how far levels of detail may be off, m a metre of distance
-    vec4 w_row;       // of clip_from_world: the depth along the view
+    float level_off;  // error of levels of detail, m per metre of distance
+    vec4 w_row;       // of clip_from_world: depth along the view
     vec4 shadow[3];   // rows of shadow_from_world
     vec4 environment;
-    vec2 texel;       // of the picture: 1/width, 1/height
+    vec2 texel;  // 1/width, 1/height of the picture
     vec3 diffuse[9];
     Light light_0, light_1;
 };
@@ -39,7 +39,7 @@ void pack(LitFrame f, out vec4 to[LIT_INPUTS]) {
     to[5] = f.w_row;
     for (int i = 0; i < 3; ++i) to[6 + i] = f.shadow[i];
     to[9] = f.environment;
-    // Nine colours in seven rows: the seventh and the eighth stand behind the first six.
+    // Nine colours in seven rows: the seventh and eighth are stored in w of the first six.
     for (int i = 0; i < 6; ++i) to[10 + i] = vec4(f.diffuse[i], f.diffuse[6 + i / 3][i % 3]);
     to[16] = vec4(f.diffuse[8], 0.0);
     to[17] = vec4(f.texel, f.light_0.cone.xy);

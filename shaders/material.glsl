@@ -1,4 +1,4 @@
-// What a part's material and its maps say at a point.
+// Evaluates a part's material and maps at a point.
 layout(set = 1, binding = 0) uniform sampler2D base_map;
 layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_map;
 layout(set = 1, binding = 2) uniform sampler2D normal_map;
@@ -21,28 +21,28 @@ layout(location = 6) flat in vec2 mark;
 
 layout(push_constant) uniform Draw { uint material_index; };
 
-// `t`: both sets of texture coordinates, or how they change; `one`: 1 for coordinates, 0 for changes.
+// `t`: both sets of texture coordinates, or their derivatives; `one`: 1 for coordinates, 0 for derivatives.
 vec2 uv(Material m, uint texture_index, vec4 t, float one) {
     const vec4 row = m.uv[2 * texture_index];
     const vec3 p = vec3(has(SCENE_SECOND_UV) && row.w > 0.5 ? t.zw : t.xy, one);
     return vec2(dot(row.xyz, p), dot(m.uv[2 * texture_index + 1].xyz, p));
 }
 
-// The level of a map comes from how the interpolated coordinates change, not those that a material has moved: beside a
-// triangle, where neighbours are only there to tell differences, lavapipe reads no material, and edges took the coarsest level.
+// Compute the mip level from the interpolated coordinates, not from those transformed by the material: lavapipe does not read the
+// material for helper pixels outside the triangle, and edges would use the coarsest level.
 vec4 look_up(sampler2D map, Material m, uint texture_index) {
     return textureGrad(map, uv(m, texture_index, texcoord, 1.0), uv(m, texture_index, dFdx(texcoord), 0.0),
                        uv(m, texture_index, dFdy(texcoord), 0.0));
 }
 
-// The plane of a normal map where the mesh has no tangents: from how position and texture change over the picture
-// (C. Schüler, Normal Mapping Without Precomputed Tangents, ShaderX5, 2006). The bitangent is up in the texture, against v.
+// The tangent frame of a normal map for meshes without tangents, from screen derivatives of position and texture coordinates (C.
+// Schüler, Normal Mapping Without Precomputed Tangents, ShaderX5, 2006). The bitangent points up in the texture, against v.
 mat3 cotangent_frame(vec3 n, vec2 tx, vec2 ty) {
     const vec3 px = dFdx(at), py = dFdy(at);
     const vec3 a = cross(py, n), b = cross(n, px);
     const vec3 tangent = a * tx.x + b * ty.x, bitangent = a * tx.y + b * ty.y;
     const float longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
-    // Rows of the picture go down, so the triangle (at, px, py) turns the other way than its winding says.
+    // Rows of the picture go down, so the triangle (at, px, py) has the opposite winding.
     const float scale = longest > 0.0 ? inversesqrt(longest) * sign(dot(px, a)) : 0.0;
     return mat3(tangent * scale, -bitangent * scale, n);
 }
@@ -60,7 +60,7 @@ vec3 plain_normal() {
     return gl_FrontFacing ? n : -n;
 }
 
-// Tangent, bitangent and normal at this point, for a map.
+// Tangent, bitangent and normal at this point.
 mat3 plane_of(Material m, vec3 n, uint map) {
     if (!has(SCENE_TANGENTS)) return cotangent_frame(n, uv(m, map, dFdx(texcoord), 0.0), uv(m, map, dFdy(texcoord), 0.0));
     const vec3 given = normalize(tangent_in.xyz - n * dot(n, tangent_in.xyz));
@@ -85,14 +85,14 @@ vec3 metallic_roughness_occlusion(Material m) {
     return v;
 }
 
-// Along which the metal was brushed.
+// The brushing direction of the metal.
 vec3 grain_of(Material m, vec3 n) {
     const vec3 t = normalize(tangent_in.xyz - n * dot(n, tangent_in.xyz));
     const vec3 b = cross(n, t) * tangent_in.w;
     return cos(m.anisotropy_rotation) * t + sin(m.anisotropy_rotation) * b;
 }
 
-// The same where a map turns it further; w: how strong the grain is.
+// The same, rotated by a map; w: the strength of the anisotropy.
 vec4 mapped_grain(Material m, vec3 n) {
     const vec3 texel = look_up(anisotropy_map, m, 8u).rgb;
     const vec3 t = grain_of(m, n);

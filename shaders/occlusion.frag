@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// How much of the sky above a surface its neighbours leave free, from the depth of what is seen: one slice through the view
-// direction a pixel, turned over a pattern of 4 × 4 pixels, with the horizons of both sides integrated in closed form.
+// Ambient occlusion from the depth buffer: one slice through the view direction per pixel, rotated in a pattern of 4 × 4 pixels,
+// with the horizons of both sides integrated in closed form.
 //   J. Jimenez, X.-C. Wu, A. Pesce, A. Jarabo, Practical Real-Time Strategies for Accurate Indirect Occlusion, 2016.
 #include "shaders/frame.glsl"
 #include "shaders/small.glsl"
@@ -20,8 +20,8 @@ vec3 world_at(vec2 uv, float depth) {
     return p.xyz / p.w;
 }
 
-// The point that was seen nearest to there, at the very place where it was: between the two a surface that is seen at a flat
-// angle would shade itself.
+// Returns the visible point nearest to this location, at its exact sample position: interpolation would make surfaces at grazing
+// angles shade themselves.
 vec3 seen_at(vec2 uv) {
     const ivec2 size = textureSize(depth_map, 0).xy;
     const ivec2 texel = clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1);
@@ -56,7 +56,7 @@ void main() {
     const float turn = (float((cell.x + cell.y * 4u) * 7u % 16u) + 0.5) * (pi / 16.0);
     const float jitter = fract(float(cell.x * 3u + cell.y) * 0.61803);
     const vec2 way = vec2(cos(turn), sin(turn));
-    // The radius as large as it is seen, but no more than a sixth of the picture.
+    // The projected radius, limited to a sixth of the picture.
     const vec2 here = place_of(at.xy);
     const float across = length(world_at(here + vec2(texel.x, 0.0), max(depth, 1e-7)) - p);
     const float pixels = clamp(frame.occlusion.x / max(across, 1e-9), 2.0, 1.0 / (6.0 * texel.y));
@@ -73,7 +73,7 @@ void main() {
     const float h1 = gamma + clamp(behind - gamma, -0.5 * pi, 0.5 * pi);
     const float h2 = gamma + clamp(ahead - gamma, -0.5 * pi, 0.5 * pi);
     const float sum = 2.0 * cos(gamma) + 2.0 * (h1 + h2) * sin(gamma) - cos(2.0 * h1 - gamma) - cos(2.0 * h2 - gamma);
-    // At the rim, where a surface is seen edge on, one texel holds more of it than the radius: nothing can be said there.
+    // At silhouettes one texel covers more of the surface than the radius, so no occlusion can be computed.
     const float told = smoothstep(0.02, 0.2, dot(n, v));
     free_out = depth > 0.0 ? mix(1.0, clamp(0.25 * weight * sum, 0.0, 1.0), told) : 1.0;
 }

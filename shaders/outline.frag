@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// A line of even width outside marked shapes: the strongest mark on rings around the pixel, where the pixel itself has none.
+// An outline of even width around marked shapes: the strongest mark on rings around an unmarked pixel.
 #include "shaders/frame.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2DArray marks;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// What was lit as it was drawn, over what was lit before.
+// Blends the forward layer over the shaded surfaces.
 #include "shaders/frame.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2DArray over;

@@ -1,5 +1,5 @@
 #version 460
-// Colours are premultiplied and linear: blending adds light, as in the scene.
+// Colours are premultiplied and linear, so blending adds light as in the scene.
 
 layout(location = 0) in vec3 uv;
 layout(location = 1) in vec4 color;
@@ -10,6 +10,6 @@ layout(location = 0) out vec4 color_out;
 
 void main() {
     const vec4 texel = texture(picture, uv);
-    // A picture is seen opaque: what its alpha holds is none of ours.
+    // Pictures are opaque: ignore their alpha.
     color_out = color * (coverage > 0.5 ? texel.rrrr : vec4(texel.rgb, 1.0));
 }

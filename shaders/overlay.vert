@@ -1,5 +1,5 @@
 #version 460
-// What lies flat over a picture: pixels from the upper left corner.
+// Flat triangles over a picture, in pixels from the upper left corner.
 
 layout(location = 0) in vec2 at;
 layout(location = 1) in vec2 uv_in;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// A part drawn and lit at once: what blends, and what the geometry buffer has no room for.
+// Draws and shades a part in one step: blended parts, and those that the geometry buffer cannot store.
 #include "shaders/frame.glsl"
 #include "shaders/lighting.glsl"
 #include "shaders/material.glsl"
@@ -9,7 +9,7 @@
 
 layout(location = 0) out vec4 color_out;
 
-// What maps say of specular strength and colour, grain and coat.
+// Specular strength and colour, anisotropy and coat from maps.
 void set_mapped_layers(inout Surface s, Material m) {
     if (has(SCENE_SPECULAR_MAPS)) {
         const float weight = m.specular_color.w * look_up(specular_map, m, 9u).a;
@@ -44,7 +44,7 @@ void main() {
     s.out_dir = normalize(here.eye - at);
     s.coat_normal = plain_normal();
     vec3 n = mapped_normal(m, s.coat_normal);
-    // A normal that looks away from the eye is bent back to the rim: what is seen faces the eye.
+    // A normal that points away from the eye is bent to the silhouette, because visible surfaces face the eye.
     const float facing = dot(n, s.out_dir);
     if (facing < 0.0) n = normalize(n - facing * s.out_dir);
     s.normal = n;

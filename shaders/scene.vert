@@ -12,21 +12,20 @@ layout(location = 5) in vec2 second_texcoord;
 
 invariant gl_Position;  // a ghost's depth is drawn before its colour
 layout(location = 0) out vec3 at;
-// By the centroid of what is covered: at the middle of a pixel that a triangle only touches, normals are drawn out beyond its
-// corners, and rounded edges sparkle.
+// Centroid interpolation: extrapolation to the centre of a partly covered pixel would make rounded edges sparkle.
 layout(location = 1) centroid out vec3 normal_out;
 layout(location = 2) out vec4 tangent_out;
 layout(location = 3) out vec4 texcoord_out;  // both sets
 layout(location = 4) out vec4 color_out;
 layout(location = 5) flat out vec4 tint;
-layout(location = 6) flat out vec2 mark;  // opacity; 1: no light
+layout(location = 6) flat out vec2 mark;  // opacity; 1: unlit
 
 void main() {
     const mat4 world_from_object = instances[gl_InstanceIndex].world_from_object;
     const vec4 world = world_from_object * vec4(position, 1.0);
     const mat3 m = mat3(world_from_object);
-    // Normals go by the cofactors: right for every scale. Those of mirrored parts point inward, as gl_FrontFacing has it, for their
-    // triangles turn the other way.
+    // Transform normals by the cofactor matrix, which is correct for every scale. Normals of mirrored parts point inward,
+    // consistent with gl_FrontFacing, because their winding is reversed.
     const mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     const float side = dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
     at = world.xyz;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The whole picture.
+// Covers the whole picture.
 #include "shaders/corners.glsl"
 
 void main() { gl_Position = corner(gl_VertexIndex); }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// Depth at half the size.
+// Halves the depth buffer.
 #include "shaders/frame.glsl"
 #include "shaders/small.glsl"
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// The mean over the pattern of 4 × 4 slices, of those pixels that lie on the same surface: on a plane depth changes evenly over
-// the picture, and how much is known from the normal.
+// Averages the pattern of 4 × 4 slices over pixels on the same surface: on a plane, depth is linear in the picture, with a slope
+// that follows from the normal.
 #include "shaders/frame.glsl"
 #include "shaders/small.glsl"
 #include "shaders/surface.glsl"
@@ -16,7 +16,7 @@ void main() {
     const ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(depth_map, 0).xy - 1;
     const float here = texelFetch(depth_map, ivec3(at, view_index), 0).r;
     const vec3 n = unpack_normal(texelFetch(surfaces, full_texel(ivec3(at, view_index)), small_sample).xy);
-    // Planes go to clip space by the transposed inverse.
+    // Planes are transformed to clip space by the transposed inverse.
     const mat4 world_from_clip = frame.views[view_index].world_from_clip;
     const vec4 p = world_from_clip * vec4(place_of(at) * 2.0 - 1.0, here, 1.0);
     const vec4 plane = vec4(n, -dot(n, p.xyz / p.w)) * world_from_clip;
@@ -25,7 +25,7 @@ void main() {
     for (int y = -2; y < 2; ++y) {
         for (int x = -2; x < 2; ++x) {
             const ivec3 there = ivec3(clamp(at + ivec2(x, y), ivec2(0), last), view_index);
-            // Reversed depth is proportional to one over the distance: what counts is its share.
+            // Reversed depth is proportional to 1 / distance, so compare relative differences.
             const float off = texelFetch(depth_map, there, 0).r - here - dot(slope, vec2(there.xy - at));
             const float weight = abs(off) < 0.02 * here ? 1.0 : 0.001;
             sum += weight * texelFetch(raw_map, there, 0).r;

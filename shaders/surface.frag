@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// What is seen, without light: normal, material and grain; and what maps and colours say, where a part has them.
+// Writes normal, material and grain, and the values of maps and colours if a part has them.
 #include "shaders/frame.glsl"
 #include "shaders/material.glsl"
 #include "shaders/surface.glsl"
@@ -12,7 +12,7 @@ layout(location = 1) out vec4 wide_color_out;  // base colour, metallic
 layout(location = 2) out vec4 wide_rough_out;  // roughness, occlusion
 
 void main() {
-    if (has(SCENE_CUT) && faded(at) > 0.0) discard;  // scene.frag draws what is left of it
+    if (has(SCENE_CUT) && faded(at) > 0.0) discard;  // scene.frag draws the rest of it
     const Material m = materials[material_index];
     const bool wide = has(SCENE_WIDE);
     if (wide || has(SCENE_MASK)) {

@@ -1,7 +1,7 @@
-// A surface as a geometry buffer keeps it: 16 bits each for the normal (two), the material and the direction of the grain.
+// The encoding of a surface in the geometry buffer: 16 bits each for the normal (two), the material and the grain's direction.
 //   Z. Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014 (octahedral normals).
 //   T. Duff et al., Building an Orthonormal Basis, Revisited, 2017.
-#define SURFACE_WIDE 32768u  // base colour, metallic, roughness and occlusion stand in the wide buffer
+#define SURFACE_WIDE 32768u  // base colour, metallic, roughness and occlusion are in the wide buffer
 
 vec2 pack_normal(vec3 n) {
     const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -16,7 +16,7 @@ vec3 unpack_normal(vec2 packed) {
     return normalize(vec3(p.x + (p.x >= 0.0 ? -t : t), p.y + (p.y >= 0.0 ? -t : t), z));
 }
 
-// Two directions across a normal.
+// Two directions perpendicular to a normal.
 void basis(vec3 n, out vec3 t, out vec3 b) {
     const float side = n.z >= 0.0 ? 1.0 : -1.0;
     const float a = -1.0 / (side + n.z), c = n.x * n.y * a;
@@ -26,7 +26,7 @@ void basis(vec3 n, out vec3 t, out vec3 b) {
 
 #define SURFACE_NO_GRAIN 1.0
 
-// The grain has no head and no tail: half a turn says all.
+// The grain has no sign, so half a turn covers all directions.
 float pack_grain(vec3 n, vec3 grain) {
     vec3 t, b;
     basis(n, t, b);

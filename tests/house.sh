@@ -2,6 +2,7 @@
 # The arrows of the house point down, every header is complete in itself by name, and nothing is left half done.
 set -euo pipefail
 cd "$1"
+. tests/support/skip.sh house
 failed=0
 bad() { echo "$1"; failed=1; }
 
@@ -38,8 +39,19 @@ echo '    {"hint.of_nothing", ""},' > "$planted/key_rows.hpp"
 unsaid=$(all_said content/words/key_rows.hpp)
 [ -z "$unsaid" ] || bad "texts that nothing says: $unsaid"
 
+# A test that is left out says so (tests/support/skip.hpp).
+silent_skips() { grep -rnE 'sanitized\)? *\)? (return|continue);|sanitized && .*\) (return|continue);|doctest::skip\(' --include='*.cpp' --include='*.hpp' "$1" || true; }
+for line in 'if (test::sanitized) return;' 'if (test::sanitized && x) continue;' 'TEST_CASE("a" * doctest::skip(true)) {'; do
+    echo "$line" > "$planted/silent.cpp"
+    [ -n "$(silent_skips "$planted")" ] || bad "the check of skipped tests does not find: $line"
+done
+silent=$(silent_skips tests)
+[ -z "$silent" ] || bad "tests skipped without test::skip_rest: $silent"
+
 if command -v clang-format >/dev/null; then
     find engine haptics content game tools tests \( -name '*.hpp' -o -name '*.cpp' \) -print0 |
         xargs -0 clang-format --dry-run -Werror || bad "not in the house style: clang-format -i"
+else
+    skip_part "formatting: clang-format is not installed"
 fi
 exit $failed

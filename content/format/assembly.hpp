@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,12 @@ struct Specification {
     Window angle;               // rad, from snug; judged when has_angle
     double target_clamp = 0.0;  // N; 0: derived from the target torque and the nominal friction
     RiskClass risk = RiskClass::C;
+};
+
+// What every joint is tightened to under the published law, whose torques do not depend on the fastener.
+struct PublishedTargets {
+    Window torque;             // N·m, at the wrench
+    double snug_torque = 0.0;  // N·m, from which the tightening angle is counted
 };
 
 struct AssemblyJoint {
@@ -109,9 +116,10 @@ struct Assembly {
     std::map<std::string, std::string> lesson;  // text by language
     std::string sources;                        // where the file's numbers come from; may be empty
     joint::Law law = joint::Law::mechanistic;
-    joint::PublishedParameters published;  // pitch etc. of the paper; used by that law only
-    std::string variant;                   // which material variant was chosen; empty: none
-    std::vector<Variant> variants;         // all that the file has
+    joint::PublishedParameters published;               // pitch etc. of the paper; used by that law only
+    std::optional<PublishedTargets> published_targets;  // none: derived from the joints' (lesson::under_law)
+    std::string variant;                                // which material variant was chosen; empty: none
+    std::vector<Variant> variants;                      // all that the file has
     std::vector<AssemblyJoint> joints;
     std::vector<Pass> passes;
     std::vector<Tool> tools;  // that there are to choose from, the usual one first

@@ -162,51 +162,9 @@ void check_prevailing(const Layers& layers, const JointType& type, double least_
                                fmt::format("expected at most {:g} N·m", most));
 }
 
-// Limits come in pairs, and a tolerance stands instead of them.
-void check_pairs(const Layers& spec) {
-    Reader& reader = spec.reader();
-    const auto pair = [&](const char* low, const char* high) {
-        const Node low_node = spec.find(low), high_node = spec.find(high);
-        const auto alone = [&](const Node& node, const char* here, const char* other) {
-            reader.report(node.pointer, fmt::format("\"{}\" without \"{}\"", here, other),
-                          "expected both or neither", Part::key);
-        };
-        if (!spec.known({low, high})) return;
-        if (low_node && !high_node) alone(low_node, low, high);
-        if (high_node && !low_node) alone(high_node, high, low);
-    };
-    pair("min_torque_Nm", "max_torque_Nm");
-    pair("min_angle_deg", "max_angle_deg");
-    for (const Node& object : spec.objects()) {
-        const Layers layer(reader, {object});
-        const Node tolerance = layer.find("torque_tolerance_percent");
-        if (tolerance && (layer.find("min_torque_Nm") || layer.find("max_torque_Nm")))
-            reader.report(tolerance.pointer, "both a tolerance and limits of the torque",
-                          "expected one or the other", Part::key);
-    }
-}
-
 std::string place_of(const Layers& spec, const char* key) {
     const Node node = spec.find(key);
     return node ? node.pointer : spec.objects().front().pointer;
-}
-
-void check_torques(const Layers& spec, const Specification& s) {
-    Reader& reader = spec.reader();
-    const Window& torque = s.torque;
-    if (torque.low > torque.target)
-        reader.report(place_of(spec, "min_torque_Nm"),
-                      fmt::format("{:g} N·m is above the target", torque.low),
-                      fmt::format("expected at most {:g} N·m", torque.target));
-    if (torque.high < torque.target)
-        reader.report(place_of(spec, "max_torque_Nm"),
-                      fmt::format("{:g} N·m is below the target", torque.high),
-                      fmt::format("expected at least {:g} N·m", torque.target));
-    if (spec.known({"snug_torque_Nm"}) && s.snug_torque >= torque.low && torque.low <= torque.target)
-        reader.report(
-            place_of(spec, "snug_torque_Nm"),
-            fmt::format("a snug torque of {:g} N·m is no less than what is judged OK", s.snug_torque),
-            fmt::format("expected less than {:g} N·m", torque.low));
 }
 
 void check_angles(const Layers& spec, const Specification& s) {
@@ -233,6 +191,45 @@ void check_angles(const Layers& spec, const Specification& s) {
 
 }  // namespace
 
+void check_limits(const Layers& spec) {
+    Reader& reader = spec.reader();
+    const auto pair = [&](const char* low, const char* high) {
+        const Node low_node = spec.find(low), high_node = spec.find(high);
+        const auto alone = [&](const Node& node, const char* here, const char* other) {
+            reader.report(node.pointer, fmt::format("\"{}\" without \"{}\"", here, other),
+                          "expected both or neither", Part::key);
+        };
+        if (!spec.known({low, high})) return;
+        if (low_node && !high_node) alone(low_node, low, high);
+        if (high_node && !low_node) alone(high_node, high, low);
+    };
+    pair("min_torque_Nm", "max_torque_Nm");
+    pair("min_angle_deg", "max_angle_deg");
+    for (const Node& object : spec.objects()) {
+        const Layers layer(reader, {object});
+        const Node tolerance = layer.find("torque_tolerance_percent");
+        if (tolerance && (layer.find("min_torque_Nm") || layer.find("max_torque_Nm")))
+            reader.report(tolerance.pointer, "both a tolerance and limits of the torque",
+                          "expected one or the other", Part::key);
+    }
+}
+
+void check_torques(const Layers& spec, const Window& torque, double snug_torque) {
+    Reader& reader = spec.reader();
+    if (torque.low > torque.target)
+        reader.report(place_of(spec, "min_torque_Nm"),
+                      fmt::format("{:g} N·m is above the target", torque.low),
+                      fmt::format("expected at most {:g} N·m", torque.target));
+    if (torque.high < torque.target)
+        reader.report(place_of(spec, "max_torque_Nm"),
+                      fmt::format("{:g} N·m is below the target", torque.high),
+                      fmt::format("expected at least {:g} N·m", torque.target));
+    if (spec.known({"snug_torque_Nm"}) && snug_torque >= torque.low && torque.low <= torque.target)
+        reader.report(place_of(spec, "snug_torque_Nm"),
+                      fmt::format("a snug torque of {:g} N·m is no less than what is judged OK", snug_torque),
+                      fmt::format("expected less than {:g} N·m", torque.low));
+}
+
 void check_joint_type(const Layers& layers, const JointType& type, double least_share) {
     const joint::JointDesign& design = type.design;
     const Layers spec = layers.inside("spec");
@@ -249,8 +246,8 @@ void check_joint_type(const Layers& layers, const JointType& type, double least_
         layers.known({"friction_thread", "friction_bearing", "prevailing_torque_Nm"}))
         check_load(layers, type);
     check_prevailing(layers, type, least_share);
-    check_pairs(spec);
-    if (torques) check_torques(spec, type.spec);
+    check_limits(spec);
+    if (torques) check_torques(spec, type.spec.torque, type.spec.snug_torque);
     if (spec.known({"strategy", "target_angle_deg", "min_angle_deg", "max_angle_deg"}))
         check_angles(spec, type.spec);
 }

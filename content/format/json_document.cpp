@@ -76,7 +76,7 @@ class JsonBuilder {
                 first = document_.content_->entries[first].next_sibling;
             const Error place = document_.error_at(document_.content_->entries[first].key_offset, {}, {});
             Error error = document_.error_at(key_offset_, fmt::format("{} is given twice", in_quotes(value)),
-                                             fmt::format("it is given first in line {}", place.line));
+                                             fmt::format("one value; the first is in line {}", place.line));
             error.pointer = pointer_of(value);
             errors_.push_back(std::move(error));
             if (errors_.size() > json_repeat_limit) return false;

@@ -75,7 +75,7 @@ std::optional<SyntaxMistake> string_mistake(std::string_view text, std::size_t p
                                  "expected a '\"' at its end"};
         if (byte < 0x20)
             return SyntaxMistake{i, fmt::format("control character 0x{:02X} in a text", byte),
-                                 fmt::format("write it as \\u{:04X}", byte)};
+                                 fmt::format("\\u{:04X}", byte)};
         if (text[i] != '\\') continue;
         const char escape = i + 1 < text.size() ? text[i + 1] : '\0';
         const auto hex4 = [&](std::size_t at) {
@@ -100,9 +100,8 @@ std::optional<SyntaxMistake> string_mistake(std::string_view text, std::size_t p
         } else if (std::string_view("\"\\/bfnrt").find(escape) != std::string_view::npos && escape != '\0') {
             ++i;
         } else {
-            return SyntaxMistake{
-                i, "a backslash that escapes nothing",
-                "write \\\\ for a backslash, or one of \\\" \\/ \\b \\f \\n \\r \\t \\uXXXX"};
+            return SyntaxMistake{i, "a backslash that escapes nothing",
+                                 "\\\\ for a backslash, or one of \\\" \\/ \\b \\f \\n \\r \\t \\uXXXX"};
         }
     }
     return SyntaxMistake{text.size(), fmt::format("the text begun at {} is not closed", place(p)),
@@ -169,7 +168,7 @@ Wanted wanted_after(Before before) {
 SyntaxMistake token_mistake(std::string_view text, std::size_t p, const Wanted& wanted, const Place& place) {
     const char c = text[p];
     if (c == '/' || c == '#')
-        return {p, "JSON has no comments", "move it into \"sources\" or the lesson, or remove it"};
+        return {p, "JSON has no comments", "no comment; \"sources\" and the lesson hold notes"};
     if (c == '\'') return {p, "single quotes", "expected double quotes (\")"};
     if (c == '"') {
         if (!wanted.key && !wanted.value) return {p, "something is missing before this text", wanted.words};
@@ -258,7 +257,8 @@ SyntaxMistake explain_syntax(std::string_view text, const Stopped& where, const 
         wanted = {object, !object, object ? "expected a name in double quotes" : "expected a value"};
         p = skip_space(text, p + 1);
         if (p < text.size() && text[p] == (object ? '}' : ']'))
-            return {comma, fmt::format("nothing follows this comma but '{}'", text[p]), "remove the comma"};
+            return {comma, fmt::format("nothing follows this comma but '{}'", text[p]),
+                    "no comma here, or another value"};
     }
     if (p >= text.size()) return too_early();
     SyntaxMistake mistake = token_mistake(text, p, wanted, place);
@@ -272,12 +272,12 @@ SyntaxMistake explain_syntax(std::string_view text, const Stopped& where, const 
 
 std::optional<SyntaxMistake> explain_encoding(std::string_view text) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-        return SyntaxMistake{0, "the file is UTF-16", "save it as UTF-8"};
+        return SyntaxMistake{0, "the file is UTF-16", "UTF-8"};
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
     };
     const auto bad = [&](std::size_t i) {
-        return SyntaxMistake{i, fmt::format("byte 0x{:02X} is not UTF-8", byte(i)), "save the file as UTF-8"};
+        return SyntaxMistake{i, fmt::format("byte 0x{:02X} is not UTF-8", byte(i)), "UTF-8"};
     };
     for (std::size_t i = 0; i < text.size();) {
         const unsigned lead = byte(i);

@@ -49,12 +49,11 @@ Loaded failed(std::string file, std::string what, std::string expected) {
 Loaded unknown_assembly(const std::string& name, const fs::path& content,
                         const std::vector<std::string>& names) {
     const std::string best = meant(name, names);
-    std::string there =
-        fmt::format("{}there are: {}", best.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(best)),
-                    fmt::join(names, ", "));
+    std::string there = fmt::format("{}expected one of {}",
+                                    best.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(best)),
+                                    fmt::join(names, ", "));
     if (names.empty())
-        there = content.empty() ? "no content/ was found: BOLTWRIGHT_CONTENT says where it is"
-                                : "content/ holds no assemblies";
+        there = content.empty() ? "a content folder; BOLTWRIGHT_CONTENT names it" : "an assembly in content/";
     return failed(name, "there is no such folder, file or assembly", std::move(there));
 }
 
@@ -111,8 +110,8 @@ Loaded parse(std::string_view text, std::string_view file, std::string_view vari
         loaded.errors.resize(most_errors);
         Error last = loaded.errors.back();
         last.pointer.clear();
-        last.what = "mistakes behind this line are not shown";
-        last.expected = "mend these first";
+        last.what = "further errors are not shown: fix those above first";
+        last.expected.clear();
         loaded.errors.push_back(std::move(last));
     }
     return loaded;

@@ -140,7 +140,7 @@ Status create_assembly(const fs::path& folder, std::string_view name) {
     // A trailing slash would hide the folder's own name.
     const fs::path target = folder.has_filename() ? folder : folder.parent_path();
     Made made;
-    if (auto folder_made = made.folder(target); !folder_made) return folder_made;
+    BOLT_TRY(made.folder(target));
 
     const bool inside = is_among_assemblies(target);
     std::string text(template_text());
@@ -148,13 +148,11 @@ Status create_assembly(const fs::path& folder, std::string_view name) {
                   inside ? "../../schema/" + std::string(schema_name) : std::string(schema_name));
     for (const char* title : {"/title/en", "/title/de", "/title/zh"}) replace_value(text, title, name);
     for (const fs::path& model : take_models(text)) {
-        const auto bytes = read_file(model, model_size_limit, ErrorCode::failed);
-        if (!bytes) return fail(bytes.error());
-        if (auto written = made.file(target / model.filename(), *bytes); !written) return written;
+        BOLT_TRY_ASSIGN(const auto bytes, read_file(model, model_size_limit, ErrorCode::failed));
+        BOLT_TRY(made.file(target / model.filename(), bytes));
     }
-    if (auto written = made.file(target / "assembly.json", text); !written) return written;
-    if (!inside)
-        if (auto written = made.file(target / schema_name, schema_text()); !written) return written;
+    BOLT_TRY(made.file(target / "assembly.json", text));
+    if (!inside) BOLT_TRY(made.file(target / schema_name, schema_text()));
     made.keep();
     return {};
 }

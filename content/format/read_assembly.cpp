@@ -175,6 +175,7 @@ Assembly read_assembly(Reader& reader, std::string_view variant, const FilePlace
     const bool published = reader.text(reader.member(root, "law")) == "published";
     assembly.law = published ? joint::Law::published : joint::Law::mechanistic;
     assembly.published = read_published(reader);
+    assembly.published_targets = read_published_targets(reader, assembly.published);
     assembly.flange = read_flange(reader);
     assembly.views = read_views(reader);
     assembly.models = read_model_files(reader, places);

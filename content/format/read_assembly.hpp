@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "content/format/assembly.hpp"
@@ -25,6 +26,8 @@ std::vector<AssemblyJoint> read_joints(Reader& reader, const std::string& varian
 double least_share(Reader& reader);
 std::vector<Pass> read_passes(Reader& reader, const std::vector<AssemblyJoint>& joints);
 joint::PublishedParameters read_published(Reader& reader);
+// None: the file gives none.
+std::optional<PublishedTargets> read_published_targets(Reader& reader, const joint::PublishedParameters& law);
 ModelFiles read_model_files(Reader& reader, const FilePlaces& places);
 std::string read_tool_model(Reader& reader, const Node& tool, const FilePlaces& places);
 

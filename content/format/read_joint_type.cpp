@@ -90,6 +90,30 @@ joint::JointDesign read_design(const Layers& layers, const Materials& materials)
     return design;
 }
 
+Specification read_spec(const Layers& spec) {
+    Specification result;
+    const std::string strategy = spec.text("strategy").value_or("torque");
+    result.strategy = strategy == "yield"          ? Strategy::yield
+                      : strategy == "torque_angle" ? Strategy::torque_angle
+                                                   : Strategy::torque;
+    result.torque = read_torque(spec);
+    result.snug_torque = read_snug_torque(spec, result.torque);
+    const auto low = spec.number("min_angle_deg"), high = spec.number("max_angle_deg");
+    const auto target = spec.number("target_angle_deg");
+    if (low && high) {
+        result.has_angle = true;
+        result.angle.low = to_radians(*low);
+        result.angle.high = to_radians(*high);
+        result.angle.target = target ? to_radians(*target) : 0.5 * (result.angle.low + result.angle.high);
+    }
+    result.target_clamp = spec.number("target_clamp_kN").value_or(0.0) * 1e3;
+    const std::string risk = spec.text("risk_class").value_or("C");
+    result.risk = risk == "A" ? RiskClass::A : risk == "B" ? RiskClass::B : RiskClass::C;
+    return result;
+}
+
+}  // namespace
+
 // Limits and a tolerance stand for each other: the topmost layer that has either decides.
 Window read_torque(const Layers& spec) {
     Window torque;
@@ -112,29 +136,9 @@ Window read_torque(const Layers& spec) {
     return torque;
 }
 
-Specification read_spec(const Layers& spec) {
-    Specification result;
-    const std::string strategy = spec.text("strategy").value_or("torque");
-    result.strategy = strategy == "yield"          ? Strategy::yield
-                      : strategy == "torque_angle" ? Strategy::torque_angle
-                                                   : Strategy::torque;
-    result.torque = read_torque(spec);
-    result.snug_torque = spec.number("snug_torque_Nm").value_or(default_snug * result.torque.target);
-    const auto low = spec.number("min_angle_deg"), high = spec.number("max_angle_deg");
-    const auto target = spec.number("target_angle_deg");
-    if (low && high) {
-        result.has_angle = true;
-        result.angle.low = to_radians(*low);
-        result.angle.high = to_radians(*high);
-        result.angle.target = target ? to_radians(*target) : 0.5 * (result.angle.low + result.angle.high);
-    }
-    result.target_clamp = spec.number("target_clamp_kN").value_or(0.0) * 1e3;
-    const std::string risk = spec.text("risk_class").value_or("C");
-    result.risk = risk == "A" ? RiskClass::A : risk == "B" ? RiskClass::B : RiskClass::C;
-    return result;
+double read_snug_torque(const Layers& spec, const Window& torque) {
+    return spec.number("snug_torque_Nm").value_or(default_snug * torque.target);
 }
-
-}  // namespace
 
 Materials read_materials(Reader& reader) {
     Materials materials;

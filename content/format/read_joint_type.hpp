@@ -30,4 +30,13 @@ JointType read_joint_type(const Layers& layers, const Materials& materials, doub
 // keeps only those checks from being made that need it.
 void check_joint_type(const Layers& layers, const JointType& type, double least_share);
 
+// The torques that `spec` asks for: a joint's specification, or the targets of the published law.
+Window read_torque(const Layers& spec);
+double read_snug_torque(const Layers& spec, const Window& torque);
+
+// Limits come in pairs, and a tolerance stands instead of them.
+void check_limits(const Layers& spec);
+// Snug torque < lowest torque ≤ target ≤ highest torque.
+void check_torques(const Layers& spec, const Window& torque, double snug_torque);
+
 }  // namespace bolt::content

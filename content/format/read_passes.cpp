@@ -52,7 +52,7 @@ Ids read_ids(Reader& reader, const std::vector<AssemblyJoint>& joints) {
             ++ids.uses[known];
             ++ids.repeats;
             if (ids.repeated.empty())
-                ids.repeated = fmt::format("the joint in line {}, whose id is another's too",
+                ids.repeated = fmt::format("the joint in line {}, whose id is a repetition",
                                            reader.line(reader.member(nodes[i], "id").pointer));
         }
     }
@@ -63,8 +63,8 @@ std::string suggest_joint(std::string_view id, const std::vector<std::string>& m
                           const std::string& repeated) {
     if (repeated.empty())
         return missing.empty() ? "expected every joint once, and nothing else" : suggest(id, missing);
-    return missing.empty() ? fmt::format("is it {}?", repeated)
-                           : fmt::format("is it {}? If not, {}", repeated, suggest(id, missing));
+    return missing.empty() ? fmt::format("did you mean {}?", repeated)
+                           : fmt::format("did you mean {}? If not, {}", repeated, suggest(id, missing));
 }
 
 // Every joint once. A name that is no joint most likely stands for one that is missing: then both are one
@@ -122,7 +122,7 @@ void check_percent(Reader& reader, const std::vector<Round>& rounds) {
         known = known && round.kind && reader.sound(percent.pointer);
         if (round.kind && round.kind != StepKind::tighten && percent)
             reader.report(percent.pointer, "only a pass of kind \"tighten\" has a share of the target",
-                          "remove it");
+                          "no \"percent\" here");
         if (round.kind != StepKind::tighten) continue;
         last = &round;
         if (!percent) {

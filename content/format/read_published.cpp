@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "content/format/read_assembly.hpp"
+#include "content/format/read_joint_type.hpp"
 
 namespace bolt::content {
 
@@ -50,6 +51,33 @@ joint::PublishedParameters read_published(Reader& reader) {
                       fmt::format("the nut would be on its seat {:.0f} degrees before it is started", -start),
                       "expected a larger theta_max_turns or narrower stages");
     return p;
+}
+
+std::optional<PublishedTargets> read_published_targets(Reader& reader,
+                                                       const joint::PublishedParameters& law) {
+    const Layers file(reader, {reader.member(reader.root(), "published")});
+    PublishedTargets targets;
+    targets.torque = read_torque(file);
+    targets.snug_torque = read_snug_torque(file, targets.torque);
+    const Node target = file.find("target_torque_Nm");
+    if (!target) {
+        for (const char* key :
+             {"snug_torque_Nm", "min_torque_Nm", "max_torque_Nm", "torque_tolerance_percent"})
+            if (const Node alone = file.find(key); alone && file.known({"target_torque_Nm"}))
+                reader.report(alone.pointer, fmt::format("\"{}\" without \"target_torque_Nm\"", key),
+                              "expected the target too, or neither", Part::key);
+        return std::nullopt;
+    }
+    check_limits(file);
+    if (!file.known({"T_max_Nm", "min_torque_Nm", "max_torque_Nm", "torque_tolerance_percent"}))
+        return targets;
+    if (targets.torque.target > law.T_max_Nm)
+        reader.report(target.pointer,
+                      fmt::format("{:g} N·m is never reached: the published law ends at a T_max of {:g} N·m",
+                                  targets.torque.target, law.T_max_Nm),
+                      fmt::format("expected at most {:g} N·m", law.T_max_Nm));
+    check_torques(file, targets.torque, targets.snug_torque);
+    return targets;
 }
 
 }  // namespace bolt::content

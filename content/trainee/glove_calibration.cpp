@@ -23,15 +23,15 @@ constexpr std::size_t longest_name = 64;  // bytes; a trainee's name becomes a f
 constexpr double steepest = 0.2;          // rad a count: 255 of them are eight turns
 
 // Sensors as the file calls them: "thumb_roll".
-std::string key_of(glove::Sensor sensor) {
-    std::string key = glove::name_of(sensor);
+std::string key_of(hand::Sensor sensor) {
+    std::string key = hand::name_of(sensor);
     for (char& c : key) c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return key;
 }
 
 std::vector<std::string> sensor_keys(std::size_t sensors) {
     std::vector<std::string> keys;
-    for (const glove::Sensor sensor : glove::sensors_of(sensors)) keys.push_back(key_of(sensor));
+    for (const hand::Sensor sensor : hand::sensors_of(sensors)) keys.push_back(key_of(sensor));
     return keys;
 }
 
@@ -52,7 +52,7 @@ void read_lines(Members& members, const json& root, GloveCalibration& to) {
             "expected an object with a line a sensor, as {\"thumb_mpj\": {\"offset\": 41.5, "
             "\"gain\": 0.013}}");
     members.only(*lines, "/lines", sensor_keys(to.sensors));
-    for (const glove::Sensor sensor : glove::sensors_of(to.sensors)) {
+    for (const hand::Sensor sensor : hand::sensors_of(to.sensors)) {
         const std::string key = key_of(sensor), at = "/lines/" + key;
         const auto line = lines->find(key);
         if (line == lines->end()) continue;
@@ -60,9 +60,9 @@ void read_lines(Members& members, const json& root, GloveCalibration& to) {
             return members.report(at, Part::value, fmt::format("\"{}\" is no line", key),
                                   "expected an object with \"offset\" and \"gain\"");
         members.only(*line, at, {"offset", "gain"});
-        to.calibration.lines[glove::index(sensor)] =
-            glove::Line{members.number(*line, at, "gain", -steepest, steepest),
-                        members.number(*line, at, "offset", -1e4, 1e4)};
+        to.calibration.fits[hand::index(sensor)] =
+            hand::LinearFit{members.number(*line, at, "gain", -steepest, steepest),
+                       members.number(*line, at, "offset", -1e4, 1e4)};
     }
 }
 
@@ -91,7 +91,7 @@ Result<GloveCalibration> parse_glove_calibration(std::string_view text, const st
     if (hand != "left" && hand != "right")
         members.report("/hand", Part::value, fmt::format("a hand cannot be {}", in_quotes(hand)),
                        "expected \"left\" or \"right\"");
-    read.hand = hand == "left" ? glove::Hand::left : glove::Hand::right;
+    read.hand = hand == "left" ? hand::Side::left : hand::Side::right;
     const double sensors = members.number(root, "", "sensors", 18, 22);
     if (sensors != 18.0 && sensors != 22.0)
         members.report("/sensors", Part::value, "a glove has no such number of sensors", "expected 18 or 22");
@@ -109,14 +109,14 @@ Result<GloveCalibration> parse_glove_calibration(std::string_view text, const st
 
 std::string glove_calibration_text(const GloveCalibration& calibration) {
     nlohmann::ordered_json lines = nlohmann::ordered_json::object();
-    for (const glove::Sensor sensor : glove::sensors_of(calibration.sensors))
-        if (const auto& line = calibration.calibration.lines[glove::index(sensor)])
+    for (const hand::Sensor sensor : hand::sensors_of(calibration.sensors))
+        if (const auto& line = calibration.calibration.fits[hand::index(sensor)])
             lines[key_of(sensor)] = {{"offset", line->offset}, {"gain", line->gain}};
     nlohmann::ordered_json root;
     root["format"] = format_name;
     root["trainee"] = calibration.trainee;
     root["glove"] = calibration.glove;
-    root["hand"] = calibration.hand == glove::Hand::left ? "left" : "right";
+    root["hand"] = calibration.hand == hand::Side::left ? "left" : "right";
     root["sensors"] = calibration.sensors;
     root["date"] = calibration.date;
     root["quality"] = calibration.quality;
@@ -127,22 +127,21 @@ std::string glove_calibration_text(const GloveCalibration& calibration) {
 }
 
 Result<GloveCalibration> load_glove_calibration(const std::filesystem::path& path) {
-    const Result<std::string> text = read_file(path, longest_file, ErrorCode::bad_content);
-    if (!text) return fail(text.error());
-    return parse_glove_calibration(*text, path.string());
+    BOLT_TRY_ASSIGN(const auto text, read_file(path, longest_file, ErrorCode::bad_content));
+    return parse_glove_calibration(text, path.string());
 }
 
 Status save_glove_calibration(const std::filesystem::path& path, const GloveCalibration& calibration) {
     const std::string text = glove_calibration_text(calibration);
     // What could not be read back is not written over what can.
-    if (const auto again = parse_glove_calibration(text, path.string()); !again) return fail(again.error());
+    BOLT_TRY(parse_glove_calibration(text, path.string()));
     return write_file(path, text);
 }
 
 std::filesystem::path glove_calibration_path(const std::filesystem::path& folder, std::string_view trainee,
-                                             glove::Hand hand) {
+                                             hand::Side hand) {
     return folder / fmt::format("{}.{}.glove.json", file_name_of(trainee),
-                                hand == glove::Hand::left ? "left" : "right");
+                                hand == hand::Side::left ? "left" : "right");
 }
 
 }  // namespace bolt::content

@@ -5,19 +5,19 @@
 #include <string>
 #include <string_view>
 
-#include "haptics/glove/hand_angles.hpp"
+#include "haptics/hand/hand_angles.hpp"
 
 namespace bolt::content {
 
 struct GloveCalibration {
     std::string trainee;  // as it wants to be called
     std::string glove;    // which one: its port's lasting name, or what the owner calls it; may be empty
-    glove::Hand hand = glove::Hand::right;
+    hand::Side hand = hand::Side::right;
     std::size_t sensors = 18;    // 18 or 22
     std::string date;            // "2026-11-22", when it was made
     double quality = 0.0;        // 0 … 1, Calibrated::figure; 0 where nothing told it (a vendor's file)
     double hand_length = 0.189;  // m, wrist to the tip of the middle finger
-    glove::Calibration calibration;
+    hand::Calibration calibration;
 };
 
 // Errors name `file`, line and column of what is wrong.
@@ -32,6 +32,6 @@ Status save_glove_calibration(const std::filesystem::path& path, const GloveCali
 // Where a trainee's calibration is kept in a folder: a name of its own for every trainee and hand, of letters
 // that every file system takes.
 std::filesystem::path glove_calibration_path(const std::filesystem::path& folder, std::string_view trainee,
-                                             glove::Hand hand);
+                                             hand::Side hand);
 
 }  // namespace bolt::content

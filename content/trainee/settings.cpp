@@ -17,6 +17,7 @@ constexpr const char* format_name = "boltwright settings 1";
 constexpr std::size_t longest_file = 1U << 16U;
 constexpr std::size_t longest_name = 64;  // bytes, as of a calibration's trainee
 constexpr const char *usual = "usual", *distinct = "distinct";
+constexpr const char *mechanistic = "mechanistic", *published = "published";
 
 bool knows(const std::vector<std::string>& all, const std::string& one) {
     return std::find(all.begin(), all.end(), one) != all.end();
@@ -35,6 +36,14 @@ void read_palette(Members& members, const json& root, Settings& to) {
         members.report("/palette", Part::value, fmt::format("{} is no palette", in_quotes(name)),
                        fmt::format("expected \"{}\" or \"{}\"", usual, distinct));
     to.palette = name == distinct ? PaletteKind::distinct : PaletteKind::usual;
+}
+
+void read_law(Members& members, const json& root, Settings& to) {
+    if (!root.contains("law")) return;
+    to.law = members.text(root, "law");
+    if (to.law != mechanistic && to.law != published)
+        members.report("/law", Part::value, fmt::format("{} is not a joint law", in_quotes(to.law)),
+                       fmt::format("expected \"{}\" or \"{}\"", mechanistic, published));
 }
 
 void read_seat(Members& members, const json& root, Settings& to) {
@@ -96,7 +105,7 @@ Result<Settings> parse_settings(std::string_view text, const std::string& file,
                        fmt::format("expected \"format\": \"{}\"", format_name));
     members.only(root, "",
                  {"format", "trainee", "language", "volume", "captions", "palette", "left_handed",
-                  "force_scale", "seated_height_m", "keys"});
+                  "force_scale", "seated_height_m", "law", "keys"});
     read.trainee = members.text(root, "trainee", longest_name);
     read_language(members, root, read, known);
     read.volume = members.number(root, "", "volume", 0.0, 1.0);
@@ -105,6 +114,7 @@ Result<Settings> parse_settings(std::string_view text, const std::string& file,
     read.left_handed = members.flag(root, "left_handed");
     read.force_scale = members.number(root, "", "force_scale", least_force_scale, 1.0);
     read_seat(members, root, read);
+    read_law(members, root, read);
     read_keys(members, root, read, known);
     if (members.wrong) return fail(*members.wrong);
     return read;
@@ -122,22 +132,22 @@ std::string settings_text(const Settings& settings) {
     root["force_scale"] = settings.force_scale;
     root["seated_height_m"] = settings.seated_height ? nlohmann::ordered_json(*settings.seated_height)
                                                      : nlohmann::ordered_json(nullptr);
+    if (!settings.law.empty()) root["law"] = settings.law;
     root["keys"] = settings.keys;
     // Names come from outside: what is no UTF-8 in them must not make a file that cannot be read.
     return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 Result<Settings> load_settings(const std::filesystem::path& path, const SettingsVocabulary& known) {
-    const Result<std::string> text = read_file(path, longest_file, ErrorCode::bad_content);
-    if (!text) return fail(text.error());
-    return parse_settings(*text, path.string(), known);
+    BOLT_TRY_ASSIGN(const auto text, read_file(path, longest_file, ErrorCode::bad_content));
+    return parse_settings(text, path.string(), known);
 }
 
 Status save_settings(const std::filesystem::path& path, const Settings& settings,
                      const SettingsVocabulary& known) {
     const std::string text = settings_text(settings);
     // What could not be read back is not written over what can.
-    if (const auto again = parse_settings(text, path.string(), known); !again) return fail(again.error());
+    BOLT_TRY(parse_settings(text, path.string(), known));
     std::error_code problem;
     if (!path.parent_path().empty()) std::filesystem::create_directories(path.parent_path(), problem);
     if (problem)

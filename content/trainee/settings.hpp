@@ -2,7 +2,9 @@
 //
 //   {"format": "boltwright settings 1", "trainee": "Ada", "language": "de", "volume": 0.8, "captions": true,
 //    "palette": "distinct", "left_handed": false, "force_scale": 0.5, "seated_height_m": 1.2,
-//    "keys": {"tool": "T", "hint": "F1"}}
+//    "law": "published", "keys": {"tool": "T", "hint": "F1"}}
+//
+// "law" is left out while the trainee has chosen none.
 #pragma once
 
 #include <filesystem>
@@ -31,6 +33,7 @@ struct Settings {
     bool left_handed = false;
     double force_scale = 1.0;                 // least_force_scale … 1, of what device and assembly allow
     std::optional<double> seated_height;      // m, of the eyes above the floor; none: whoever works stands
+    std::string law;                          // "mechanistic", "published"; empty: the assembly's own
     std::map<std::string, std::string> keys;  // by action; what is not in here has its usual key
 };
 

@@ -13,7 +13,7 @@ struct KeyRow {
 
 // Where a text may be said of one and of several it has two keys, NAME.one and NAME.many.
 inline constexpr KeyRow key_rows[] = {
-    // Hints: what is to be done now (game/hints/hint.cpp).
+    // Hints: what is to be done now (game/lesson/hint.cpp).
     {"hint.take_wrench", "size"},
     {"hint.put_wrench_away", ""},
     {"hint.find_by_wrench", "joint"},
@@ -68,7 +68,7 @@ inline constexpr KeyRow key_rows[] = {
     {"how.pull_off", "control"},
     {"how.lift", "control"},
     {"how.set_back", "control"},
-    // What stands at {control}, with a mouse and with a device (game/hints/controls.cpp).
+    // What stands at {control}, with a mouse and with a device (game/lesson/controls.cpp).
     {"control.mouse.take", "key"},
     {"control.mouse.put_away", "key"},
     {"control.mouse.go", ""},
@@ -92,7 +92,7 @@ inline constexpr KeyRow key_rows[] = {
     {"control.device.grip", "key"},
     {"control.device.move", ""},
     {"control.device.turn", ""},
-    // Mistakes: why it was one, and what to do (game/hints/mistakes.cpp).
+    // Mistakes: why it was one, and what to do (game/lesson/mistakes.cpp).
     {"mistake.begins_again", ""},
     {"mistake.take_back", "control"},
     {"mistake.out_of_turn", "held"},
@@ -111,7 +111,7 @@ inline constexpr KeyRow key_rows[] = {
     {"mistake.stripped.do", ""},
     {"mistake.broken", "held"},
     {"mistake.broken.do", ""},
-    // The result in words: why points were lost (game/hints/coach.cpp).
+    // The result in words: why points were lost (game/lesson/feedback.cpp).
     {"reason.broken", "joint"},
     {"reason.stripped", "joint"},
     {"reason.torque_low", "joint torque low"},
@@ -145,7 +145,7 @@ inline constexpr KeyRow key_rows[] = {
     {"advice.wrong_way", ""},
     {"advice.unfinished", ""},
     {"advice.nothing", ""},
-    // Names of what programs know by enumerations (game/hints/terms.hpp).
+    // Names of what programs know by enumerations (game/lesson/terms.hpp).
     {"mode.guided", ""},
     {"mode.practice", ""},
     {"mode.assessment", ""},
@@ -188,6 +188,9 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.keys", ""},
     {"menu.left_handed", ""},
     {"menu.captions", ""},
+    {"menu.law", ""},
+    {"menu.law.mechanistic", ""},
+    {"menu.law.published", ""},
     {"menu.palette", ""},
     {"menu.palette.usual", ""},
     {"menu.palette.distinct", ""},

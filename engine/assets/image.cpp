@@ -36,7 +36,7 @@ Status decode(Image& image) {
     int channels = 0;
     if (size == 0 || stbi_info_from_memory(bytes, size, &width, &height, &channels) == 0)
         return image_error(image, "is neither PNG nor JPEG");
-    // Before the pixels are there, so that a few bytes cannot ask for all the memory.
+    // Check the size before decoding, so that a few bytes cannot allocate all memory.
     if (width < 1 || height < 1 || width > side_limit || height > side_limit ||
         std::int64_t{width} * height > pixel_limit)
         return image_error(image,
@@ -58,7 +58,8 @@ Result<std::string> encode_png(int width, int height, int channels, std::span<co
                        channels >= 1 && channels <= 4 &&
                        pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                                             static_cast<std::size_t>(channels);
-    if (!sound) return fail(ErrorCode::failed, "pixels that are no image", "width × height × channels bytes");
+    if (!sound)
+        return fail(ErrorCode::failed, "the pixels do not fill an image", "width × height × channels bytes");
     std::string bytes;
     if (stbi_write_png_to_func(append, &bytes, width, height, channels, pixels.data(), width * channels) == 0)
         return fail(ErrorCode::failed, "the PNG cannot be encoded");

@@ -1,4 +1,4 @@
-// Pixels out of the PNG and JPEG files that a model carries, and into PNG files. Eight bits a channel.
+// Decodes the PNG and JPEG images of a model, and encodes PNG. Eight bits per channel.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace bolt::assets {
 
-// Fills `pixels`, `width`, `height` and `channels` from `encoded`, with as many channels as the file has;
-// `encoded` stays. Does nothing to an image that has pixels. Refuses more than 16384 pixels a side or 64
-// million in all.
+// Fills `pixels`, `width`, `height` and `channels` from `encoded`, which is kept. Does nothing if the image
+// is decoded already. Fails above 16384 pixels per side or 64 million pixels in total.
 Status decode(Image& image);
 
-// A PNG file's bytes, the same for the same pixels. `pixels`: rows from the top, 1 to 4 channels.
+// Returns the bytes of a PNG file, the same for the same pixels. `pixels`: rows from the top, 1 to 4
+// channels.
 Result<std::string> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
 }  // namespace bolt::assets

@@ -1,5 +1,5 @@
-// Coarser versions of a mesh, by meshoptimizer's quadric simplification.
-//   M. Garland and P. Heckbert, Surface Simplification Using Quadric Error Metrics, 1997.
+// Generates coarser levels of detail with meshoptimizer's quadric simplification (M. Garland and P. Heckbert,
+// Surface Simplification Using Quadric Error Metrics, 1997).
 #pragma once
 
 #include <cstdint>
@@ -9,36 +9,38 @@
 
 namespace bolt::assets {
 
-// A vertex as the mesh has it, with another normal.
+// A copy of a vertex with another normal.
 struct AddedVertex {
     std::uint32_t of = 0;
     glm::vec3 normal{0.0F};
 };
 
-struct Level {
-    std::vector<std::uint32_t> indices;  // of the mesh's vertices; above them, of `added`
+struct LevelOfDetail {
+    std::vector<std::uint32_t> indices;  // indices of the mesh's vertices, then of `added`
     std::vector<AddedVertex> added;
-    float error = 0.0F;  // m: how far its surface may be from the finest
+    float error = 0.0F;  // m: largest distance from the finest level
 };
 
 struct LevelOptions {
-    std::size_t levels = 6;    // at most
-    std::size_t least = 600;   // indices below which nothing is made coarser
-    float most_error = 0.1F;   // of the mesh's size
-    float worthwhile = 0.75F;  // a level has at most this share of the indices of the one before
-    float crease = 1.05F;      // rad; faces that meet at more than this have an edge between them
-    bool weld = true;          // vertices at one place are one, whatever else they say
-    float turned = 0.1F;       // rad; a normal that is further from its faces than this is made anew
+    std::size_t levels = 6;         // maximum number of levels
+    std::size_t min_indices = 600;  // meshes with fewer indices are not simplified
+    float max_error = 0.1F;         // fraction of the mesh's size
+    float max_ratio = 0.75F;        // a level has at most this fraction of the previous level's indices
+    float crease = 1.05F;           // rad; a larger angle between faces is a hard edge
+    bool weld = true;               // merge vertices at one position, whatever their other attributes
+    float max_normal_error = 0.1F;  // rad; a normal that deviates more from its faces is replaced
 };
 
-// Each level has about half the triangles of the one before; fewer levels where the shape doesn't give more.
+// Each level has about half the triangles of the previous one; there are fewer levels if the mesh cannot be
+// simplified further.
 //
-// Welded, the mesh is simplified as a shape, whatever its vertices say at hard edges, and every corner takes
-// the vertex that faces as it does; otherwise vertices that share a position with others stay on their edge,
-// which is for what bends and what has maps. Where a normal no longer fits the triangles around (of a fillet
-// that is gone, at the rim of a flat), there is a new vertex with one that does. Without normals there are
-// none, and nothing is welded.
-std::vector<Level> coarser_levels(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                                  std::span<const std::uint32_t> indices, const LevelOptions& options = {});
+// With `weld`, the mesh is simplified regardless of attribute seams, and every corner takes the vertex whose
+// normal fits its face. Without `weld`, vertices that share a position stay on their seam; use this for
+// deformable and textured meshes. Where a normal no longer fits its faces (a removed fillet, the rim of a
+// flat), a vertex with a fitting normal is added. Without normals, no vertices are added and none are welded.
+std::vector<LevelOfDetail> coarser_levels(std::span<const glm::vec3> positions,
+                                          std::span<const glm::vec3> normals,
+                                          std::span<const std::uint32_t> indices,
+                                          const LevelOptions& options = {});
 
 }  // namespace bolt::assets

@@ -1,7 +1,6 @@
-// A glTF 2.0 scene as plain values on the CPU: what an importer fills, an exporter writes and a renderer
-// uploads. Names and meanings are those of the glTF 2.0 specification (Khronos, 2021); indices refer to the
-// vectors of Model, −1: none. Frame: metres, right-handed, Y up. Colours linear. Every member has a default,
-// so that designated initializers may name only what matters.
+// A glTF 2.0 scene as plain values on the CPU. Names and meanings follow the glTF 2.0 specification (Khronos,
+// 2021). Indices refer to the vectors of Model; -1: none. Frame: metres, right-handed, Y up. Colours are
+// linear. Every member has a default, so that designated initializers need to name only some of them.
 #pragma once
 
 #include <array>
@@ -26,12 +25,12 @@ enum class Topology : std::uint8_t {
     triangle_fan
 };
 
-// Positions and normals that a morph target adds; empty: none.
+// Displacements of a morph target; empty: none.
 struct MorphTarget {
     std::vector<glm::vec3> positions = {}, normals = {}, tangents = {};
 };
 
-// Vertex streams are either empty or as long as positions. Indices empty: vertices in their order.
+// Vertex streams are empty or as long as `positions`. Empty indices: vertices in order.
 struct Primitive {
     Topology topology = Topology::triangles;
     std::vector<glm::vec3> positions = {};
@@ -49,7 +48,7 @@ struct Primitive {
 struct Mesh {
     std::string name = {};
     std::vector<Primitive> primitives = {};
-    std::vector<float> weights = {};  // of the morph targets
+    std::vector<float> weights = {};  // default weights of the morph targets
 };
 
 struct Node {
@@ -70,7 +69,7 @@ struct Skin {
     int skeleton = -1;
 };
 
-// KHR_texture_transform included.
+// With KHR_texture_transform.
 struct TextureRef {
     int texture = -1;
     int texcoord = 0;
@@ -104,7 +103,7 @@ struct Material {
     TextureRef specular_texture = {}, specular_color_texture = {};
 };
 
-// Encoded file (PNG or JPEG) or decoded pixels; `pixels` empty: not decoded.
+// An encoded file (PNG or JPEG) or decoded pixels; empty `pixels`: not decoded.
 struct Image {
     std::string name = {}, mime_type = {};
     std::vector<std::uint8_t> encoded = {};
@@ -124,7 +123,7 @@ struct Texture {
 
 enum class LightType : std::uint8_t { directional, point, spot };
 
-// KHR_lights_punctual; shines along the node's −Z.
+// KHR_lights_punctual; it shines along the node's -Z.
 struct Light {
     std::string name = {};
     LightType type = LightType::point;
@@ -137,7 +136,7 @@ struct Light {
 struct Camera {
     std::string name = {};
     bool perspective = true;
-    float yfov = 0.8F, aspect = 0.0F;  // rad; 0: the window's
+    float yfov = 0.8F, aspect = 0.0F;  // rad; 0: the window's aspect ratio
     float xmag = 1.0F, ymag = 1.0F;
     float znear = 0.01F, zfar = 0.0F;  // 0: infinite
 };
@@ -150,7 +149,7 @@ struct Channel {
     Path path = Path::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times = {};   // s, rising
-    std::vector<float> values = {};  // 3, 4 or n floats a key; three times as many when cubic
+    std::vector<float> values = {};  // 3, 4 or n floats per key; three times as many for cubic splines
 };
 
 struct Animation {
@@ -161,7 +160,7 @@ struct Animation {
 struct Model {
     std::string generator = {}, copyright = {};
     std::vector<Node> nodes = {};
-    std::vector<int> roots = {};  // of the default scene
+    std::vector<int> roots = {};  // root nodes of the default scene
     std::vector<Mesh> meshes = {};
     std::vector<Material> materials = {};
     std::vector<Texture> textures = {};

@@ -15,7 +15,7 @@ glm::mat4 local_transform(const NodePose& node) {
            glm::scale(glm::mat4(1.0F), node.scale);
 }
 
-// Appendix C.3: along the shorter way, and straight where the angle is too small to divide by its sine.
+// Appendix C.3: along the shorter arc, and linear if the angle is too small to divide by its sine.
 glm::quat slerp(const glm::quat& from, const glm::quat& to, float t) {
     const float cosine = glm::dot(from, to);
     const float side = cosine < 0.0F ? -1.0F : 1.0F;
@@ -27,7 +27,7 @@ glm::quat slerp(const glm::quat& from, const glm::quat& to, float t) {
 
 void set_rotation(std::vector<float>& value, const glm::quat& q) { value = {q.x, q.y, q.z, q.w}; }
 
-void descend(const Model& model, const Pose& pose, std::vector<glm::mat4>& world) {
+void descend(const Model& model, const ModelPose& pose, std::vector<glm::mat4>& world) {
     std::vector<bool> is_child(model.nodes.size(), false);
     for (const Node& node : model.nodes)
         for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
@@ -48,8 +48,8 @@ void descend(const Model& model, const Pose& pose, std::vector<glm::mat4>& world
 
 }  // namespace
 
-Pose rest_pose(const Model& model) {
-    Pose pose;
+ModelPose rest_pose(const Model& model) {
+    ModelPose pose;
     for (const Node& node : model.nodes) {
         NodePose one{node.translation, node.rotation, node.scale, node.weights};
         if (node.mesh >= 0 && one.weights.empty()) {
@@ -68,8 +68,8 @@ std::vector<float> sample(const Channel& channel, float seconds) {
     const std::size_t keys = channel.times.size();
     if (keys == 0) return {};
     const std::size_t width = channel.values.size() / keys / (cubic ? 3 : 1);
-    // Of a key: its value, or, of a cubic one, 0: the tangent that comes in, 1: the value, 2: the one that
-    // leaves.
+    // Returns a key's value. For cubic splines `part` selects 0: the in-tangent, 1: the value, 2: the
+    // out-tangent.
     const auto at = [&](std::size_t key, std::size_t which) {
         return channel.values.data() + (cubic ? 3 * key + which : key) * width;
     };
@@ -103,7 +103,7 @@ std::vector<float> sample(const Channel& channel, float seconds) {
     return value;
 }
 
-void apply(const Animation& animation, float seconds, Pose& pose) {
+void apply(const Animation& animation, float seconds, ModelPose& pose) {
     for (const Channel& channel : animation.channels) {
         if (channel.node < 0 || channel.times.empty()) continue;
         NodePose& node = pose[static_cast<std::size_t>(channel.node)];
@@ -132,7 +132,7 @@ float duration(const Animation& animation) {
     return last;
 }
 
-std::vector<glm::mat4> world_transforms(const Model& model, const Pose& pose) {
+std::vector<glm::mat4> world_transforms(const Model& model, const ModelPose& pose) {
     std::vector<glm::mat4> world(model.nodes.size(), glm::mat4(1.0F));
     descend(model, pose, world);
     return world;
@@ -147,7 +147,7 @@ std::vector<glm::mat4> joint_matrices(const Skin& skin, std::span<const glm::mat
     return matrices;
 }
 
-void set_rest(Model& model, const Pose& pose) {
+void set_rest(Model& model, const ModelPose& pose) {
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
         Node& node = model.nodes[i];
         node.translation = pose[i].translation;

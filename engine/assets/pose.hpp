@@ -1,5 +1,4 @@
-// Where everything in a model is at one moment: poses, the animations that make them, and the matrices that
-// bend a skin.
+// Poses of a model's nodes, the animations that define them, and joint matrices of skins.
 //   glTF 2.0 specification (Khronos, 2021), sections 3.7.3 (skins), 3.11 (animations) and appendix C
 //   (interpolation).
 #pragma once
@@ -15,32 +14,32 @@ struct NodePose {
     glm::vec3 translation{0.0F};
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec3 scale{1.0F};
-    std::vector<float> weights = {};  // of its mesh's morph targets
+    std::vector<float> weights = {};  // morph target weights of its mesh
 };
 
-// Beside model.nodes.
-using Pose = std::vector<NodePose>;
+// One entry per node, in the order of model.nodes.
+using ModelPose = std::vector<NodePose>;
 
-// What the nodes say of themselves; weights that a node does not give are those of its mesh.
-Pose rest_pose(const Model& model);
+// Returns the nodes' own transforms. A node without weights has those of its mesh.
+ModelPose rest_pose(const Model& model);
 
-// Moves what the animation moves to where it is at that time: as at its first and last key before and after
-// them.
-void apply(const Animation& animation, float seconds, Pose& pose);
+// Sets the animated values in `pose` for a time in seconds. Before the first and after the last key, that
+// key's value holds.
+void apply(const Animation& animation, float seconds, ModelPose& pose);
 
-// When its last key is, s.
+// Returns the time of the last key, in s.
 float duration(const Animation& animation);
 
-// One channel's value: 3, 4 (a unit quaternion, x y z w) or as many numbers as there are weights.
+// Evaluates one channel: 3 values, 4 (a unit quaternion, x y z w) or one per weight.
 std::vector<float> sample(const Channel& channel, float seconds);
 
-// Of every node, from the scene's origin.
-std::vector<glm::mat4> world_transforms(const Model& model, const Pose& pose);
+// Returns the world transform of every node.
+std::vector<glm::mat4> world_transforms(const Model& model, const ModelPose& pose);
 
-// What takes a vertex as it was bound to where the joints are, for each joint of the skin.
+// Returns for each joint of the skin the transform from the bind pose to the joint's current pose.
 std::vector<glm::mat4> joint_matrices(const Skin& skin, std::span<const glm::mat4> world);
 
-// The model with this pose as its rest.
-void set_rest(Model& model, const Pose& pose);
+// Makes this pose the model's rest pose.
+void set_rest(Model& model, const ModelPose& pose);
 
 }  // namespace bolt::assets

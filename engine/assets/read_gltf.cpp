@@ -9,13 +9,12 @@ namespace {
 
 constexpr std::size_t file_limit = std::size_t{2} << 30U;
 
-// Accessors may share bytes, and sparse ones stand for many zeros; this many times a file's size is still a
-// model, and more is an attack on memory.
+// Accessors may share bytes, and sparse accessors expand to many zeros. A valid model may expand to this
+// multiple of the file size; more is treated as an attack on memory.
 constexpr std::size_t unpacking_factor = 32;
 
-// tinygltf gets the JSON alone, without what it would read beyond it or trip over: buffers and images, whose
-// bytes are loaded already; indices, which it wants to have a buffer view; animations, of which it drops
-// some.
+// tinygltf parses only the part of the JSON that it handles safely. Removed are buffers and images, which are
+// loaded already, indices, for which it requires a buffer view, and animations, of which it drops some.
 Status parse_typed(Document& document) {
     nlohmann::json json = document.json;
     json.erase("buffers");
@@ -31,11 +30,11 @@ Status parse_typed(Document& document) {
     try {
         if (!parser.LoadASCIIFromString(&document.gltf, &errors, &warnings, text.c_str(),
                                         static_cast<unsigned>(text.size()), ""))
-            return bad(document, "", "tinygltf: " + errors.substr(0, errors.find('\n')));
+            return error_at(document, "", "tinygltf: " + errors.substr(0, errors.find('\n')));
     } catch (const std::exception& error) {
-        return bad(document, "", std::string("tinygltf: ") + error.what());
+        return error_at(document, "", std::string("tinygltf: ") + error.what());
     }
-    // Some of what it cannot parse it leaves out, after which indices would mean something else.
+    // tinygltf omits entries that it cannot parse, which would shift the indices.
     const auto kept = [&](const char* section, std::size_t count) {
         return count == (json.contains(section) ? json[section].size() : 0);
     };
@@ -47,13 +46,13 @@ Status parse_typed(Document& document) {
         kept("samplers", document.gltf.samplers.size()) && kept("textures", document.gltf.textures.size());
     for (std::size_t i = 0; all && i < document.gltf.meshes.size(); ++i)
         all = json["meshes"][i]["primitives"].size() == document.gltf.meshes[i].primitives.size();
-    if (!all) return bad(document, "", "tinygltf: leaves out a part of the file");
+    if (!all) return error_at(document, "", "tinygltf omits a part of the file");
     return {};
 }
 
 Result<Model> read(Document& document) {
     Status done = parse_document(document);
-    if (done) done = check_shape(document);
+    if (done) done = check_schema(document);
     if (done) done = load_buffers(document);
     if (done) done = check_views(document);
     if (done) done = load_images(document);
@@ -86,9 +85,8 @@ Result<Model> parse_gltf(std::string bytes, const std::filesystem::path& path) {
 }
 
 Result<Model> read_gltf(const std::filesystem::path& path) {
-    auto bytes = read_file(path, file_limit, ErrorCode::bad_content);
-    if (!bytes) return fail(bytes.error());
-    return parse_gltf(std::move(*bytes), path);
+    BOLT_TRY_ASSIGN(auto bytes, read_file(path, file_limit, ErrorCode::bad_content));
+    return parse_gltf(std::move(bytes), path);
 }
 
 }  // namespace bolt::assets

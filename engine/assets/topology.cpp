@@ -27,7 +27,7 @@ std::vector<std::uint32_t> triangle_indices(const Primitive& primitive) {
     }
     std::vector<std::uint32_t> triangles;
     for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-        // glTF 2.0, section 3.7.2.1: every second triangle of a strip is turned round.
+        // glTF 2.0, section 3.7.2.1: every second triangle of a strip has reversed winding.
         if (primitive.topology == Topology::triangle_strip)
             triangles.insert(triangles.end(), {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
         if (primitive.topology == Topology::triangle_fan)

@@ -1,4 +1,4 @@
-// Triangles of any topology, and where nodes are in the world.
+// Triangulation of primitives, and node transforms.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,14 @@
 
 namespace bolt::assets {
 
-// Three vertex indices a triangle, wound as glTF winds strips and fans; empty for points and lines.
+// Returns three vertex indices per triangle, wound as glTF defines for strips and fans; empty for points and
+// lines.
 std::vector<std::uint32_t> triangle_indices(const Primitive& primitive);
 
 glm::mat4 local_transform(const Node& node);
 
-// Of every node, in the order of model.nodes; nodes outside the scene count from the scene's origin.
+// Returns the world transforms of all nodes in the order of model.nodes; nodes outside the scene are relative
+// to its origin.
 std::vector<glm::mat4> world_transforms(const Model& model);
 
 }  // namespace bolt::assets

@@ -17,7 +17,7 @@ void append_chunk(std::string& bytes, const char (&type)[5], const std::string& 
     bytes += chunk;
 }
 
-// Header, JSON chunk padded with spaces, binary chunk padded with zeros (it is already).
+// Concatenates the header, the JSON chunk padded with spaces, and the binary chunk, which is already padded.
 std::string container(std::string json, const std::string& chunk) {
     json.resize((json.size() + 3U) & ~std::size_t{3U}, ' ');
     std::string bytes = "glTF";
@@ -28,13 +28,12 @@ std::string container(std::string json, const std::string& chunk) {
     return bytes;
 }
 
-// One section of the file: an entry for every element of `count`.
+// Writes one section of the file with `count` entries.
 template <class Function>
 Status section(Json& root, const char* key, std::size_t count, Function write) {
     for (std::size_t i = 0; i < count; ++i) {
-        Result<Json> entry = write(i);
-        if (!entry) return fail(entry.error());
-        root[key].push_back(std::move(*entry));
+        BOLT_TRY_ASSIGN(auto entry, write(i));
+        root[key].push_back(std::move(entry));
     }
     return {};
 }
@@ -98,10 +97,10 @@ Result<std::string> encode_glb(const Model& model, const WriteOptions& options) 
     try {
         json = root.dump();
     } catch (const nlohmann::json::exception&) {
-        return fail(broken("", "a name or text of the model is not UTF-8"));
+        return fail(error_at("", "a name or text of the model is not UTF-8"));
     }
     constexpr std::size_t limit = 0xFFFFFFFFU;
-    if (json.size() + chunk.size() + 64 > limit) return fail(broken("", "a .glb holds at most 4 GiB"));
+    if (json.size() + chunk.size() + 64 > limit) return fail(error_at("", "the .glb exceeds 4 GiB"));
     return container(std::move(json), chunk);
 }
 

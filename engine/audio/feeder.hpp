@@ -1,6 +1,5 @@
-// Samples on their way to a sink: it is opened, fed as fast as it takes them, and opened again when it is
-// lost. Without one there is silence and a reason, and the program goes on. Pure but for its sink: it is told
-// the time.
+// Feeds samples to a sound device: opens the sink, keeps it filled, and reopens it after a loss. Without a
+// device the program stays silent and continues. The time is a parameter, so that tests control it.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +9,29 @@
 
 namespace bolt::audio {
 
-// Gives the next samples; called only where feeder or speaker says.
+// Provides the next samples. Called only by Feeder and Speaker.
 using Fill = std::function<void(std::span<float>)>;
 
-struct Report {
+struct PlaybackStatus {
     bool playing = false;
-    std::string device;   // the newest that was opened
-    std::string trouble;  // why nothing is heard; empty while playing
+    std::string device;   // the last one that was opened
+    std::string problem;  // why there is no sound; empty while playing
     std::uint64_t openings = 0, losses = 0, blocks = 0;
 };
 
-// Between attempts to open a sink, s: a card that comes back is soon heard, and one that never does costs
-// nothing. Each attempt that fails doubles the pause.
+// The pause between attempts to open a sink, s. A failed attempt doubles it: a device that returns is found
+// soon, and a missing one costs almost nothing.
 inline constexpr double first_pause = 1.0, longest_pause = 64.0;
 
 class Feeder {
   public:
     Feeder(OpenSink open, Fill fill) : open_(std::move(open)), fill_(std::move(fill)) {}
 
-    // Opens if it is time to, and gives the sink what it has room for. `now` in s, from any beginning.
-    void turn(double now, double volume);
+    // Opens the sink if an attempt is due, and fills it. `now` in s, from any epoch.
+    void update(double now, double volume);
     void close() { sink_.reset(); }
 
-    [[nodiscard]] const Report& report() const { return report_; }
+    [[nodiscard]] const PlaybackStatus& status() const { return status_; }
 
   private:
     void open(double now);
@@ -42,9 +41,9 @@ class Feeder {
     OpenSink open_;
     Fill fill_;
     std::unique_ptr<Sink> sink_;
-    Report report_;
+    PlaybackStatus status_;
     double next_attempt_ = 0.0, pause_ = first_pause;
-    double volume_ = -1.0;  // that the sink has
+    double volume_ = -1.0;  // the sink's volume
     bool tried_ = false;
 };
 

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/audio/pcm.hpp"
+#include "engine/audio/sink.hpp"
 
 namespace bolt::audio {
 
@@ -32,15 +32,15 @@ tl::unexpected<Error> no_sound(std::string what) {
 tl::unexpected<Error> gone() {
     Error error;
     error.code = ErrorCode::no_device;
-    error.what = "the sound device is gone";
+    error.what = "the sound device was disconnected";
     error.lost = true;
     return fail(std::move(error));
 }
 
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
-// ALSA's library writes eight lines to the console where there is no card; what is wrong is said once, by us.
-// It is there only if OpenAL loaded it, so nothing is linked.
+// Without a sound card, ALSA prints eight lines to the console; silence them, because the error is reported
+// once. ALSA is present only if OpenAL loaded it, so it is not linked.
 void hush_alsa() {
     void* alsa = dlopen("libasound.so.2", RTLD_LAZY);
     if (alsa == nullptr) return;
@@ -64,12 +64,12 @@ class OpenAl final : public Sink {
     }
 
     Status prepare() {
-        if (!set_context(context_.get())) return no_sound("OpenAL does not use its context");
+        if (!set_context(context_.get())) return no_sound("OpenAL cannot activate its context");
         alGetError();
         alGenBuffers(static_cast<ALsizei>(buffers_.size()), buffers_.data());
         alGenSources(1, &source_);
-        if (alGetError() != AL_NO_ERROR) return no_sound("OpenAL makes no source");
-        alSourcei(source_, AL_SOURCE_RELATIVE, AL_TRUE);  // at the ears, wherever a listener is
+        if (alGetError() != AL_NO_ERROR) return no_sound("OpenAL cannot create a source");
+        alSourcei(source_, AL_SOURCE_RELATIVE, AL_TRUE);  // independent of the listener's position
         free_.assign(buffers_.begin(), buffers_.end());
         return {};
     }
@@ -97,7 +97,7 @@ class OpenAl final : public Sink {
     }
 
     Status play(std::span<const float, block> samples) override {
-        if (free_.empty()) return fail(ErrorCode::failed, "the sound device has no room");
+        if (free_.empty()) return fail(ErrorCode::failed, "the sound device has no free buffer");
         std::array<std::int16_t, block> pcm{};
         std::transform(samples.begin(), samples.end(), pcm.begin(), to_pcm16);
         const ALuint buffer = free_.back();
@@ -115,15 +115,15 @@ class OpenAl final : public Sink {
     }
 
   private:
-    // At first, and after it ran dry: then it has stopped by itself. Not before it has all it takes, or it
-    // would run dry again at once.
+    // Start playback at first and after an underrun, which stops the source; wait until the queue is full to
+    // avoid another underrun.
     void play_on() {
         ALint state = AL_INITIAL;
         alGetSourcei(source_, AL_SOURCE_STATE, &state);
         if (state != AL_PLAYING && free_.empty()) alSourcePlay(source_);
     }
 
-    // The context of this thread alone, where OpenAL knows that: nobody else's sound is disturbed.
+    // Set the context for this thread only if OpenAL supports it, so that other contexts are not disturbed.
     bool set_context(ALCcontext* context) {
         if (alcIsExtensionPresent(nullptr, "ALC_EXT_thread_local_context") != ALC_TRUE)
             return alcMakeContextCurrent(context) == ALC_TRUE;
@@ -144,12 +144,12 @@ class OpenAl final : public Sink {
 Result<std::unique_ptr<Sink>> open_openal() {
     hush_alsa();
     Device device(alcOpenDevice(nullptr));
-    if (!device) return no_sound("no sound device opens");
+    if (!device) return no_sound("no sound device can be opened");
     const std::array<ALCint, 3> wished{ALC_FREQUENCY, rate, 0};
     Context context(alcCreateContext(device.get(), wished.data()));
-    if (!context) return no_sound("the sound device takes no sound");
+    if (!context) return no_sound("the sound device accepts no context");
     auto sink = std::make_unique<OpenAl>(std::move(device), std::move(context));
-    if (Status ready = sink->prepare(); !ready) return fail(ready.error());
+    BOLT_TRY(sink->prepare());
     return sink;
 }
 

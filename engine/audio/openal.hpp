@@ -1,12 +1,12 @@
-// The default output of the machine through OpenAL Soft (version 1.19 is what Debian 12 has).
+// The default sound output through OpenAL Soft (Debian 12 has version 1.19).
 #pragma once
 
 #include "engine/audio/sink.hpp"
 
 namespace bolt::audio {
 
-// To be opened, used and closed by one thread. What the user of the machine set up counts: ALSOFT_DRIVERS and
-// alsoft.conf choose among PulseAudio, ALSA and others.
+// Open, use and close it on one thread. The user's settings apply: ALSOFT_DRIVERS and alsoft.conf select
+// PulseAudio, ALSA or others.
 Result<std::unique_ptr<Sink>> open_openal();
 
 }  // namespace bolt::audio

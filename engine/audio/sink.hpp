@@ -1,8 +1,11 @@
-// What makes samples heard, for as long as it can: a sound card, or whatever a test puts in its place. One
-// channel, at one rate, in blocks of one size; libraries below know how to change that for a card.
+// An output for samples: a sound card, or a substitute in tests. Mono, with one sample rate and one block
+// size; the system's sound libraries convert them for the device.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -12,10 +15,15 @@
 
 namespace bolt::audio {
 
-inline constexpr int rate = 48000;         // samples a second
-inline constexpr std::size_t block = 480;  // samples: 10 ms
-inline constexpr std::size_t in_queue =
-    4;  // blocks that wait in a sink at most: 40 ms from being made to being heard
+inline constexpr int rate = 48000;          // samples per second
+inline constexpr std::size_t block = 480;   // samples: 10 ms
+inline constexpr std::size_t in_queue = 4;  // maximum number of queued blocks: 40 ms of latency
+
+// Converts a sample from [-1, 1] to 16 bits, rounded; values outside are clamped, NaN becomes silence.
+inline std::int16_t to_pcm16(float sample) {
+    if (std::isnan(sample)) return 0;
+    return static_cast<std::int16_t>(std::lround(32767.0F * std::clamp(sample, -1.0F, 1.0F)));
+}
 
 class Sink {
   public:
@@ -26,7 +34,8 @@ class Sink {
 
     [[nodiscard]] virtual std::string name() const = 0;
 
-    // Blocks that it takes now. An error, here and below: it is gone, and there will be no more from it.
+    // Returns how many blocks can be queued now. An error, here and below, means that the device is lost for
+    // good.
     virtual Result<std::size_t> room() = 0;
     virtual Status play(std::span<const float, block> samples) = 0;
     virtual Status set_volume(double volume) = 0;  // 0 … 1

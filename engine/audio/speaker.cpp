@@ -16,14 +16,14 @@ namespace bolt::audio {
 
 namespace {
 
-// Half a block: the sink is looked at twice for every block that it plays.
-constexpr auto look_every = std::chrono::milliseconds(5);
-// Where there is no sink to feed, only the next attempt has to be in time.
-constexpr auto idle_every = std::chrono::milliseconds(200);
+// Half a block, so that the sink is polled twice per block.
+constexpr auto feed_interval = std::chrono::milliseconds(5);
+// Without a sink, only the next attempt to open it is due.
+constexpr auto retry_interval = std::chrono::milliseconds(200);
 
-// Whether somebody who looks has to hear of it; of blocks alone ten times a second.
-bool changed(const Report& now, const Report& before) {
-    return now.playing != before.playing || now.trouble != before.trouble ||
+// Whether to publish the status; the block count alone is published ten times per second.
+bool changed(const PlaybackStatus& now, const PlaybackStatus& before) {
+    return now.playing != before.playing || now.problem != before.problem ||
            now.openings != before.openings || now.losses != before.losses || now.blocks >= before.blocks + 10;
 }
 
@@ -34,26 +34,26 @@ struct Speaker::Shared {
 
     Feeder feeder;
     std::atomic<double> volume{1.0};
-    TripleBuffer<Report> reports;
+    TripleBuffer<PlaybackStatus> published;
     std::mutex mutex;
-    std::condition_variable_any woken;
-    std::optional<bool> told_playing;  // what news() said last
-    std::jthread thread;               // last: it ends before what it uses
+    std::condition_variable_any stop_condition;
+    std::optional<bool> reported_playing;  // last reported by status_change()
+    std::jthread thread;                   // last: joins before the members that it uses are destroyed
 
     void run(const std::stop_token& stop) {
         using Clock = std::chrono::steady_clock;
         const Clock::time_point begin = Clock::now();
-        Report before;
+        PlaybackStatus before;
         while (!stop.stop_requested()) {
             const double now = std::chrono::duration<double>(Clock::now() - begin).count();
-            feeder.turn(now, volume.load(std::memory_order_relaxed));
-            if (const Report& report = feeder.report(); changed(report, before)) {
-                before = report;
-                reports.write(report);
+            feeder.update(now, volume.load(std::memory_order_relaxed));
+            if (const PlaybackStatus& current = feeder.status(); changed(current, before)) {
+                before = current;
+                published.write(current);
             }
             std::unique_lock lock(mutex);
-            const auto pause = feeder.report().playing ? look_every : idle_every;
-            woken.wait_for(lock, stop, pause, [] { return false; });
+            const auto pause = feeder.status().playing ? feed_interval : retry_interval;
+            stop_condition.wait_for(lock, stop, pause, [] { return false; });
         }
         feeder.close();
     }
@@ -71,26 +71,26 @@ Result<Speaker> Speaker::start(Fill fill, OpenSink open) {
     try {
         shared->thread = std::jthread([s = shared.get()](const std::stop_token& stop) { s->run(stop); });
     } catch (const std::system_error& error) {
-        return fail(ErrorCode::failed, fmt::format("the thread for sound does not start: {}", error.what()));
+        return fail(ErrorCode::failed, fmt::format("the sound thread cannot be started: {}", error.what()));
     }
     return Speaker(std::move(shared));
 }
 
 void Speaker::set_volume(double volume) { shared_->volume.store(volume, std::memory_order_relaxed); }
 
-const Report& Speaker::report() {
-    shared_->reports.update();
-    return shared_->reports.latest();
+const PlaybackStatus& Speaker::status() {
+    shared_->published.update();
+    return shared_->published.latest();
 }
 
-std::optional<std::string> Speaker::news() {
+std::optional<std::string> Speaker::status_change() {
     Shared& s = *shared_;
-    const Report& now = report();
-    if (!now.playing && now.trouble.empty()) return std::nullopt;  // it has not tried yet
-    if (s.told_playing == now.playing) return std::nullopt;
-    s.told_playing = now.playing;
+    const PlaybackStatus& now = status();
+    if (!now.playing && now.problem.empty()) return std::nullopt;  // no attempt has been made yet
+    if (s.reported_playing == now.playing) return std::nullopt;
+    s.reported_playing = now.playing;
     if (now.playing) return fmt::format("sound: {}", now.device);
-    return fmt::format("no sound: {}", now.trouble);
+    return fmt::format("no sound: {}", now.problem);
 }
 
 }  // namespace bolt::audio

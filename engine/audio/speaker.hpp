@@ -1,5 +1,5 @@
-// What is heard while a program runs: a thread of its own asks for samples whenever the sound device has
-// room, so that a slow picture is no gap in the sound. Without a device it is silent and says why.
+// Sound output on its own thread, which requests samples whenever the device has room, so that slow frames
+// cause no gaps. Without a device it is silent and reports the reason.
 #pragma once
 
 #include <optional>
@@ -10,22 +10,22 @@ namespace bolt::audio {
 
 class Speaker {
   public:
-    // Returns at once; the device is opened by the thread, and again when it was lost. `fill` is called by
-    // that thread only, block by block; it must neither throw nor wait.
+    // Returns at once; the thread opens the device and reopens it after a loss. Only that thread calls
+    // `fill`, block by block; `fill` must not throw or block.
     static Result<Speaker> start(Fill fill);
     static Result<Speaker> start(Fill fill, OpenSink open);
 
     Speaker(Speaker&&) noexcept;
     Speaker& operator=(Speaker&&) noexcept;
-    ~Speaker();  // stops
+    ~Speaker();  // stops the thread
 
-    void set_volume(double volume);  // 0 … 1; for any caller
+    void set_volume(double volume);  // 0 … 1; thread-safe
 
-    // As it was a moment ago. For one caller, the same as news().
-    const Report& report();
+    // The most recent status. For one calling thread, which also calls status_change().
+    const PlaybackStatus& status();
 
-    // A line for people, once for every change: that there is no sound and why, that it plays (again).
-    std::optional<std::string> news();
+    // Returns a line for the user once after every change: that sound plays (again), or why there is none.
+    std::optional<std::string> status_change();
 
   private:
     struct Shared;

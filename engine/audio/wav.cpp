@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/audio/pcm.hpp"
+#include "engine/audio/sink.hpp"
 
 namespace bolt::audio {
 
@@ -20,8 +20,8 @@ void put(std::string& bytes, std::uint32_t value, int count) {
     for (int i = 0; i < count; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xFFU);
 }
 
-// RIFF/WAVE as Microsoft and IBM published it (Multimedia Programming Interface and Data Specifications 1.0,
-// 1991): little-endian chunks, `fmt ` with plain PCM, `data`.
+// RIFF/WAVE (IBM and Microsoft, Multimedia Programming Interface and Data Specifications 1.0, 1991):
+// little-endian chunks, `fmt ` with plain PCM, `data`.
 std::string header(int rate, std::uint32_t data_bytes) {
     const auto samples_a_second = static_cast<std::uint32_t>(rate);
     std::string bytes = "RIFF";
@@ -31,8 +31,8 @@ std::string header(int rate, std::uint32_t data_bytes) {
     put(bytes, 1, 2);  // PCM
     put(bytes, 1, 2);  // channels
     put(bytes, samples_a_second, 4);
-    put(bytes, 2 * samples_a_second, 4);  // bytes a second
-    put(bytes, 2, 2);                     // bytes a sample
+    put(bytes, 2 * samples_a_second, 4);  // bytes per second
+    put(bytes, 2, 2);                     // bytes per sample
     put(bytes, 16, 2);                    // bits
     bytes += "data";
     put(bytes, data_bytes, 4);
@@ -82,17 +82,17 @@ WavWriter::WavWriter(WavWriter&& other) noexcept = default;
 WavWriter& WavWriter::operator=(WavWriter&& other) noexcept = default;
 WavWriter::~WavWriter() = default;
 
-Result<WavWriter> WavWriter::create(const std::filesystem::path& path, int rate) {
+Result<WavWriter> WavWriter::create(const std::filesystem::path& path, int sample_rate) {
     auto state = std::make_unique<State>();
     std::error_code ignored;
     const std::filesystem::file_status target = std::filesystem::status(path, ignored);
     state->special = std::filesystem::exists(target) && !std::filesystem::is_regular_file(target);
     state->path = state->part = path;
     if (!state->special) state->part += ".part";
-    state->rate = rate;
+    state->rate = sample_rate;
     state->file.reset(std::fopen(state->part.c_str(), "wb"));
     if (!state->file) return fail(state->fail_with(std::strerror(errno)).error());
-    if (Status begun = state->put_bytes(header(rate, unknown)); !begun) return fail(begun.error());
+    BOLT_TRY(state->put_bytes(header(sample_rate, unknown)));
     return WavWriter(std::move(state));
 }
 
@@ -112,8 +112,7 @@ Status WavWriter::finish() {
     if (s.broken) return fail(*s.broken);
     if (!s.special) {
         if (std::fseek(s.file.get(), 0, SEEK_SET) != 0) return s.fail_with(std::strerror(errno));
-        if (Status told = s.put_bytes(header(s.rate, static_cast<std::uint32_t>(2 * s.samples))); !told)
-            return told;
+        BOLT_TRY(s.put_bytes(header(s.rate, static_cast<std::uint32_t>(2 * s.samples))));
     }
     if (std::fclose(s.file.release()) != 0) {
         const std::string why = std::strerror(errno);

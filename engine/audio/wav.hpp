@@ -1,4 +1,4 @@
-// A WAV file that is written as its samples come, however many: 16 bits, one channel.
+// Writes a WAV file of any length as its samples arrive: 16 bits, mono.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace bolt::audio {
 
-// Until finish() it is `path`.part, and gone with the writer: no half a file ever has the name. What is no
-// regular file (a pipe to a program that makes videos) is written to as it is, its length said as "unknown",
-// which FFmpeg and others take. After an error every later call gives it again.
+// Until finish() the file is named `path`.part; the destructor removes it, so that `path` is never
+// incomplete. If `path` is a pipe or a device, it is written to directly with an "unknown" length, which
+// FFmpeg and others accept. After an error every later call returns it again.
 class WavWriter {
   public:
-    static Result<WavWriter> create(const std::filesystem::path& path, int rate);
+    static Result<WavWriter> create(const std::filesystem::path& path, int sample_rate);
     WavWriter(WavWriter&& other) noexcept;
     WavWriter& operator=(WavWriter&& other) noexcept;
     ~WavWriter();
@@ -30,7 +30,7 @@ class WavWriter {
     std::unique_ptr<State> state_;
 };
 
-// Samples that the format's 32-bit lengths have room for: at 48,000 a second more than twelve hours.
+// The limit of the format's 32-bit lengths: more than twelve hours at 48,000 samples per second.
 inline constexpr std::uint64_t most_wav_samples = (0xFFFFFFFFULL - 36) / 2;
 
 }  // namespace bolt::audio

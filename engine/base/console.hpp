@@ -1,4 +1,4 @@
-// What programs say when something is wrong: errors to stderr, and the exit code that goes with them.
+// Console output of programs: errors to stderr with their exit code, results to stdout.
 #pragma once
 
 #include <span>
@@ -9,13 +9,13 @@
 
 namespace bolt {
 
-// Prints "program: message" and returns the exit code.
-int complain(const Error& error);
+// Prints the message to stderr and returns the exit code.
+int print_error(const Error& error);
 
-// All of them, a line each, and the most telling exit code (the first one's); 0 when there are none.
-int complain(std::span<const Error> errors);
+// Prints each message on its own line and returns the exit code of the first error; 0 if there are none.
+int print_error(std::span<const Error> errors);
 
-// Writes to the standard output and makes sure that it got there: a full disk or a closed pipe is an error.
-Status say(std::string_view text);
+// Writes to the standard output and flushes it. Fails if the output is a full disk or a closed pipe.
+Status print(std::string_view text);
 
 }  // namespace bolt

@@ -14,7 +14,9 @@ std::string Error::message() const {
     }
     if (!pointer.empty()) text += pointer + ": ";
     text += what;
-    if (!expected.empty()) text += "; " + expected;
+    if (expected.empty()) return text;
+    const bool complete = expected.starts_with("expected ") || expected.starts_with("did you mean ");
+    text += (complete ? "; " : "; expected ") + expected;
     return text;
 }
 

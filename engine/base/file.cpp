@@ -26,8 +26,7 @@ tl::unexpected<Error> file_error(const std::filesystem::path& path, ErrorCode co
 
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit, ErrorCode code) {
     std::error_code status;
-    if (std::filesystem::is_directory(path, status))
-        return file_error(path, code, "this is a folder, not a file");
+    if (std::filesystem::is_directory(path, status)) return file_error(path, code, "is a folder");
     const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
     if (!file) return file_error(path, code, std::string("cannot be opened: ") + std::strerror(errno));
     std::string text;
@@ -66,10 +65,10 @@ Status write_file(const std::filesystem::path& path, std::string_view text) {
     return {};
 }
 
-Status keep_apart(const std::filesystem::path& input, const std::filesystem::path& output) {
+Status require_different_files(const std::filesystem::path& input, const std::filesystem::path& output) {
     std::error_code none;
     if (!std::filesystem::equivalent(input, output, none) || none) return {};
-    return fail(ErrorCode::usage, output.string() + " is what is being read", "another file to write to");
+    return fail(ErrorCode::usage, output.string() + " is also the input", "expected a different output file");
 }
 
 }  // namespace bolt

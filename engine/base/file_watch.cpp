@@ -7,12 +7,12 @@
 namespace bolt {
 
 FileStamp stamp(const std::filesystem::path& file) {
-    // std::filesystem does not tell the inode, which alone shows that a file of the same size was renamed
-    // over.
-    struct stat about {};
-    if (::stat(file.c_str(), &about) != 0) return {};
-    return {std::int64_t{about.st_mtim.tv_sec} * 1'000'000'000 + about.st_mtim.tv_nsec,
-            static_cast<std::uint64_t>(about.st_size), about.st_ino, true};
+    // std::filesystem does not provide the inode. Only the inode reveals that a file of the same size was
+    // renamed over this one.
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) return {};
+    return {std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec,
+            static_cast<std::uint64_t>(status.st_size), status.st_ino, true};
 }
 
 void FileWatch::watch(std::vector<std::filesystem::path> files) {
@@ -35,13 +35,13 @@ void FileWatch::watch(std::vector<std::filesystem::path> files) {
 std::vector<std::filesystem::path> FileWatch::changed(double now) {
     std::vector<std::filesystem::path> files;
     for (Watched& entry : files_) {
-        const FileStamp stamped = stamp(entry.file);
-        if (!entry.since || stamped != entry.seen) entry.since = now;
-        entry.seen = stamped;
-        if (stamped == entry.told) {
+        const FileStamp current = stamp(entry.file);
+        if (!entry.since || current != entry.latest) entry.since = now;
+        entry.latest = current;
+        if (current == entry.reported) {
             entry.since.reset();
-        } else if (now - *entry.since >= quiet_) {
-            entry.told = stamped;
+        } else if (now - *entry.since >= settle_time_) {
+            entry.reported = current;
             entry.since.reset();
             files.push_back(entry.file);
         }

@@ -1,6 +1,6 @@
-// Files that change on disk, seen by looking at them now and then: that works on every file system, and with
-// editors that write a new file and rename it over the old one. A change is told when the file has been left
-// alone for a while, so that half-written files are not read.
+// Detects file changes by polling. Polling works on every file system, and with editors that write a new file
+// and rename it over the old one. A change is reported only after the file has stayed unchanged for a while,
+// so that half-written files are not read.
 #pragma once
 
 #include <cstdint>
@@ -10,33 +10,33 @@
 
 namespace bolt {
 
-// What tells two versions of a file apart without reading them. A file that is not there is a version too.
+// Distinguishes two versions of a file without reading them. A missing file is a version too.
 struct FileStamp {
     std::int64_t modified = 0;  // ns
     std::uint64_t size = 0, inode = 0;
-    bool there = false;
+    bool exists = false;
     friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
-FileStamp stamp(const std::filesystem::path& file);
+FileStamp stamp(const std::filesystem::path& file);  // of the file as it is now
 
 class FileWatch {
   public:
-    explicit FileWatch(double quiet = 0.15) : quiet_(quiet) {}  // s
+    explicit FileWatch(double settle_time = 0.15) : settle_time_(settle_time) {}  // s
 
-    // From now on these and no others. Files that were watched before keep what was known of them.
+    // Replaces the list of watched files. Files that were watched before keep their state.
     void watch(std::vector<std::filesystem::path> files);
 
-    // Those that have changed since they were told last, or since they are watched. `now` in seconds, of any
-    // clock that never goes back.
+    // Returns the files that changed since they were last reported, or since they are watched. `now` is in
+    // seconds, from any monotonic clock.
     std::vector<std::filesystem::path> changed(double now);
 
   private:
     struct Watched {
         std::filesystem::path file;
-        FileStamp told, seen;
-        std::optional<double> since;  // when `seen` was first seen, if it is not what was told
+        FileStamp reported, latest;
+        std::optional<double> since;  // when `latest` was first observed, if it differs from `reported`
     };
-    double quiet_;
+    double settle_time_;
     std::vector<Watched> files_;
 };
 

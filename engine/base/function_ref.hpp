@@ -1,5 +1,5 @@
-// A callable that somebody else owns, passed as a parameter: two pointers, no allocation. It must outlive
-// the call; never store one.
+// A non-owning reference to a callable, for parameters: two pointers, no allocation. The callable must
+// outlive the call; never store a FunctionRef.
 #pragma once
 
 #include <concepts>

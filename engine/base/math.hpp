@@ -1,4 +1,5 @@
-// Vectors, poses and angles. SI: metres, radians, newtons. Right-handed frames, Y up in world space.
+// Vectors, quaternions and angles. SI units: metres, radians, newtons. Right-handed frames, Y up in world
+// space.
 #pragma once
 
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr double to_degrees(double radians) { return radians * (180.0 / pi); }
 
 constexpr double square(double x) { return x * x; }
 
-// The angle reduced to [-period/2, period/2].
+// Returns the angle reduced to [-period/2, period/2].
 inline double wrap(double angle, double period) { return std::remainder(angle, period); }
 
 }  // namespace bolt

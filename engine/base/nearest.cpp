@@ -30,7 +30,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view name, std::span<const std::string> candidates) {
-    constexpr std::size_t longest = 64;  // a longer name is no slip of the finger, and the cost is quadratic
+    constexpr std::size_t longest = 64;  // a longer name is no typing error, and the cost is quadratic
     if (name.empty() || name.size() > longest) return {};
     const std::size_t limit = std::max<std::size_t>(1, (name.size() + 1) / 3);
     std::string best;
@@ -43,7 +43,7 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
         best_distance = distance;
         best = candidate;
     }
-    return tie ? std::string() : best;  // between two as near as each other we would only guess
+    return tie ? std::string() : best;  // a tie would only be a guess
 }
 
 }  // namespace bolt

@@ -1,4 +1,4 @@
-// The nearest valid name to a misspelt one, for error messages.
+// Suggests the valid name nearest to a misspelt one, for error messages.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@ namespace bolt {
 // Edit distance with transpositions (optimal string alignment), ignoring ASCII case.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// The candidate nearest to `name`, or an empty string if none, or more than one, is near
-// enough to be what was meant.
+// Returns the candidate nearest to `name`, or an empty string if no candidate, or more than one, is close
+// enough.
 std::string nearest(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace bolt

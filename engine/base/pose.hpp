@@ -1,4 +1,4 @@
-// Where a rigid body is: rotation and translation, body to surroundings.
+// The pose of a rigid body: the transform from body coordinates to its surroundings.
 #pragma once
 
 #include "engine/base/math.hpp"
@@ -6,8 +6,8 @@
 namespace bolt {
 
 struct Pose {
-    Vec3 position{0.0};                    // m, of the body's origin
-    Quat orientation{1.0, 0.0, 0.0, 0.0};  // unit
+    Vec3 position{0.0};                    // m, the body's origin
+    Quat orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion
 };
 
 inline Vec3 operator*(const Pose& pose, const Vec3& point) {
@@ -17,11 +17,11 @@ inline Pose operator*(const Pose& a, const Pose& b) {
     return {a * b.position, a.orientation * b.orientation};
 }
 inline Pose inverse(const Pose& pose) {
-    const Quat back = glm::conjugate(pose.orientation);
-    return {back * -pose.position, back};
+    const Quat conjugate = glm::conjugate(pose.orientation);
+    return {conjugate * -pose.position, conjugate};
 }
 
-// exp of the rotation vector (axis times angle, rad), and its inverse with the angle in 0 … π.
+// The exponential map of a rotation vector (axis times angle, rad), and its inverse with the angle in [0, π].
 inline Quat rotation(const Vec3& vector) {
     const double angle = glm::length(vector);
     const double half = angle < 1e-8 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;

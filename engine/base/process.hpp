@@ -1,6 +1,8 @@
-// Another program run to its end.
+// Runs other programs: to their end with captured output, or with a stream of bytes on their standard input.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,14 +10,37 @@
 
 namespace bolt {
 
-struct Finished {
-    int exit_code = 0;  // −1: a signal ended it
-    std::string said;
+struct ProgramResult {
+    int exit_code = 0;   // -1: a signal ended the program
+    std::string output;  // the captured streams
 };
 
-enum class Hear : std::uint8_t { output, output_and_errors };
+enum class Capture : std::uint8_t { output, output_and_errors };
 
-// The program is looked for on the path; its input is ours. An error: it cannot be started.
-Result<Finished> run_program(const std::vector<std::string>& command, Hear hear);
+// Runs a program to its end and captures its output. The program is searched for on the PATH and inherits our
+// standard input. Fails if the program cannot be started.
+Result<ProgramResult> run_program(const std::vector<std::string>& command, Capture capture);
+
+// A running program that reads bytes from its standard input, such as FFmpeg that encodes pictures.
+class ChildStdin {
+  public:
+    // The program is searched for on the PATH and inherits our output streams. Fails if it cannot be started.
+    static Result<ChildStdin> start(const std::vector<std::string>& command);
+    ChildStdin(ChildStdin&& other) noexcept;
+    ChildStdin& operator=(ChildStdin&& other) noexcept;
+    ~ChildStdin();  // calls finish()
+
+    // Fails if the program no longer reads its input. The caller must have SIGPIPE ignored.
+    Status write(std::span<const std::uint8_t> bytes);
+
+    // Closes the input and waits for the program to end. Returns its exit code, or -1 if a signal ended it or
+    // it was finished before.
+    int finish();
+
+  private:
+    ChildStdin(int pipe, int child, std::string name) : pipe_(pipe), child_(child), name_(std::move(name)) {}
+    int pipe_ = -1, child_ = -1;
+    std::string name_;
+};
 
 }  // namespace bolt

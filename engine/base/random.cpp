@@ -26,7 +26,7 @@ double Random::uniform() { return bits() * (1.0 / 4294967296.0); }
 double Random::uniform(double low, double high) { return low + (high - low) * uniform(); }
 
 double Random::normal() {
-    // Box–Muller; the second value is thrown away so that the state is only the generator's.
+    // Box–Muller. The second value is discarded, so that the generator has no state besides PCG's.
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return std::clamp(radius * std::cos(2.0 * pi * uniform()), -3.0, 3.0);
 }

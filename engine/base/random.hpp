@@ -1,5 +1,5 @@
 // A small seeded generator whose sequence is the same on every platform and standard library
-// (std::normal_distribution is not). PCG32: M. E. O'Neill, HMC-CS-2014-0905.
+// (std::normal_distribution differs). PCG32: M. E. O'Neill, HMC-CS-2014-0905.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class Random {
     std::uint32_t bits();                     // 32 uniform bits
     double uniform();                         // [0, 1)
     double uniform(double low, double high);  // [low, high)
-    double normal();                          // mean 0, standard deviation 1, cut at ±3
+    double normal();                          // mean 0, standard deviation 1, clamped to ±3
     bool chance(double probability) { return uniform() < probability; }
 
   private:

@@ -1,5 +1,5 @@
-// Values from one thread to another, every one and in order: one writes, one reads, neither ever waits. The
-// room is made once; a writer that finds none left is told so and keeps its value.
+// A ring buffer from one writer thread to one reader thread that loses nothing. Neither side blocks or
+// allocates; a push into a full ring fails and leaves the value with the writer.
 #pragma once
 
 #include <atomic>
@@ -10,18 +10,19 @@
 
 namespace bolt {
 
-// Both counts run on and are never reduced: their difference is what waits, also when they overflow.
+// Both counters grow without being reduced: their difference is the number of stored values, also after an
+// overflow.
 template <class T>
 class SpscRing {
   public:
-    // Room for at least this many: the next power of two.
-    explicit SpscRing(std::size_t room) : slots_(std::bit_ceil(room)) {}
+    // `capacity` is rounded up to a power of two.
+    explicit SpscRing(std::size_t capacity) : slots_(std::bit_ceil(capacity)) {}
     SpscRing(const SpscRing&) = delete;
     SpscRing& operator=(const SpscRing&) = delete;
 
-    [[nodiscard]] std::size_t room() const { return slots_.size(); }
+    [[nodiscard]] std::size_t capacity() const { return slots_.size(); }
 
-    // The writer's side. False: it is full, and nothing was taken.
+    // Writer only. Returns false if the ring is full; the value is then not stored.
     [[nodiscard]] bool push(const T& value) {
         const std::size_t at = pushed_.load(std::memory_order_relaxed);
         if (at - seen_popped_ == slots_.size()) {
@@ -33,7 +34,7 @@ class SpscRing {
         return true;
     }
 
-    // The reader's side. False: nothing waits.
+    // Reader only. Returns false if the ring is empty.
     [[nodiscard]] bool pop(T& value) {
         const std::size_t at = popped_.load(std::memory_order_relaxed);
         if (at == seen_pushed_) {
@@ -45,19 +46,19 @@ class SpscRing {
         return true;
     }
 
-    // What waits, as either side may ask: the other may change it meanwhile, to its own side only.
-    [[nodiscard]] std::size_t waiting() const {
+    // The number of stored values. Either side may call it; the other side may change the number meanwhile.
+    [[nodiscard]] std::size_t size() const {
         const std::size_t popped = popped_.load(std::memory_order_acquire);
         return pushed_.load(std::memory_order_acquire) - popped;
     }
 
   private:
-    static constexpr std::size_t line = 64;  // bytes, see triple_buffer.hpp
+    static constexpr std::size_t cache_line = 64;  // bytes, see triple_buffer.hpp
     std::vector<T> slots_;
-    alignas(line) std::atomic<std::size_t> pushed_{0};
-    std::size_t seen_popped_ = 0;  // the writer's: it asks for the other count only when that might help
-    alignas(line) std::atomic<std::size_t> popped_{0};
-    std::size_t seen_pushed_ = 0;  // the reader's
+    alignas(cache_line) std::atomic<std::size_t> pushed_{0};
+    std::size_t seen_popped_ = 0;  // the writer's copy, refreshed only when the ring seems full
+    alignas(cache_line) std::atomic<std::size_t> popped_{0};
+    std::size_t seen_pushed_ = 0;  // the reader's copy, refreshed only when the ring seems empty
 };
 
 }  // namespace bolt

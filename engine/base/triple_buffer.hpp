@@ -1,5 +1,5 @@
-// The latest value, from one thread to another: one writes, one reads, neither ever waits. What is written
-// between two looks of the reader is lost but for the last; for what must not be lost see spsc_ring.hpp.
+// The latest value, from one writer thread to one reader thread; neither ever blocks. Values that the reader
+// does not poll in time are overwritten; use spsc_ring.hpp for values that must not be lost.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace bolt {
 
-// Three slots: the writer's, the reader's, and one in the middle that both swap theirs with. The swap is the
-// only thing shared: its release publishes what was written to the slot, its acquire also gives a slot back
-// only after the other side is done with it.
+// Three slots: the writer's, the reader's, and one in the middle that each side exchanges with its own. The
+// exchange is the only shared operation. Its release publishes the written slot; its acquire ensures that the
+// other side has finished with the slot that comes back.
 template <class T>
 class TripleBuffer {
   public:
@@ -18,7 +18,8 @@ class TripleBuffer {
     TripleBuffer(const TripleBuffer&) = delete;
     TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-    // The writer's side. The slot holds an older value until it is filled; nothing is seen before publish().
+    // Writer only. The slot holds an older value until it is filled. The reader sees nothing before
+    // publish().
     T& slot() { return slots_[writers_].value; }
     void publish() { writers_ = middle_.exchange(writers_ | unseen, std::memory_order_acq_rel) & index; }
     void write(const T& value) {
@@ -26,7 +27,7 @@ class TripleBuffer {
         publish();
     }
 
-    // The reader's side. True if there is something newer than what latest() gave until now.
+    // Reader only. Returns true if latest() now gives a newer value.
     bool update() {
         if ((middle_.load(std::memory_order_relaxed) & unseen) == 0) return false;
         readers_ = middle_.exchange(readers_, std::memory_order_acq_rel) & index;
@@ -36,16 +37,16 @@ class TripleBuffer {
 
   private:
     static constexpr std::uint8_t index = 3, unseen = 4;
-    static constexpr std::size_t line = 64;  // bytes: what two cores must not share if neither is to wait
-    struct alignas(line) Slot {
+    static constexpr std::size_t cache_line = 64;  // bytes; avoids false sharing between the two cores
+    struct alignas(cache_line) Slot {
         T value;
     };
     static_assert(std::atomic<std::uint8_t>::is_always_lock_free);
 
     std::array<Slot, 3> slots_;
-    alignas(line) std::atomic<std::uint8_t> middle_{1};
-    alignas(line) std::uint8_t writers_ = 0;
-    alignas(line) std::uint8_t readers_ = 2;
+    alignas(cache_line) std::atomic<std::uint8_t> middle_{1};
+    alignas(cache_line) std::uint8_t writers_ = 0;
+    alignas(cache_line) std::uint8_t readers_ = 2;
 };
 
 }  // namespace bolt

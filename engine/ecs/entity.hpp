@@ -1,5 +1,5 @@
-// An entity is a name for something that has components: a slot, and how often that slot has been used
-// before. A name kept after its entity is destroyed never means the next one in the slot.
+// An entity identifies something that has components: a slot index and the slot's generation. A stale entity
+// never refers to the next occupant of its slot.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct Entity {
     friend bool operator==(Entity, Entity) = default;
 };
 
-// Gives out entities and takes them back. A slot whose generations are used up is not given out again, so
-// that no name ever comes twice.
+// Allocates and frees entities. A slot whose generations are exhausted is retired, so that no entity is ever
+// reused.
 class Entities {
   public:
     Entity create() {
@@ -31,7 +31,7 @@ class Entities {
         return {static_cast<std::uint32_t>(slots_.size() - 1), 1};
     }
 
-    // False if it was not alive.
+    // Returns false if the entity was not alive.
     bool destroy(Entity entity) {
         if (!alive(entity)) return false;
         --alive_;

@@ -1,7 +1,7 @@
-// The components of one type: a sparse set (Briggs and Torczon 1993). Components lie side by side in `dense`
-// order; a sparse index in pages leads from an entity's slot to its place. Insert, erase and find take
-// constant time; walking them is walking an array. Erasing moves the last component into the hole: order is
-// not kept, and pointers to components last only until something is inserted or erased.
+// The components of one type: a sparse set (Briggs and Torczon 1993). Components are stored contiguously; a
+// paged sparse array maps an entity's slot to its dense index. Insert, erase and find take constant time;
+// iteration walks an array. Erasing moves the last component into the gap: the order is not kept, and
+// pointers to components are valid only until the next insert or erase.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace bolt::ecs {
 template <class Component>
 class Pool {
   public:
-    // The component of an entity that has none yet.
+    // Adds a component to an entity that has none.
     template <class... Arguments>
     Component& insert(Entity entity, Arguments&&... arguments) {
         assert(!contains(entity));
@@ -28,14 +28,14 @@ class Pool {
         return components_.back();
     }
 
-    // False if it had none.
+    // Returns false if the entity has none.
     bool erase(Entity entity) {
-        const std::uint32_t place = place_of(entity);
-        if (place == Entity::none) return false;
-        if (place + 1 != entities_.size()) {
-            components_[place] = std::move(components_.back());
-            entities_[place] = entities_.back();
-            slot(entities_[place].index) = place;
+        const std::uint32_t dense = dense_index(entity);
+        if (dense == Entity::none) return false;
+        if (dense + 1 != entities_.size()) {
+            components_[dense] = std::move(components_.back());
+            entities_[dense] = entities_.back();
+            slot(entities_[dense].index) = dense;
         }
         components_.pop_back();
         entities_.pop_back();
@@ -43,12 +43,12 @@ class Pool {
         return true;
     }
 
-    [[nodiscard]] bool contains(Entity entity) const { return place_of(entity) != Entity::none; }
+    [[nodiscard]] bool contains(Entity entity) const { return dense_index(entity) != Entity::none; }
 
-    // Null if it has none.
+    // Returns null if the entity has none.
     [[nodiscard]] Component* find(Entity entity) {
-        const std::uint32_t place = place_of(entity);
-        return place == Entity::none ? nullptr : &components_[place];
+        const std::uint32_t dense = dense_index(entity);
+        return dense == Entity::none ? nullptr : &components_[dense];
     }
     [[nodiscard]] const Component* find(Entity entity) const { return const_cast<Pool*>(this)->find(entity); }
 
@@ -67,11 +67,11 @@ class Pool {
     static constexpr std::uint32_t page_size = 1024;
     using Page = std::array<std::uint32_t, page_size>;
 
-    [[nodiscard]] std::uint32_t place_of(Entity entity) const {
+    [[nodiscard]] std::uint32_t dense_index(Entity entity) const {
         const std::size_t page = entity.index / page_size;
         if (page >= pages_.size() || !pages_[page]) return Entity::none;
-        const std::uint32_t place = (*pages_[page])[entity.index % page_size];
-        return place != Entity::none && entities_[place].generation == entity.generation ? place
+        const std::uint32_t dense = (*pages_[page])[entity.index % page_size];
+        return dense != Entity::none && entities_[dense].generation == entity.generation ? dense
                                                                                          : Entity::none;
     }
 

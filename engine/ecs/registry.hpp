@@ -1,5 +1,5 @@
-// Entities and their components, one pool a type. The types are a list known to the compiler, so there is no
-// type erasure, no virtual call and no global count of types: a component that is not in the list does not
+// Entities and their components, one pool per type. The component types are a template parameter pack: there
+// is no type erasure, no virtual call and no global type registry, and an unlisted component type does not
 // compile.
 //
 //   using World = ecs::Registry<Pose, Velocity, Nut>;
@@ -23,7 +23,7 @@ class Registry {
   public:
     [[nodiscard]] Entity create() { return entities_.create(); }
 
-    // With all its components; false if it was not alive.
+    // Destroys an entity with all its components; returns false if it was not alive.
     bool destroy(Entity entity) {
         if (!entities_.destroy(entity)) return false;
         (pool<Components>().erase(entity), ...);
@@ -33,7 +33,7 @@ class Registry {
     [[nodiscard]] bool alive(Entity entity) const { return entities_.alive(entity); }
     [[nodiscard]] std::size_t size() const { return entities_.size(); }
 
-    // Gives a living entity a component, in place of the one that it may have.
+    // Sets the component of a living entity, replacing an existing one.
     template <class Component, class... Arguments>
     Component& add(Entity entity, Arguments&&... arguments) {
         assert(alive(entity));
@@ -47,7 +47,7 @@ class Registry {
         return pool<Component>().erase(entity);
     }
 
-    // Null if it has none, or is no more.
+    // Returns null if the entity has none or is not alive.
     template <class Component>
     [[nodiscard]] Component* find(Entity entity) {
         return pool<Component>().find(entity);
@@ -57,7 +57,7 @@ class Registry {
         return pool<Component>().find(entity);
     }
 
-    // The component of an entity that has it.
+    // Returns the component, which must exist.
     template <class Component>
     [[nodiscard]] Component& get(Entity entity) {
         Component* component = find<Component>(entity);
@@ -65,12 +65,24 @@ class Registry {
         return *component;
     }
 
+    // Returns the component of a type that exactly one entity has.
+    template <class Component>
+    [[nodiscard]] Component& only() {
+        assert(pool<Component>().size() == 1);
+        return pool<Component>().components().front();
+    }
+    template <class Component>
+    [[nodiscard]] const Component& only() const {
+        assert(pool<Component>().size() == 1);
+        return pool<Component>().components().front();
+    }
+
     template <class... Wanted>
     [[nodiscard]] View<Wanted...> view() {
         return View<Wanted...>(pool<std::remove_const_t<Wanted>>()...);
     }
 
-    // All components of a type and their entities, side by side.
+    // All components of a type and their entities, as parallel arrays.
     template <class Component>
     [[nodiscard]] Pool<Component>& pool() {
         return std::get<Pool<Component>>(pools_);

@@ -1,5 +1,5 @@
-// What happens in a frame, in order: systems are free functions over the world and a context, and the order
-// is the order in which they stand.
+// A frame as an ordered list of systems: free functions over the world and a context, run in the order of the
+// list.
 //
 //   constexpr ecs::System<World, Frame> frame[] = {{"haptics", haptic_system}, {"lesson", lesson_system}};
 //   ecs::run(frame, world, context);
@@ -16,7 +16,7 @@ struct System {
     void (*run)(World&, Context&) = nullptr;
 };
 
-// `around(name, run)` is called for each system and must call run(): the place for timing and tracing.
+// `around(name, run)` is called for each system and must call run(); use it for timing and tracing.
 template <class World, class Context, std::size_t count, class Around>
 void run(const System<World, Context> (&systems)[count], World& world, Context& context, Around&& around) {
     for (const System<World, Context>& system : systems)

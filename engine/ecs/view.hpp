@@ -1,11 +1,11 @@
-// All entities that have every one of some components: walks the smallest of their pools and looks the others
-// up.
+// All entities that have all of the given components: iterates over the smallest pool and looks up the
+// others.
 //
 //   view.each([](Entity entity, Pose& pose, const Velocity& velocity) { ... });   or without the entity
 //
-// It goes from the last to the first, so while it stands at an entity, that entity may be destroyed or lose
-// components, and new entities may be made (they are not visited). Others may not be destroyed meanwhile:
-// collect them and do it afterwards.
+// Iteration goes from the last to the first entity. The callback may destroy the visited entity, remove its
+// components and create entities (which are not visited). It must not destroy other entities: collect them
+// and destroy them afterwards.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,24 @@
 
 namespace bolt::ecs {
 
+// The pool of a component type that is const where it is only read.
+template <class Component>
+using PoolOf = std::conditional_t<std::is_const_v<Component>, const Pool<std::remove_const_t<Component>>,
+                                  Pool<std::remove_const_t<Component>>>;
+
 template <class... Components>
 class View {
     static_assert(sizeof...(Components) > 0);
 
   public:
-    explicit View(Pool<std::remove_const_t<Components>>&... pools) : pools_{&pools...} {}
+    explicit View(PoolOf<Components>&... pools) : pools_{&pools...} {}
 
     template <class Function>
     void each(Function&& function) const {
         each_from_shortest(function, Indices{});
     }
 
-    // How many entities it visits at most.
+    // The maximum number of visited entities.
     [[nodiscard]] std::size_t bound() const {
         return std::apply([](const auto*... pool) { return std::min({pool->size()...}); }, pools_);
     }
@@ -46,12 +51,12 @@ class View {
          ...);
     }
 
-    // Walks pool `First`; the others are looked up.
+    // Iterates over pool `First` and looks up the others.
     template <std::size_t First, class Function, std::size_t... I>
     void walk(Function& function, std::index_sequence<I...>) const {
         auto& first = *std::get<First>(pools_);
         for (std::size_t at = first.size(); at-- > 0;) {
-            if (at >= first.size()) continue;  // the function erased more than where it stood
+            if (at >= first.size()) continue;  // the callback erased more than the visited entity
             const Entity entity = first.entities()[at];
             const std::tuple<Components*...> found{component<First, I>(entity, at)...};
             if (!(... && (std::get<I>(found) != nullptr))) continue;
@@ -70,7 +75,7 @@ class View {
             return std::get<I>(pools_)->find(entity);
     }
 
-    std::tuple<Pool<std::remove_const_t<Components>>*...> pools_;
+    std::tuple<PoolOf<Components>*...> pools_;
 };
 
 }  // namespace bolt::ecs

@@ -2,57 +2,56 @@
 
 namespace bolt::gpu {
 
-UseMeans means(Use use) {
+ResourceUseInfo use_info(ResourceUse use) {
     constexpr VkPipelineStageFlags2 shaders =
         VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     constexpr VkPipelineStageFlags2 depth =
         VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
     switch (use) {
-        case Use::undefined:
+        case ResourceUse::undefined:
             return {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
-        case Use::acquired:
+        case ResourceUse::acquired:
             return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
-        case Use::color_target:
+        case ResourceUse::color_target:
             return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-        case Use::depth_target:
-            // A multisampled depth is resolved in the colour output stage, whatever its format.
+        case ResourceUse::depth_target:
+            // A multisampled depth attachment is resolved in the colour output stage, whatever its format.
             return {depth | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
                         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
                         VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                     VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
-        case Use::depth_read:
+        case ResourceUse::depth_read:
             return {depth | shaders,
                     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                     VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
-        case Use::sampled:
+        case ResourceUse::sampled:
             return {shaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        case Use::storage_write:
+        case ResourceUse::storage_write:
             return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                     VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                     VK_IMAGE_LAYOUT_GENERAL};
-        case Use::vertex_read:
+        case ResourceUse::vertex_read:
             return {VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
                     VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT |
                         VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
                     VK_IMAGE_LAYOUT_UNDEFINED};
-        case Use::uniform_read:
+        case ResourceUse::uniform_read:
             return {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | shaders,
                     VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
                     VK_IMAGE_LAYOUT_UNDEFINED};
-        case Use::transfer_from:
+        case ResourceUse::transfer_from:
             return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-        case Use::transfer_to:
+        case ResourceUse::transfer_to:
             return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
-        case Use::host_read:
+        case ResourceUse::host_read:
             return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_IMAGE_LAYOUT_GENERAL};
-        case Use::present:
-            // The semaphore of the presentation makes the writes visible: the barrier changes the layout
-            // only.
+        case ResourceUse::present:
+            // The present semaphore makes the writes visible, so the barrier changes the layout only.
             return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
     }
     return {};
@@ -60,8 +59,8 @@ UseMeans means(Use use) {
 
 namespace {
 
-void barrier(VkCommandBuffer commands, VkImage image, const UseMeans& before, const UseMeans& after,
-             const ImageRange& range) {
+void barrier(VkCommandBuffer commands, VkImage image, const ResourceUseInfo& before,
+             const ResourceUseInfo& after, const ImageRange& range) {
     VkImageMemoryBarrier2 info{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     info.srcStageMask = before.stages;
     info.srcAccessMask = before.access;
@@ -80,19 +79,20 @@ void barrier(VkCommandBuffer commands, VkImage image, const UseMeans& before, co
 
 }  // namespace
 
-void image_barrier(VkCommandBuffer commands, VkImage image, Use from, Use to, const ImageRange& range) {
-    barrier(commands, image, means(from), means(to), range);
+void image_barrier(VkCommandBuffer commands, VkImage image, ResourceUse from, ResourceUse to,
+                   const ImageRange& range) {
+    barrier(commands, image, use_info(from), use_info(to), range);
 }
 
-void image_barrier_discarding(VkCommandBuffer commands, VkImage image, Use last, Use to,
+void image_barrier_discarding(VkCommandBuffer commands, VkImage image, ResourceUse last, ResourceUse to,
                               const ImageRange& range) {
-    UseMeans before = means(last);
+    ResourceUseInfo before = use_info(last);
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    barrier(commands, image, before, means(to), range);
+    barrier(commands, image, before, use_info(to), range);
 }
 
-void memory_barrier(VkCommandBuffer commands, Use from, Use to) {
-    const UseMeans before = means(from), after = means(to);
+void memory_barrier(VkCommandBuffer commands, ResourceUse from, ResourceUse to) {
+    const ResourceUseInfo before = use_info(from), after = use_info(to);
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = before.stages;
     barrier.srcAccessMask = before.access;

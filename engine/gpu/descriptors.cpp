@@ -6,21 +6,21 @@
 
 namespace bolt::gpu {
 
-Result<SetWriter> SetWriter::create(Device& device, Frame& frame, const Pipeline& pipeline,
-                                    std::uint32_t set) {
-    SetWriter writer;
+Result<DescriptorWriter> DescriptorWriter::create(Device& device, FrameContext& frame,
+                                                  const Pipeline& pipeline, std::uint32_t set) {
+    DescriptorWriter writer;
     writer.device_ = &device;
     writer.pipeline_ = &pipeline;
     writer.set_index_ = set;
     if (set >= pipeline.sets.size())
         return fail(ErrorCode::failed, fmt::format("the pipeline has no descriptor set {}", set));
-    Result<VkDescriptorSet> allocated = frame.descriptor_set(pipeline.sets[set].get());
-    if (!allocated) return fail(allocated.error());
-    writer.set_ = *allocated;
+    BOLT_TRY_ASSIGN(auto allocated, frame.descriptor_set(pipeline.sets[set].get()));
+    writer.set_ = allocated;
     return writer;
 }
 
-SetWriter& SetWriter::buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
+DescriptorWriter& DescriptorWriter::buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize offset,
+                                           VkDeviceSize size) {
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstBinding = binding;
     write.descriptorCount = 1;
@@ -29,13 +29,14 @@ SetWriter& SetWriter::buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSiz
     return *this;
 }
 
-SetWriter& SetWriter::image(std::uint32_t binding, VkImageView view, VkSampler sampler,
-                            VkImageLayout layout) {
+DescriptorWriter& DescriptorWriter::image(std::uint32_t binding, VkImageView view, VkSampler sampler,
+                                          VkImageLayout layout) {
     const VkDescriptorImageInfo one{sampler, view, layout};
     return images(binding, {&one, 1});
 }
 
-SetWriter& SetWriter::images(std::uint32_t binding, std::span<const VkDescriptorImageInfo> images) {
+DescriptorWriter& DescriptorWriter::images(std::uint32_t binding,
+                                           std::span<const VkDescriptorImageInfo> images) {
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstBinding = binding;
     write.descriptorCount = static_cast<std::uint32_t>(images.size());
@@ -44,7 +45,7 @@ SetWriter& SetWriter::images(std::uint32_t binding, std::span<const VkDescriptor
     return *this;
 }
 
-Result<VkDescriptorSet> SetWriter::finish() {
+Result<VkDescriptorSet> DescriptorWriter::finish() {
     for (VkWriteDescriptorSet& write : writes_) {
         const auto known =
             std::find_if(pipeline_->bindings.begin(), pipeline_->bindings.end(), [&](const Binding& binding) {
@@ -61,7 +62,7 @@ Result<VkDescriptorSet> SetWriter::finish() {
             writes_.begin(), writes_.end(),
             [&](const VkWriteDescriptorSet& write) { return write.dstBinding == binding.binding; });
         if (binding.set == set_index_ && !written)
-            return fail(ErrorCode::failed, fmt::format("nothing was bound to \"{}\" (set {} binding {})",
+            return fail(ErrorCode::failed, fmt::format("nothing is bound to \"{}\" (set {} binding {})",
                                                        binding.name, binding.set, binding.binding));
     }
     vkUpdateDescriptorSets(device_->get(), static_cast<std::uint32_t>(writes_.size()), writes_.data(), 0,

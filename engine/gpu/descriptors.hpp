@@ -1,4 +1,4 @@
-// Filling a descriptor set: bind what each binding of the pipeline wants, then write once.
+// Collects the resources of a descriptor set and writes them in one call.
 #pragma once
 
 #include <deque>
@@ -8,24 +8,24 @@
 
 namespace bolt::gpu {
 
-class SetWriter {
+class DescriptorWriter {
   public:
-    // A set of the pipeline's layout, alive as long as the frame.
-    static Result<SetWriter> create(Device& device, Frame& frame, const Pipeline& pipeline,
-                                    std::uint32_t set);
+    // Allocates a set with the pipeline's layout that lives as long as the frame.
+    static Result<DescriptorWriter> create(Device& device, FrameContext& frame, const Pipeline& pipeline,
+                                           std::uint32_t set);
 
-    SetWriter& buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size);
-    SetWriter& piece(std::uint32_t binding, const Piece& piece) {
-        return buffer(binding, piece.buffer, piece.offset, piece.bytes.size());
+    DescriptorWriter& buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size);
+    DescriptorWriter& range(std::uint32_t binding, const TransientRange& range) {
+        return buffer(binding, range.buffer, range.offset, range.bytes.size());
     }
-    SetWriter& image(std::uint32_t binding, VkImageView view, VkSampler sampler,
-                     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    DescriptorWriter& image(std::uint32_t binding, VkImageView view, VkSampler sampler,
+                            VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
-    // All elements of a binding that is an array.
-    SetWriter& images(std::uint32_t binding, std::span<const VkDescriptorImageInfo> images);
+    // Sets all elements of an array binding.
+    DescriptorWriter& images(std::uint32_t binding, std::span<const VkDescriptorImageInfo> images);
 
-    // The finished set; an error names a binding of the shader that was left out, or one that it does not
-    // have.
+    // Writes the set and returns it. Fails if a binding of the shader was not set or a set binding does not
+    // exist in it.
     Result<VkDescriptorSet> finish();
 
   private:
@@ -33,7 +33,8 @@ class SetWriter {
     const Pipeline* pipeline_ = nullptr;
     std::uint32_t set_index_ = 0;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
-    std::deque<VkDescriptorBufferInfo> buffers_;  // addresses stay
+    std::deque<VkDescriptorBufferInfo>
+        buffers_;  // a deque, because the writes hold addresses of its elements
     std::deque<std::vector<VkDescriptorImageInfo>> images_;
     std::vector<VkWriteDescriptorSet> writes_;
 };

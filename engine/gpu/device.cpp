@@ -11,7 +11,7 @@ namespace bolt::gpu {
 
 namespace {
 
-// The features that the engine uses, chained for asking and for enabling alike.
+// The features that the engine uses, as a chain both for the query and for enabling them.
 struct Features {
     VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
@@ -39,7 +39,7 @@ constexpr Required required[] = {
     {"imageCubeArray", [](Features& f) -> VkBool32& { return f.core.features.imageCubeArray; }},
 };
 
-// One family that draws, computes and, if need be, shows.
+// A queue family with graphics and compute and, if there is a surface, presentation.
 std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice physical, VkSurfaceKHR surface,
                                                bool& presents) {
     std::uint32_t count = 0;
@@ -73,21 +73,21 @@ bool has_extension(VkPhysicalDevice physical, const char* wanted) {
     });
 }
 
-// Of shaders/light.vert: 25 rows and the position. Vulkan promises 64 numbers.
+// Used by shaders/light.vert: 25 rows of 4 and the position. Vulkan guarantees only 64.
 constexpr std::uint32_t most_passed_on = 104;
 
-Candidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
+DeviceCandidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &driver;
     vkGetPhysicalDeviceProperties2(physical, &properties);
 
-    Candidate candidate;
+    DeviceCandidate candidate;
     candidate.name = properties.properties.deviceName;
     candidate.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
     candidate.type = properties.properties.deviceType;
     candidate.api_version = properties.properties.apiVersion;
-    if (candidate.api_version < VK_API_VERSION_1_3) return candidate;  // it does not know what is asked below
+    if (candidate.api_version < VK_API_VERSION_1_3) return candidate;  // the queries below need Vulkan 1.3
 
     Features features;
     vkGetPhysicalDeviceFeatures2(physical, &features.core);
@@ -95,9 +95,9 @@ Candidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
         if (feature.of(features) != VK_TRUE) candidate.missing.emplace_back(feature.name);
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
     if (std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) < most_passed_on)
-        candidate.missing.emplace_back("room for 104 numbers between vertex and fragment shaders");
+        candidate.missing.emplace_back("104 components between vertex and fragment shaders");
     if (!find_queue_family(physical, surface, candidate.presents))
-        candidate.missing.emplace_back("a queue that draws and computes");
+        candidate.missing.emplace_back("a queue with graphics and compute");
     if (surface != VK_NULL_HANDLE && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         candidate.presents = false;
 
@@ -111,36 +111,35 @@ Candidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
 
 }  // namespace
 
-Result<Survey> survey(const Instance& instance, const DeviceOptions& options) {
-    Survey found;
+Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOptions& options) {
+    DeviceSurvey found;
     std::uint32_t count = 0;
     vkEnumeratePhysicalDevices(instance.get(), &count, nullptr);
     found.physical.resize(count);
-    if (Status listed =
-            check(vkEnumeratePhysicalDevices(instance.get(), &count, found.physical.data()), "listing GPUs");
+    if (Status listed = check(vkEnumeratePhysicalDevices(instance.get(), &count, found.physical.data()),
+                              "enumerating GPUs");
         !listed)
         return fail(listed.error());
     for (const VkPhysicalDevice physical : found.physical)
         found.candidates.push_back(describe(physical, options.surface));
-    found.choice = choose(found.candidates, options.wanted);
+    found.choice = choose_device(found.candidates, options.wanted);
     return found;
 }
 
 Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const DeviceOptions& options) {
-    Result<Survey> found = survey(instance, options);
-    if (!found) return fail(found.error());
-    if (found->choice.index < 0)
+    BOLT_TRY_ASSIGN(auto found, survey_devices(instance, options));
+    if (found.choice.index < 0)
         return fail(ErrorCode::no_device,
-                    found->physical.empty() ? "no Vulkan device on this machine"
-                                            : fmt::format("no Vulkan device can be used: {}",
-                                                          fmt::join(found->choice.reasons, "; ")),
-                    "mesa-vulkan-drivers renders without a GPU");
-    const auto index = static_cast<std::size_t>(found->choice.index);
+                    found.physical.empty() ? "no Vulkan device found"
+                                           : fmt::format("no Vulkan device is usable: {}",
+                                                         fmt::join(found.choice.reasons, "; ")),
+                    "a Vulkan 1.3 device; mesa-vulkan-drivers renders without a GPU");
+    const auto index = static_cast<std::size_t>(found.choice.index);
 
     std::unique_ptr<Device> device(new Device());
-    device->physical_ = found->physical[index];
-    device->name_ = found->candidates[index].name;
-    device->driver_ = found->candidates[index].driver;
+    device->physical_ = found.physical[index];
+    device->name_ = found.candidates[index].name;
+    device->driver_ = found.candidates[index].driver;
     vkGetPhysicalDeviceProperties(device->physical_, &device->properties_);
     bool presents = false;
     device->queue_family_ = find_queue_family(device->physical_, options.surface, presents).value();
@@ -166,7 +165,7 @@ Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const D
         info.ppEnabledExtensionNames = &swapchain;
     }
     if (Status made = check(vkCreateDevice(device->physical_, &info, nullptr, &device->device_),
-                            fmt::format("starting {}", device->name_));
+                            fmt::format("creating a device on {}", device->name_));
         !made)
         return fail(made.error());
     volkLoadDevice(device->device_);

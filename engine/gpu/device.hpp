@@ -1,28 +1,28 @@
-// The logical device, its one queue and its memory. Made once, at a fixed address; everything made from it
-// goes before it.
+// The logical device, its only queue and its memory. It has a fixed address and must outlive everything
+// created from it.
 #pragma once
 
 #include <memory>
 #include <string>
 
-#include "engine/gpu/choice.hpp"
+#include "engine/gpu/device_choice.hpp"
 #include "engine/gpu/instance.hpp"
 #include "engine/gpu/memory.hpp"
 
 namespace bolt::gpu {
 
 struct DeviceOptions {
-    std::string wanted;                     // part of a name; empty: the fastest
-    VkSurfaceKHR surface = VK_NULL_HANDLE;  // must be able to show on this; null: offscreen
+    std::string wanted;                     // part of a device name; empty: choose the fastest device
+    VkSurfaceKHR surface = VK_NULL_HANDLE;  // the device must be able to present to it; null: offscreen
 };
 
-// The devices of this machine and the choice among them: what `doctor` prints.
-struct Survey {
+// The devices of this machine and the choice among them; printed by `doctor`.
+struct DeviceSurvey {
     std::vector<VkPhysicalDevice> physical;
-    std::vector<Candidate> candidates;
-    Choice choice;
+    std::vector<DeviceCandidate> candidates;
+    DeviceChoice choice;
 };
-Result<Survey> survey(const Instance& instance, const DeviceOptions& options);
+Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOptions& options);
 
 class Device {
   public:
@@ -44,7 +44,7 @@ class Device {
     }  // "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
     [[nodiscard]] const VkPhysicalDeviceProperties& properties() const { return properties_; }
 
-    // Waits until the GPU has nothing to do.
+    // Waits until the GPU is idle.
     Status idle() const { return check(vkDeviceWaitIdle(device_), "waiting for the GPU"); }
 
   private:

@@ -21,14 +21,14 @@ Result<Buffer> make_ring(Device& device, VkDeviceSize size) {
 
 }  // namespace
 
-Status Frame::prepare(Device& device) {
+Status FrameContext::prepare(Device& device) {
     device_ = &device;
     VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool_info.queueFamilyIndex = device.queue_family();
     VkCommandPool pool = VK_NULL_HANDLE;
     if (Status made =
-            check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &pool), "making a command pool");
+            check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &pool), "creating a command pool");
         !made)
         return made;
     pool_ = CommandPool(device.get(), pool);
@@ -37,14 +37,15 @@ Status Frame::prepare(Device& device) {
     commands.commandPool = pool;
     commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands.commandBufferCount = 1;
-    if (Status made = check(vkAllocateCommandBuffers(device.get(), &commands, &commands_), "making commands");
+    if (Status made = check(vkAllocateCommandBuffers(device.get(), &commands, &commands_),
+                            "allocating a command buffer");
         !made)
         return made;
 
     VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
     VkFence fence = VK_NULL_HANDLE;
-    if (Status made = check(vkCreateFence(device.get(), &fence_info, nullptr, &fence), "making a fence");
+    if (Status made = check(vkCreateFence(device.get(), &fence_info, nullptr, &fence), "creating a fence");
         !made)
         return made;
     fence_ = Fence(device.get(), fence);
@@ -54,19 +55,18 @@ Status Frame::prepare(Device& device) {
         queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
         queries.queryCount = 2 * most_timings;
         VkQueryPool query_pool = VK_NULL_HANDLE;
-        if (Status made =
-                check(vkCreateQueryPool(device.get(), &queries, nullptr, &query_pool), "making a query pool");
+        if (Status made = check(vkCreateQueryPool(device.get(), &queries, nullptr, &query_pool),
+                                "creating a query pool");
             !made)
             return made;
         queries_ = QueryPool(device.get(), query_pool);
     }
-    Result<Buffer> ring = make_ring(device, first_ring);
-    if (!ring) return fail(ring.error());
-    ring_ = std::move(*ring);
+    BOLT_TRY_ASSIGN(auto ring, make_ring(device, first_ring));
+    ring_ = std::move(ring);
     return add_descriptor_pool();
 }
 
-Status Frame::add_descriptor_pool() {
+Status FrameContext::add_descriptor_pool() {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets_a_pool},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets_a_pool},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * sets_a_pool},
@@ -76,31 +76,31 @@ Status Frame::add_descriptor_pool() {
     info.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     info.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    if (Status made =
-            check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool), "making a descriptor pool");
+    if (Status made = check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool),
+                            "creating a descriptor pool");
         !made)
         return made;
     descriptor_pools_.emplace_back(device_->get(), pool);
     return {};
 }
 
-Result<Piece> Frame::piece(VkDeviceSize size) {
+Result<TransientRange> FrameContext::allocate(VkDeviceSize size) {
     const VkDeviceSize alignment =
         std::max({device_->limits().minUniformBufferOffsetAlignment,
                   device_->limits().minStorageBufferOffsetAlignment, VkDeviceSize{16}});
     VkDeviceSize offset = (ring_used_ + alignment - 1) & ~(alignment - 1);
     if (offset + size > ring_.size()) {
-        Result<Buffer> larger = make_ring(*device_, std::max(2 * ring_.size(), size));
-        if (!larger) return fail(larger.error());
-        retired_.add(std::exchange(ring_, std::move(*larger)));
+        BOLT_TRY_ASSIGN(auto larger, make_ring(*device_, std::max(2 * ring_.size(), size)));
+        retired_.add(std::exchange(ring_, std::move(larger)));
         offset = 0;
     }
     ring_used_ = offset + size;
-    return Piece{ring_.get(), offset,
-                 ring_.bytes().subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size))};
+    return TransientRange{
+        ring_.get(), offset,
+        ring_.bytes().subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size))};
 }
 
-Result<VkDescriptorSet> Frame::descriptor_set(VkDescriptorSetLayout layout) {
+Result<VkDescriptorSet> FrameContext::descriptor_set(VkDescriptorSetLayout layout) {
     for (int attempt = 0;; ++attempt) {
         VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
         info.descriptorPool = descriptor_pools_[descriptor_pool_].get();
@@ -111,12 +111,11 @@ Result<VkDescriptorSet> Frame::descriptor_set(VkDescriptorSetLayout layout) {
         if (result == VK_SUCCESS) return set;
         const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
         if (!full || attempt > 0) return fail(check(result, "allocating a descriptor set").error());
-        if (++descriptor_pool_ == descriptor_pools_.size())
-            if (Status added = add_descriptor_pool(); !added) return fail(added.error());
+        if (++descriptor_pool_ == descriptor_pools_.size()) BOLT_TRY(add_descriptor_pool());
     }
 }
 
-void Frame::begin_timing(std::string name) {
+void FrameContext::begin_timing(std::string name) {
     if (!queries_ || timed_.size() == most_timings) return;
     open_.push_back(timed_.size());
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(),
@@ -124,14 +123,14 @@ void Frame::begin_timing(std::string name) {
     timed_.push_back(std::move(name));
 }
 
-void Frame::end_timing() {
+void FrameContext::end_timing() {
     if (open_.empty()) return;
     const auto query = static_cast<std::uint32_t>(2 * open_.back() + 1);
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), query);
     open_.pop_back();
 }
 
-void Frame::read_timings() {
+void FrameContext::read_timings() {
     timings_.clear();
     for (std::size_t i = 0; i < timed_.size(); ++i) {
         std::uint64_t ticks[2] = {0, 0};
@@ -146,45 +145,42 @@ void Frame::read_timings() {
     open_.clear();
 }
 
-Status Frame::reset() {
+Status FrameContext::reset() {
     const VkFence fence = fence_.get();
     const VkResult waited =
         vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
-    if (Status done = check(waited, "waiting for a frame"); !done) return done;
+    BOLT_TRY(check(waited, "waiting for a frame"));
     read_timings();
     retired_.destroy();
     ring_used_ = 0;
     for (const DescriptorPool& pool : descriptor_pools_) vkResetDescriptorPool(device_->get(), pool.get(), 0);
     descriptor_pool_ = 0;
-    return check(vkResetCommandPool(device_->get(), pool_.get(), 0), "resetting commands");
+    return check(vkResetCommandPool(device_->get(), pool_.get(), 0), "resetting the command pool");
 }
 
 Result<std::unique_ptr<Frames>> Frames::create(Device& device) {
     auto frames = std::make_unique<Frames>();
     frames->device_ = &device;
-    for (Frame& frame : frames->frames_)
-        if (Status made = frame.prepare(device); !made) return fail(made.error());
+    for (FrameContext& frame : frames->frames_) BOLT_TRY(frame.prepare(device));
     return frames;
 }
 
-Result<Frame*> Frames::begin() {
-    Frame& frame = frames_[next_];
-    if (Status ready = frame.reset(); !ready) return fail(ready.error());
+Result<FrameContext*> Frames::begin() {
+    FrameContext& frame = frames_[next_];
+    BOLT_TRY(frame.reset());
     if (!frame.timings_.empty()) timings_ = frame.timings_;
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    if (Status begun = check(vkBeginCommandBuffer(frame.commands_, &info), "recording a frame"); !begun)
-        return fail(begun.error());
+    BOLT_TRY(check(vkBeginCommandBuffer(frame.commands_, &info), "recording a frame"));
     if (frame.queries_) vkCmdResetQueryPool(frame.commands_, frame.queries_.get(), 0, 2 * most_timings);
     return &frame;
 }
 
-Status Frames::submit(Frame& frame, const Signals& signals) {
+Status Frames::submit(FrameContext& frame, const Signals& signals) {
     while (!frame.open_.empty()) frame.end_timing();
-    if (Status ended = check(vkEndCommandBuffer(frame.commands_), "recording a frame"); !ended) return ended;
+    BOLT_TRY(check(vkEndCommandBuffer(frame.commands_), "recording a frame"));
     const VkFence fence = frame.fence_.get();
-    if (Status reset = check(vkResetFences(device_->get(), 1, &fence), "resetting a fence"); !reset)
-        return reset;
+    BOLT_TRY(check(vkResetFences(device_->get(), 1, &fence), "resetting a fence"));
 
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = frame.commands_;
@@ -202,13 +198,13 @@ Status Frames::submit(Frame& frame, const Signals& signals) {
     info.signalSemaphoreInfoCount = signals.signal != VK_NULL_HANDLE ? 1 : 0;
     info.pSignalSemaphoreInfos = &signal;
     next_ = (next_ + 1) % frames_in_flight;
-    return check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "handing a frame to the GPU");
+    return check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "submitting a frame");
 }
 
 Status Frames::finish() {
     for (std::uint32_t i = 0; i < frames_in_flight; ++i) {
-        Frame& frame = frames_[(next_ + i) % frames_in_flight];  // the oldest first
-        if (Status done = frame.reset(); !done) return done;
+        FrameContext& frame = frames_[(next_ + i) % frames_in_flight];  // the oldest first
+        BOLT_TRY(frame.reset());
         if (!frame.timings_.empty()) timings_ = frame.timings_;
     }
     return {};

@@ -1,44 +1,61 @@
-// Frames in flight: while the GPU draws one, the CPU records the next. Each has its commands, its fence,
-// memory for what changes every frame, descriptor sets, time stamps and what it retired.
+// Frames in flight: the CPU records one frame while the GPU draws another. Each frame has its command buffer,
+// fence, transient memory, descriptor sets, timestamps and retired resources.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
-#include "engine/gpu/retired.hpp"
+#include "engine/gpu/resources.hpp"
 
 namespace bolt::gpu {
 
 inline constexpr std::uint32_t frames_in_flight = 2;
 
-// How long a pass of a frame took on the GPU.
-struct Timing {
+// The GPU time of one pass of a frame.
+struct PassTiming {
     std::string name;
     double milliseconds = 0.0;
 };
 
-// A piece of a frame's buffer: written now, read by the GPU in this frame.
-struct Piece {
+// A range of a frame's transient buffer: written by the CPU now, read by the GPU in this frame.
+struct TransientRange {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
     std::span<std::byte> bytes;
 };
 
-class Frame {
+// Resources that the program no longer needs but the GPU may still use. They are destroyed when the frame
+// that used them last has completed.
+class RetiredResources {
+  public:
+    using Resource = std::variant<Buffer, Image, ImageView, Sampler, PipelineHandle, PipelineLayout,
+                                  DescriptorPool, SwapchainHandle, Semaphore>;
+
+    void add(Resource resource) { resources_.push_back(std::move(resource)); }
+    void destroy() { resources_.clear(); }
+
+  private:
+    std::vector<Resource> resources_;
+};
+
+class FrameContext {
   public:
     [[nodiscard]] VkCommandBuffer commands() const { return commands_; }
 
-    // Memory that lives until this frame comes again; for uniform and storage buffers. Grows when it is too
-    // small.
-    Result<Piece> piece(VkDeviceSize size);
+    // Allocates transient memory for uniform and storage buffers; it is valid until this frame is begun
+    // again. The buffer grows on demand.
+    Result<TransientRange> allocate(VkDeviceSize size);
 
-    // A descriptor set that lives as long.
+    // Allocates a descriptor set with the same lifetime.
     Result<VkDescriptorSet> descriptor_set(VkDescriptorSetLayout layout);
 
-    void retire(Retired::Thing thing) { retired_.add(std::move(thing)); }
+    void retire(RetiredResources::Resource resource) { retired_.add(std::move(resource)); }
 
-    // Time stamps around what is recorded between; nothing on GPUs that have no clock.
+    // Writes GPU timestamps around the commands recorded in between. Does nothing on GPUs without timestamps.
     void begin_timing(std::string name);
     void end_timing();
 
@@ -57,39 +74,39 @@ class Frame {
     VkDeviceSize ring_used_ = 0;
     std::vector<DescriptorPool> descriptor_pools_;
     std::size_t descriptor_pool_ = 0;
-    Retired retired_;
+    RetiredResources retired_;
     QueryPool queries_;
-    std::vector<std::string> timed_;  // names, in the order of the queries
-    std::vector<std::size_t> open_;   // timings that have begun and not ended
-    std::vector<Timing> timings_;     // of the time before
+    std::vector<std::string> timed_;   // names, in the order of the queries
+    std::vector<std::size_t> open_;    // timings that have begun and not ended
+    std::vector<PassTiming> timings_;  // of the previous use of this frame
 };
 
 class Frames {
   public:
     static Result<std::unique_ptr<Frames>> create(Device& device);
 
-    // Waits until the slot is free again, and starts recording.
-    Result<Frame*> begin();
+    // Waits until the next frame is free and starts recording.
+    Result<FrameContext*> begin();
 
-    // Ends recording and hands the frame to the GPU.
+    // Ends recording and submits the frame.
     struct Signals {
-        VkSemaphore wait = VK_NULL_HANDLE;    // before anything is copied
-        VkSemaphore signal = VK_NULL_HANDLE;  // when all is done
+        VkSemaphore wait = VK_NULL_HANDLE;    // waited for before transfers
+        VkSemaphore signal = VK_NULL_HANDLE;  // signalled when all commands are complete
     };
-    Status submit(Frame& frame, const Signals& signals);
-    Status submit(Frame& frame) { return submit(frame, Signals{}); }
+    Status submit(FrameContext& frame, const Signals& signals);
+    Status submit(FrameContext& frame) { return submit(frame, Signals{}); }
 
-    // Waits until the GPU is done with all of them; what they retired goes, their timings can be read.
+    // Waits until the GPU has completed all frames, destroys their retired resources and reads their timings.
     Status finish();
 
-    // Of the last frame that came back.
-    [[nodiscard]] const std::vector<Timing>& timings() const { return timings_; }
+    // Timings of the last completed frame.
+    [[nodiscard]] const std::vector<PassTiming>& timings() const { return timings_; }
 
   private:
     Device* device_ = nullptr;
-    std::array<Frame, frames_in_flight> frames_;
+    std::array<FrameContext, frames_in_flight> frames_;
     std::uint32_t next_ = 0;
-    std::vector<Timing> timings_;
+    std::vector<PassTiming> timings_;
 };
 
 }  // namespace bolt::gpu

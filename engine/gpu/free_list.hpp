@@ -1,5 +1,5 @@
-// Ranges of a block that are free. Best fit: the smallest hole that holds the request, the lowest of equals;
-// freed ranges join their neighbours. Knows nothing of Vulkan.
+// The free ranges of a memory block. Best fit: allocates from the smallest range that is large enough, the
+// lowest address first; freed ranges are merged with their neighbours. Independent of Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ class FreeList {
   public:
     explicit FreeList(std::uint64_t size) : size_(size) { holes_[0] = size; }
 
-    // The offset of a range of `size` > 0 bytes aligned to `alignment` (a power of two), or nothing if no
-    // hole holds it.
+    // Returns the offset of a range of `size` > 0 bytes aligned to `alignment` (a power of two), or nullopt
+    // if no free range is large enough.
     std::optional<std::uint64_t> take(std::uint64_t size, std::uint64_t alignment);
 
-    // A range that take() gave, with the same size.
+    // Frees a range that take() returned, with the same size.
     void give_back(std::uint64_t offset, std::uint64_t size);
 
     [[nodiscard]] bool untouched() const { return holes_.size() == 1 && holes_.begin()->second == size_; }
@@ -24,7 +24,7 @@ class FreeList {
 
   private:
     std::uint64_t size_;
-    std::map<std::uint64_t, std::uint64_t> holes_;  // offset → size, none touching
+    std::map<std::uint64_t, std::uint64_t> holes_;  // offset → size; no two are adjacent
 };
 
 }  // namespace bolt::gpu

@@ -1,4 +1,4 @@
-// A Vulkan object that is destroyed with its owner. Move-only: there is one owner.
+// A move-only owner of a Vulkan object, which it destroys.
 #pragma once
 
 #include <utility>
@@ -7,7 +7,7 @@
 
 namespace bolt::gpu {
 
-// volk's function pointers are loaded at run time, so the destroyer is a pointer to that pointer.
+// volk loads function pointers at run time, so `destroy` points to the function pointer.
 template <class T, auto* destroy>
 class Handle {
   public:

@@ -42,7 +42,7 @@ bool has_layer(const char* wanted) {
 
 Result<Instance> Instance::create(const InstanceOptions& options) {
     if (volkInitialize() != VK_SUCCESS)
-        return fail(ErrorCode::no_device, "there is no Vulkan on this machine",
+        return fail(ErrorCode::no_device, "Vulkan is not installed",
                     "a Vulkan loader and driver (mesa-vulkan-drivers renders without a GPU)");
     if (volkGetInstanceVersion() < VK_API_VERSION_1_3)
         return fail(ErrorCode::no_device, "the Vulkan loader is too old", "Vulkan 1.3");
@@ -76,7 +76,7 @@ Result<Instance> Instance::create(const InstanceOptions& options) {
         info.ppEnabledLayerNames = &validation_layer;
     }
     if (Status made =
-            check(vkCreateInstance(&info, nullptr, &instance.instance_), "making the Vulkan instance");
+            check(vkCreateInstance(&info, nullptr, &instance.instance_), "creating the Vulkan instance");
         !made)
         return fail(made.error());
     volkLoadInstance(instance.instance_);
@@ -84,8 +84,7 @@ Result<Instance> Instance::create(const InstanceOptions& options) {
         messenger.pNext = nullptr;
         const VkResult listening =
             vkCreateDebugUtilsMessengerEXT(instance.instance_, &messenger, nullptr, &instance.messenger_);
-        if (Status made = check(listening, "listening to the validation layer"); !made)
-            return fail(made.error());
+        BOLT_TRY(check(listening, "registering the validation callback"));
     }
     return instance;
 }

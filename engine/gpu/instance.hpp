@@ -1,4 +1,4 @@
-// The Vulkan instance, and what the validation layers say about how it is used.
+// The Vulkan instance and the messages of the validation layers.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,15 @@
 
 namespace bolt::gpu {
 
-// Every warning and error of the validation layers since the instance was made. A correct program has none.
+// All warnings and errors of the validation layers since the instance was created. A correct program has
+// none.
 struct ValidationLog {
     std::vector<std::string> messages;
 };
 
 struct InstanceOptions {
-    bool validation = false;  // core and synchronization; an error if the layer is not installed
-    std::span<const char* const> extensions;  // what the window system needs
+    bool validation = false;  // core and synchronization validation; fails if the layer is not installed
+    std::span<const char* const> extensions;  // required by the window system
 };
 
 class Instance {
@@ -40,7 +41,7 @@ class Instance {
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     std::unique_ptr<ValidationLog> log_ =
-        std::make_unique<ValidationLog>();  // its address is the messenger's
+        std::make_unique<ValidationLog>();  // the messenger holds its address
 };
 
 }  // namespace bolt::gpu

@@ -30,7 +30,7 @@ Wish wish(MemoryUse use) {
     constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     switch (use) {
         case MemoryUse::device:
-            return {local, 0, visible};  // what the CPU can see of video memory is scarce
+            return {local, 0, visible};  // host-visible video memory is scarce
         case MemoryUse::upload:
             return {visible, local, cached};
         case MemoryUse::readback:
@@ -65,7 +65,7 @@ std::optional<std::uint32_t> memory_type(const VkPhysicalDeviceMemoryProperties&
             best_score = score;
         }
     }
-    // A buffer that only host memory can hold is still a buffer: slow is better than not at all.
+    // If only host memory can hold the buffer, use it: slow is better than no buffer.
     if (!best && use == MemoryUse::device) return memory_type(properties, allowed_bits, MemoryUse::upload);
     return best;
 }
@@ -88,10 +88,9 @@ Result<Block*> Memory::add_block(std::uint32_t type, VkDeviceSize size, Tiling t
     block->size = size;
     block->free = FreeList(size);
     const auto what = [&] {
-        return fmt::format("getting {} MiB of GPU memory", (size + (1U << 20) - 1) >> 20);
+        return fmt::format("allocating {} MiB of GPU memory", (size + (1U << 20) - 1) >> 20);
     };
-    if (Status made = check(vkAllocateMemory(device_, &info, nullptr, &block->memory), what()); !made)
-        return fail(made.error());
+    BOLT_TRY(check(vkAllocateMemory(device_, &info, nullptr, &block->memory), what()));
     if (mapped) {
         void* address = nullptr;
         const VkResult result = vkMapMemory(device_, block->memory, 0, VK_WHOLE_SIZE, 0, &address);
@@ -107,7 +106,7 @@ Result<Block*> Memory::add_block(std::uint32_t type, VkDeviceSize size, Tiling t
 
 Result<Allocation> Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, Tiling tiling) {
     const std::optional<std::uint32_t> type = memory_type(properties_, needs.memoryTypeBits, use);
-    if (!type) return fail(ErrorCode::failed, "the GPU has no memory of the kind that a resource needs");
+    if (!type) return fail(ErrorCode::failed, "the GPU has no suitable memory type for a resource");
     const VkMemoryType& kind = properties_.memoryTypes[*type];
     const bool visible = (kind.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
     const VkDeviceSize block_size = std::min(usual_block, properties_.memoryHeaps[kind.heapIndex].size / 8);
@@ -125,9 +124,8 @@ Result<Allocation> Memory::allocate(const VkMemoryRequirements& needs, MemoryUse
     }
     if (home == nullptr) {
         const VkDeviceSize size = needs.size <= block_size / 2 ? block_size : needs.size;
-        Result<Block*> added = add_block(*type, size, tiling, visible);
-        if (!added) return fail(added.error());
-        home = *added;
+        BOLT_TRY_ASSIGN(auto added, add_block(*type, size, tiling, visible));
+        home = added;
         offset = home->free.take(needs.size, needs.alignment);
     }
     in_use_ += needs.size;
@@ -142,7 +140,7 @@ void Memory::free(Allocation& allocation) {
     block->free.give_back(allocation.offset, allocation.size);
     in_use_ -= allocation.size;
     allocation = {};
-    // Of the shared blocks one empty one is kept, against going back and forth; memory of its own goes back
+    // Keep one empty shared block, to avoid alternating allocation and release; dedicated blocks are released
     // at once.
     const auto spare = [&](const std::unique_ptr<Block>& other) {
         return other.get() != block && other->type == block->type && other->tiling == block->tiling &&

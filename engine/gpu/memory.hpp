@@ -1,10 +1,10 @@
-// Device memory in blocks of 64 MiB (less on small heaps) that many resources share; large ones get memory of
-// their own. Buffers and optimally tiled images never share a block, so bufferImageGranularity is always
-// kept. What the CPU touches is mapped once, for good, and always coherent: there is nothing to flush.
+// Device memory. Resources share blocks of 64 MiB (less on small heaps); large resources get a dedicated
+// block. Buffers and optimally tiled images never share a block, so bufferImageGranularity always holds.
+// Host-visible memory is mapped once, permanently, and is always coherent: no flush is needed.
 //
-// On a discrete GPU `device` is memory that the CPU cannot see, and getting data there takes an upload; on
-// lavapipe and integrated GPUs everything is one kind, and mistakes here do not show. tests/gpu/memory.cpp
-// holds the choice against both.
+// On a discrete GPU the CPU cannot access `device` memory, and data reaches it through an upload. Lavapipe
+// and integrated GPUs have one kind of memory only, so mistakes do not show there; tests/gpu/memory.cpp
+// checks the choice of memory type for both.
 #pragma once
 
 #include <memory>
@@ -17,19 +17,18 @@
 namespace bolt::gpu {
 
 enum class MemoryUse : std::uint8_t {
-    device,  // the GPU's alone
-    upload,  // written by the CPU, read by the GPU: straight into video memory where the CPU can see a little
-             // of it
-    readback,  // written by the GPU, read by the CPU: cached where there is such
+    device,    // accessed by the GPU only
+    upload,    // written by the CPU, read by the GPU; host-visible video memory if the GPU has some
+    readback,  // written by the GPU, read by the CPU; cached if possible
 };
 
-// The memory type for a use among the allowed bits; nothing if none will do.
+// Chooses the memory type for a use among the allowed bits; nullopt if none is suitable.
 std::optional<std::uint32_t> memory_type(const VkPhysicalDeviceMemoryProperties& properties,
                                          std::uint32_t allowed_bits, MemoryUse use);
 
 struct Block;
 
-// A range of memory; given back through Memory::free.
+// A range of device memory; release it with Memory::free.
 struct Allocation {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
@@ -38,7 +37,7 @@ struct Allocation {
     Block* block = nullptr;
 };
 
-// Not for several threads at once.
+// Not thread-safe.
 class Memory {
   public:
     Memory(VkPhysicalDevice physical, VkDevice device);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 
 #include "engine/base/file.hpp"
-#include "engine/gpu/layout.hpp"
 
 namespace bolt::gpu {
 
@@ -19,12 +19,11 @@ Result<ShaderModule> make_module(const Device& device, const Shader& shader) {
     info.codeSize = shader.spirv.size() * sizeof(std::uint32_t);
     info.pCode = shader.spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
-    if (Status made = check(vkCreateShaderModule(device.get(), &info, nullptr, &module), shader.name); !made)
-        return fail(made.error());
+    BOLT_TRY(check(vkCreateShaderModule(device.get(), &info, nullptr, &module), shader.name));
     return ShaderModule(device.get(), module);
 }
 
-// What a vertex shader reads must be there; what it does not read may be.
+// Every vertex input of the shader needs a stream; unused streams are allowed.
 Status check_streams(const GraphicsInfo& info) {
     for (const VertexInput& input : info.vertex->reflection.inputs) {
         const bool fed =
@@ -32,7 +31,7 @@ Status check_streams(const GraphicsInfo& info) {
                         [&](const VertexStream& stream) { return stream.location == input.location; });
         if (!fed)
             return fail(ErrorCode::failed,
-                        fmt::format("{}: nothing feeds the vertex input \"{}\" at location {}",
+                        fmt::format("{}: no vertex stream for the input \"{}\" at location {}",
                                     info.vertex->name, input.name, input.location));
     }
     return {};
@@ -75,7 +74,8 @@ Result<PipelineCache> PipelineCache::open(const Device& device, std::filesystem:
     if (!cache.file_.empty())
         if (Result<std::string> text = read_file(cache.file_, largest_cache, ErrorCode::failed))
             stored = std::move(*text);
-    // The driver must refuse a foreign cache itself, but some have not: its header says whose it is.
+    // The specification requires drivers to reject a foreign cache, but some did not. Compare the header
+    // first.
     VkPipelineCacheHeaderVersionOne header{};
     if (stored.size() >= sizeof header) std::memcpy(&header, stored.data(), sizeof header);
     const VkPhysicalDeviceProperties& ours = device.properties();
@@ -89,7 +89,7 @@ Result<PipelineCache> PipelineCache::open(const Device& device, std::filesystem:
     info.pInitialData = stored.data();
     VkPipelineCache made = VK_NULL_HANDLE;
     if (Status ok =
-            check(vkCreatePipelineCache(device.get(), &info, nullptr, &made), "making a pipeline cache");
+            check(vkCreatePipelineCache(device.get(), &info, nullptr, &made), "creating a pipeline cache");
         !ok)
         return fail(ok.error());
     cache.cache_ = PipelineCacheHandle(device.get(), made);
@@ -100,39 +100,99 @@ Status PipelineCache::save() const {
     if (file_.empty()) return {};
     std::size_t size = 0;
     const VkResult counted = vkGetPipelineCacheData(device_->get(), cache_.get(), &size, nullptr);
-    if (Status ok = check(counted, "reading the pipeline cache"); !ok) return ok;
+    BOLT_TRY(check(counted, "reading the pipeline cache"));
     std::string data(size, '\0');
     const VkResult got = vkGetPipelineCacheData(device_->get(), cache_.get(), &size, data.data());
-    if (Status ok = check(got, "reading the pipeline cache"); !ok) return ok;
+    BOLT_TRY(check(got, "reading the pipeline cache"));
     data.resize(size);
     if (restored_ && size == stored_size_) return {};
-    std::error_code ignored;  // write_file says why if the folder is not there
+    std::error_code ignored;  // write_file reports a missing folder
     std::filesystem::create_directories(file_.parent_path(), ignored);
     return write_file(file_, data);
 }
 
+Status make_pipeline_layout(const Device& device, std::span<const Shader* const> shaders,
+                            Pipeline& pipeline) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<Binding, VkShaderStageFlags>> merged;
+    std::uint32_t sets = 0;
+    for (const Shader* shader : shaders) {
+        const Reflection& reflection = shader->reflection;
+        for (const Binding& binding : reflection.bindings) {
+            const auto [entry, inserted] =
+                merged.try_emplace({binding.set, binding.binding}, binding, VkShaderStageFlags{0});
+            const Binding& known = entry->second.first;
+            if (!inserted && (known.type != binding.type || known.count != binding.count))
+                return fail(
+                    ErrorCode::failed,
+                    fmt::format("{}: set {} binding {} (\"{}\") has another type or count in another stage",
+                                shader->name, binding.set, binding.binding, binding.name));
+            entry->second.second |= static_cast<VkShaderStageFlags>(reflection.stage);
+            sets = std::max(sets, binding.set + 1);
+        }
+        if (reflection.push_constants > 0) {
+            pipeline.push_stages |= static_cast<VkShaderStageFlags>(reflection.stage);
+            pipeline.push_size = std::max(pipeline.push_size, reflection.push_constants);
+        }
+    }
+    if (pipeline.push_size > device.limits().maxPushConstantsSize)
+        return fail(ErrorCode::failed,
+                    fmt::format("{} bytes of push constants exceed the limit of the GPU ({})",
+                                pipeline.push_size, device.limits().maxPushConstantsSize));
+
+    std::vector<std::vector<VkDescriptorSetLayoutBinding>> bindings(sets);
+    for (const auto& [key, value] : merged) {
+        const Binding& binding = value.first;
+        bindings[binding.set].push_back(
+            {binding.binding, binding.type, binding.count, value.second, nullptr});
+        pipeline.bindings.push_back(binding);
+    }
+    std::vector<VkDescriptorSetLayout> layouts;
+    for (const std::vector<VkDescriptorSetLayoutBinding>& set : bindings) {
+        VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+        info.bindingCount = static_cast<std::uint32_t>(set.size());
+        info.pBindings = set.data();
+        VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+        const VkResult made = vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout);
+        BOLT_TRY(check(made, "creating a descriptor set layout"));
+        pipeline.sets.emplace_back(device.get(), layout);
+        layouts.push_back(layout);
+    }
+    const VkPushConstantRange range{pipeline.push_stages, 0, pipeline.push_size};
+    VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    info.setLayoutCount = static_cast<std::uint32_t>(layouts.size());
+    info.pSetLayouts = layouts.data();
+    info.pushConstantRangeCount = pipeline.push_size > 0 ? 1 : 0;
+    info.pPushConstantRanges = &range;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    if (Status ok = check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout),
+                          "creating a pipeline layout");
+        !ok)
+        return ok;
+    pipeline.layout = PipelineLayout(device.get(), layout);
+    return {};
+}
+
 Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCache& cache,
                                         const GraphicsInfo& info) {
-    if (Status fed = check_streams(info); !fed) return fail(fed.error());
+    BOLT_TRY(check_streams(info));
     Pipeline pipeline;
     std::vector<const Shader*> shaders{info.vertex};
     if (info.fragment != nullptr) shaders.push_back(info.fragment);
-    if (Status merged = merge_layouts(device, shaders, pipeline); !merged) return fail(merged.error());
+    BOLT_TRY(make_pipeline_layout(device, shaders, pipeline));
 
     const VkSpecializationMapEntry entry{0, 0, sizeof info.constants};
     const VkSpecializationInfo constants{1, &entry, sizeof info.constants, &info.constants};
     std::vector<ShaderModule> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     for (const Shader* shader : shaders) {
-        Result<ShaderModule> module = make_module(device, *shader);
-        if (!module) return fail(module.error());
+        BOLT_TRY_ASSIGN(auto module, make_module(device, *shader));
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = shader->reflection.stage;
-        stage.module = module->get();
+        stage.module = module.get();
         stage.pName = "main";
         stage.pSpecializationInfo = info.constants != 0 ? &constants : nullptr;
         stages.push_back(stage);
-        modules.push_back(std::move(*module));
+        modules.push_back(std::move(module));
     }
     const VertexLayout vertices(info);
     VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
@@ -196,8 +256,7 @@ Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCach
     create.layout = pipeline.layout.get();
     VkPipeline handle = VK_NULL_HANDLE;
     const VkResult made = vkCreateGraphicsPipelines(device.get(), cache.get(), 1, &create, nullptr, &handle);
-    if (Status ok = check(made, fmt::format("making the pipeline of {}", info.vertex->name)); !ok)
-        return fail(ok.error());
+    BOLT_TRY(check(made, fmt::format("creating the pipeline of {}", info.vertex->name)));
     pipeline.handle = PipelineHandle(device.get(), handle);
     return pipeline;
 }
@@ -206,22 +265,20 @@ Result<Pipeline> make_compute_pipeline(const Device& device, const PipelineCache
                                        const Shader& shader) {
     Pipeline pipeline;
     const Shader* shaders[] = {&shader};
-    if (Status merged = merge_layouts(device, shaders, pipeline); !merged) return fail(merged.error());
-    Result<ShaderModule> module = make_module(device, shader);
-    if (!module) return fail(module.error());
+    BOLT_TRY(make_pipeline_layout(device, shaders, pipeline));
+    BOLT_TRY_ASSIGN(auto module, make_module(device, shader));
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                     nullptr,
                     0,
                     VK_SHADER_STAGE_COMPUTE_BIT,
-                    module->get(),
+                    module.get(),
                     "main",
                     nullptr};
     create.layout = pipeline.layout.get();
     VkPipeline handle = VK_NULL_HANDLE;
     const VkResult made = vkCreateComputePipelines(device.get(), cache.get(), 1, &create, nullptr, &handle);
-    if (Status ok = check(made, fmt::format("making the pipeline of {}", shader.name)); !ok)
-        return fail(ok.error());
+    BOLT_TRY(check(made, fmt::format("creating the pipeline of {}", shader.name)));
     pipeline.handle = PipelineHandle(device.get(), handle);
     return pipeline;
 }

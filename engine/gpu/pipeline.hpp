@@ -1,5 +1,5 @@
-// Pipelines from shaders: layouts come from the shaders' reflection, viewport and scissor are dynamic, and
-// there is no render pass object (dynamic rendering).
+// Pipelines created from shaders. Layouts come from shader reflection, viewport and scissor are dynamic, and
+// dynamic rendering replaces render pass objects.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct Shader {
 
 Result<Shader> make_shader(std::string name, std::span<const std::uint32_t> spirv);
 
-// Where one vertex stream comes from and how it is stored.
+// The buffer, offset and format of one vertex input.
 struct VertexStream {
     std::uint32_t location = 0;
     VkFormat format = VK_FORMAT_UNDEFINED;
@@ -31,7 +31,7 @@ struct GraphicsInfo {
     const Shader* vertex = nullptr;
     const Shader* fragment = nullptr;  // null: depth only
     std::vector<VertexStream> streams;
-    std::vector<std::uint32_t> strides;  // of the vertex buffers
+    std::vector<std::uint32_t> strides;  // bytes, one per vertex buffer
     std::vector<VkFormat> colors;
     VkFormat depth = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
@@ -39,13 +39,12 @@ struct GraphicsInfo {
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
     bool depth_test = true, depth_write = true;
-    VkCompareOp depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;  // reversed: 1 near, 0 far
+    VkCompareOp depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;  // reversed depth: 1 near, 0 far
     bool depth_clamp = false;
     float depth_bias = 0.0F, depth_bias_slope = 0.0F;
     bool blend = false;  // premultiplied alpha
     bool color_write = true;
-    std::uint32_t constants =
-        0;  // specialization constant 0 of both shaders, when not zero: bits that the pass defines
+    std::uint32_t constants = 0;  // bits for specialization constant 0 of both shaders; 0: not specialized
 };
 
 struct Pipeline {
@@ -57,13 +56,12 @@ struct Pipeline {
     std::uint32_t push_size = 0;
 };
 
-// Compiled pipelines, kept on disk for the next start. A cache of another driver or a broken one is ignored.
+// Compiled pipelines, stored on disk for the next start. A damaged cache or one of another driver is ignored.
 class PipelineCache {
   public:
     static Result<PipelineCache> open(const Device& device,
                                       std::filesystem::path file);  // empty path: in memory only
-    // Writes it back if anything was added; a cache that cannot be written is an error that the caller may
-    // ignore.
+    // Writes the cache to its file if it has grown. The caller may ignore an error.
     Status save() const;
     [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
     [[nodiscard]] bool restored() const { return restored_; }
@@ -75,6 +73,10 @@ class PipelineCache {
     bool restored_ = false;
     std::size_t stored_size_ = 0;
 };
+
+// Creates the descriptor set layouts and the pipeline layout that the shaders need together. Fails if two
+// stages declare one binding with different types or counts.
+Status make_pipeline_layout(const Device& device, std::span<const Shader* const> shaders, Pipeline& pipeline);
 
 Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCache& cache,
                                         const GraphicsInfo& info);

@@ -37,7 +37,7 @@ VkFormat format_of(spvc_basetype base, unsigned width) {
     return VK_FORMAT_UNDEFINED;
 }
 
-// The resources of one kind.
+// Returns the resources of one type.
 std::span<const spvc_reflected_resource> list(spvc_resources resources, spvc_resource_type type) {
     const spvc_reflected_resource* first = nullptr;
     std::size_t count = 0;
@@ -55,12 +55,12 @@ std::uint32_t array_size(spvc_compiler compiler, spvc_type_id id) {
 Result<Reflection> reflect(std::span<const std::uint32_t> spirv) {
     spvc_context raw = nullptr;
     if (spvc_context_create(&raw) != SPVC_SUCCESS)
-        return fail(ErrorCode::failed, "no memory to read a shader");
+        return fail(ErrorCode::failed, "not enough memory to reflect a shader");
     const Context context(raw, spvc_context_destroy);
     spvc_parsed_ir parsed = nullptr;
     spvc_compiler compiler = nullptr;
     spvc_resources resources = nullptr;
-    spvc_set active = nullptr;  // what the shader uses, of what its includes declare
+    spvc_set active = nullptr;  // the resources that the shader uses; its includes may declare more
     const bool read =
         spvc_context_parse_spirv(raw, spirv.data(), spirv.size(), &parsed) == SPVC_SUCCESS &&
         spvc_context_create_compiler(raw, SPVC_BACKEND_NONE, parsed, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
@@ -75,8 +75,7 @@ Result<Reflection> reflect(std::span<const std::uint32_t> spirv) {
     Reflection reflection;
     const std::optional<VkShaderStageFlagBits> stage = stage_of(spvc_compiler_get_execution_model(compiler));
     if (!stage)
-        return fail(ErrorCode::failed, "a shader is of no stage that is used here",
-                    "vertex, fragment or compute");
+        return fail(ErrorCode::failed, "the shader stage is not supported", "vertex, fragment or compute");
     reflection.stage = *stage;
 
     constexpr std::pair<spvc_resource_type, VkDescriptorType> kinds[] = {
@@ -111,10 +110,9 @@ Result<Reflection> reflect(std::span<const std::uint32_t> spirv) {
             const spvc_type type = spvc_compiler_get_type_handle(compiler, resource.base_type_id);
             const VkFormat format = format_of(spvc_type_get_basetype(type), spvc_type_get_vector_size(type));
             if (format == VK_FORMAT_UNDEFINED)
-                return fail(
-                    ErrorCode::failed,
-                    fmt::format("the vertex input \"{}\" is of no type that is used here", resource.name),
-                    "float or uint, one to four");
+                return fail(ErrorCode::failed,
+                            fmt::format("the vertex input \"{}\" has an unsupported type", resource.name),
+                            "one to four floats or uints");
             reflection.inputs.push_back(
                 {spvc_compiler_get_decoration(compiler, resource.id, SpvDecorationLocation), format,
                  resource.name});

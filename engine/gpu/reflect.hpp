@@ -1,4 +1,4 @@
-// What a shader expects, read from its SPIR-V: layouts follow the shaders and are written nowhere else.
+// The interface of a shader, read from its SPIR-V. Layouts are derived from it and declared nowhere else.
 #pragma once
 
 #include <span>
@@ -17,14 +17,14 @@ struct Binding {
 
 struct VertexInput {
     std::uint32_t location = 0;
-    VkFormat format = VK_FORMAT_UNDEFINED;  // 32-bit as the shader declares it; a mesh may store it smaller
+    VkFormat format = VK_FORMAT_UNDEFINED;  // the shader's 32-bit type; a mesh may store a smaller one
     std::string name;
 };
 
 struct Reflection {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_VERTEX_BIT;
-    std::vector<Binding> bindings;     // by set, then binding
-    std::vector<VertexInput> inputs;   // vertex stage only, by location
+    std::vector<Binding> bindings;     // sorted by set, then binding
+    std::vector<VertexInput> inputs;   // vertex stage only, sorted by location
     std::uint32_t push_constants = 0;  // bytes
 };
 

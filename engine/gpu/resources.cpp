@@ -12,17 +12,17 @@ Result<Buffer> Buffer::create(Device& device, VkDeviceSize size, VkBufferUsageFl
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = buffer.size_;
     info.usage = usage;
-    if (Status made = check(vkCreateBuffer(device.get(), &info, nullptr, &buffer.buffer_), "making a buffer");
+    if (Status made =
+            check(vkCreateBuffer(device.get(), &info, nullptr, &buffer.buffer_), "creating a buffer");
         !made)
         return fail(made.error());
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device.get(), buffer.buffer_, &needs);
-    Result<Allocation> allocation = device.memory().allocate(needs, use, Memory::Tiling::linear);
-    if (!allocation) return fail(allocation.error());
-    buffer.allocation_ = *allocation;
+    BOLT_TRY_ASSIGN(auto allocation, device.memory().allocate(needs, use, Memory::Tiling::linear));
+    buffer.allocation_ = allocation;
     const VkResult bound = vkBindBufferMemory(device.get(), buffer.buffer_, buffer.allocation_.memory,
                                               buffer.allocation_.offset);
-    if (Status made = check(bound, "binding a buffer"); !made) return fail(made.error());
+    BOLT_TRY(check(bound, "binding a buffer"));
     return buffer;
 }
 
@@ -63,25 +63,23 @@ Result<Image> Image::create(Device& device, const ImageInfo& given) {
     info.samples = given.samples;
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = given.usage;
-    if (Status made = check(vkCreateImage(device.get(), &info, nullptr, &image.image_), "making an image");
+    if (Status made = check(vkCreateImage(device.get(), &info, nullptr, &image.image_), "creating an image");
         !made)
         return fail(made.error());
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device.get(), image.image_, &needs);
-    Result<Allocation> allocation =
-        device.memory().allocate(needs, MemoryUse::device, Memory::Tiling::optimal);
-    if (!allocation) return fail(allocation.error());
-    image.allocation_ = *allocation;
+    BOLT_TRY_ASSIGN(auto allocation,
+                    device.memory().allocate(needs, MemoryUse::device, Memory::Tiling::optimal));
+    image.allocation_ = allocation;
     const VkResult bound =
         vkBindImageMemory(device.get(), image.image_, image.allocation_.memory, image.allocation_.offset);
-    if (Status made = check(bound, "binding an image"); !made) return fail(made.error());
+    BOLT_TRY(check(bound, "binding an image"));
 
     const VkImageViewType type = given.cube                        ? VK_IMAGE_VIEW_TYPE_CUBE
                                  : given.layers > 1 || given.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
                                                                    : VK_IMAGE_VIEW_TYPE_2D;
-    Result<ImageView> view = image.view(type, 0, given.mips, 0, given.layers);
-    if (!view) return fail(view.error());
-    image.view_ = std::move(*view);
+    BOLT_TRY_ASSIGN(auto view, image.view(type, 0, given.mips, 0, given.layers));
+    image.view_ = std::move(view);
     return image;
 }
 
@@ -93,7 +91,8 @@ Result<ImageView> Image::view(VkImageViewType type, std::uint32_t first_mip, std
     info.format = info_.format;
     info.subresourceRange = {info_.aspect(), first_mip, mips, first_layer, layers};
     VkImageView view = VK_NULL_HANDLE;
-    if (Status made = check(vkCreateImageView(device_->get(), &info, nullptr, &view), "making an image view");
+    if (Status made =
+            check(vkCreateImageView(device_->get(), &info, nullptr, &view), "creating an image view");
         !made)
         return fail(made.error());
     return ImageView(device_->get(), view);
@@ -124,7 +123,7 @@ Result<Sampler> make_sampler(const Device& device, const SamplerInfo& given) {
                                                                            : VK_SAMPLER_MIPMAP_MODE_NEAREST);
     info.addressModeU = info.addressModeW = given.address;
     info.addressModeV = given.address_v.value_or(given.address);
-    // On llvmpipe (Mesa 22.3) it was measured at a millisecond a pixel: minutes a picture.
+    // On llvmpipe (Mesa 22.3) anisotropic filtering took one millisecond per pixel: minutes per picture.
     const bool software = device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     info.anisotropyEnable = given.anisotropy > 1.0F && !software ? features.samplerAnisotropy : VK_FALSE;
     info.maxAnisotropy = std::min(given.anisotropy, device.limits().maxSamplerAnisotropy);
@@ -133,7 +132,7 @@ Result<Sampler> make_sampler(const Device& device, const SamplerInfo& given) {
     info.maxLod = VK_LOD_CLAMP_NONE;
     info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
     VkSampler sampler = VK_NULL_HANDLE;
-    if (Status made = check(vkCreateSampler(device.get(), &info, nullptr, &sampler), "making a sampler");
+    if (Status made = check(vkCreateSampler(device.get(), &info, nullptr, &sampler), "creating a sampler");
         !made)
         return fail(made.error());
     return Sampler(device.get(), sampler);

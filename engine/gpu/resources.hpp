@@ -1,4 +1,4 @@
-// Buffers and images with their memory: move-only, given back when they go.
+// Buffers and images with their memory: move-only, released by their owner.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ class Buffer {
 
     [[nodiscard]] VkBuffer get() const { return buffer_; }
     [[nodiscard]] VkDeviceSize size() const { return size_; }
-    // What the CPU sees of it; empty for MemoryUse::device.
+    // The mapped memory; empty for MemoryUse::device.
     [[nodiscard]] std::span<std::byte> bytes() const {
         return {allocation_.mapped, allocation_.mapped != nullptr ? static_cast<std::size_t>(size_) : 0};
     }
@@ -40,10 +40,10 @@ struct ImageInfo {
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{1, 1};
     std::uint32_t mips = 1, layers = 1;
-    bool cube = false;  // six layers a cube
+    bool cube = false;  // six layers per cube
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkImageUsageFlags usage = 0;
-    bool array = false;  // seen as an array even with one layer
+    bool array = false;  // viewed as an array even with one layer
 
     [[nodiscard]] VkImageAspectFlags aspect() const;
 };
@@ -61,9 +61,9 @@ class Image {
 
     [[nodiscard]] VkImage get() const { return image_; }
     [[nodiscard]] const ImageInfo& info() const { return info_; }
-    // All of it: 2D, 2D array or cube, as the info says.
+    // A view of the whole image: 2D, 2D array or cube, as the info says.
     [[nodiscard]] VkImageView view() const { return view_.get(); }
-    // A view of part of it.
+    // Creates a view of a part of the image.
     [[nodiscard]] Result<ImageView> view(VkImageViewType type, std::uint32_t first_mip, std::uint32_t mips,
                                          std::uint32_t first_layer, std::uint32_t layers) const;
 
@@ -80,12 +80,12 @@ class Image {
 struct SamplerInfo {
     VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    // Where they differ from those.
+    // Override the values above.
     std::optional<VkFilter> min_filter;
     std::optional<VkSamplerMipmapMode> mips;
     std::optional<VkSamplerAddressMode> address_v;
     bool compares = false;    // shadow maps: reference ≤ depth
-    float anisotropy = 1.0F;  // above 1 where the GPU can
+    float anisotropy = 1.0F;  // a value above 1 is used if the GPU supports it
 };
 Result<Sampler> make_sampler(const Device& device, const SamplerInfo& info);
 

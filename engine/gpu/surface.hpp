@@ -1,4 +1,4 @@
-// What a window gives to draw on. Made by the window (engine/platform), because only it knows its system.
+// The drawable surface of a window. engine/platform creates it, because it depends on the window system.
 #pragma once
 
 #include <utility>
@@ -20,7 +20,9 @@ class Surface {
     }
     Surface(const Surface&) = delete;
     Surface& operator=(const Surface&) = delete;
-    ~Surface();
+    ~Surface() {
+        if (surface_ != VK_NULL_HANDLE) vkDestroySurfaceKHR(instance_, surface_, nullptr);
+    }
 
     [[nodiscard]] VkSurfaceKHR get() const { return surface_; }
 

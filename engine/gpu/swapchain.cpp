@@ -3,15 +3,15 @@
 #include <utility>
 
 #include "engine/gpu/barrier.hpp"
-#include "engine/gpu/listed.hpp"
 
 namespace bolt::gpu {
 
 namespace {
 
-// A window that is hidden may give no image for as long as it is: events must go on meanwhile.
+// A hidden window may provide no image for as long as it is hidden; time out, so that events are still
+// handled.
 constexpr std::uint64_t longest_wait = 200'000'000;  // ns
-constexpr std::uint32_t most_losses = 3;             // in a row
+constexpr std::uint32_t most_losses = 3;             // consecutive
 
 bool same(VkExtent2D a, VkExtent2D b) { return a.width == b.width && a.height == b.height; }
 bool empty(VkExtent2D extent) { return extent.width == 0 || extent.height == 0; }
@@ -20,7 +20,7 @@ Result<Semaphore> make_semaphore(const Device& device) {
     const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
     if (Status made =
-            check(vkCreateSemaphore(device.get(), &info, nullptr, &semaphore), "making a semaphore");
+            check(vkCreateSemaphore(device.get(), &info, nullptr, &semaphore), "creating a semaphore");
         !made)
         return fail(made.error());
     return Semaphore(device.get(), semaphore);
@@ -37,18 +37,18 @@ Result<std::unique_ptr<Swapchain>> Swapchain::create(Device& device, Surface sur
     swapchain->surface_ = std::move(surface);
     swapchain->make_surface_ = std::move(make_surface);
     for (Semaphore& semaphore : swapchain->acquired_) {
-        Result<Semaphore> made = make_semaphore(device);
-        if (!made) return fail(made.error());
-        semaphore = std::move(*made);
+        BOLT_TRY_ASSIGN(auto made, make_semaphore(device));
+        semaphore = std::move(made);
     }
     return swapchain;
 }
 
 Swapchain::~Swapchain() {
-    (void)device_->idle();  // a lost device has nothing in use either
+    (void)device_->idle();  // a lost device is idle too
 }
 
-// What a result means here: true: go on; false: not now, but the next picture may be shown.
+// Interprets a result. Returns true to continue, and false if this picture cannot be shown but a later one
+// may.
 Result<bool> Swapchain::judge(VkResult result, std::string_view what) {
     switch (result) {
         case VK_SUCCESS:
@@ -69,44 +69,42 @@ Result<bool> Swapchain::judge(VkResult result, std::string_view what) {
         default:
             break;
     }
-    if (Status ok = check(result, what); !ok) return fail(ok.error());
+    BOLT_TRY(check(result, what));
     return true;
 }
 
 Status Swapchain::replace_surface() {
-    if (Status idle = device_->idle(); !idle) return idle;
+    BOLT_TRY(device_->idle());
     images_.clear();
     swapchain_ = SwapchainHandle();
     surface_ = Surface();
-    Result<Surface> made = make_surface_();
-    if (!made) return fail(made.error());
-    surface_ = std::move(*made);
+    BOLT_TRY_ASSIGN(auto made, make_surface_());
+    surface_ = std::move(made);
     VkBool32 shows = VK_FALSE;
     const VkResult asked = vkGetPhysicalDeviceSurfaceSupportKHR(device_->physical(), device_->queue_family(),
                                                                 surface_.get(), &shows);
-    if (Status known = check(asked, "asking what the window can show"); !known) return known;
+    BOLT_TRY(check(asked, "querying the surface capabilities"));
     if (shows != VK_TRUE)
-        return fail(ErrorCode::no_device, "the window is on a display that this GPU cannot show on any more");
+        return fail(ErrorCode::no_device, "this GPU can no longer present to the window's display");
     lost_ = false;
     stale_ = true;
     return {};
 }
 
-// False: the surface is gone.
+// Returns false if the surface was lost.
 Result<bool> Swapchain::remake(VkExtent2D window) {
-    SurfaceOffer offer;
-    if (Result<bool> asked =
-            judge(ask_surface(device_->physical(), surface_.get(), offer), "asking what the window can show");
+    SurfaceSupport offer;
+    if (Result<bool> asked = judge(query_surface(device_->physical(), surface_.get(), offer),
+                                   "querying the surface capabilities");
         !asked || !*asked)
         return asked;
-    Result<SwapchainPlan> plan = plan_swapchain(offer, {window, options_.may_tear, frames_in_flight});
-    if (!plan) return fail(plan.error());
-    suboptimal_is_normal_ = suboptimal_ && same(plan->extent, plan_.extent);
-    plan_ = std::move(*plan);
+    BOLT_TRY_ASSIGN(auto plan, plan_swapchain(offer, {window, options_.may_tear, frames_in_flight}));
+    suboptimal_is_normal_ = suboptimal_ && same(plan.extent, plan_.extent);
+    plan_ = std::move(plan);
     window_ = window;
     if (empty(plan_.extent)) return true;
-    // Afterwards nothing of the old one is in use, and its semaphores are free.
-    if (Status idle = device_->idle(); !idle) return fail(idle.error());
+    // When the device is idle, the old swapchain is unused and its semaphores are free.
+    BOLT_TRY(device_->idle());
 
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     info.surface = surface_.get();
@@ -127,15 +125,14 @@ Result<bool> Swapchain::remake(VkExtent2D window) {
     images_.clear();
     drawn_.clear();
     swapchain_ = SwapchainHandle(device_->get(), raw);
-    if (Result<bool> made = judge(result, "making the window's images"); !made || !*made) return made;
-    const VkResult got = listed(images_, [&](std::uint32_t* count, VkImage* images) {
+    if (Result<bool> made = judge(result, "creating the swapchain"); !made || !*made) return made;
+    const VkResult got = enumerate(images_, [&](std::uint32_t* count, VkImage* images) {
         return vkGetSwapchainImagesKHR(device_->get(), raw, count, images);
     });
-    if (Status ok = check(got, "asking for the window's images"); !ok) return fail(ok.error());
+    BOLT_TRY(check(got, "querying the swapchain images"));
     while (drawn_.size() < images_.size()) {
-        Result<Semaphore> made = make_semaphore(*device_);
-        if (!made) return fail(made.error());
-        drawn_.push_back(std::move(*made));
+        BOLT_TRY_ASSIGN(auto made, make_semaphore(*device_));
+        drawn_.push_back(std::move(made));
     }
     ++made_;
     stale_ = suboptimal_ = false;
@@ -144,17 +141,15 @@ Result<bool> Swapchain::remake(VkExtent2D window) {
 
 Result<VkExtent2D> Swapchain::ready(VkExtent2D window) {
     while (lost_ || stale_ || !same(window, window_)) {
-        if (lost_)
-            if (Status replaced = replace_surface(); !replaced) return fail(replaced.error());
-        const Result<bool> made = remake(window);
-        if (!made) return fail(made.error());
-        if (*made) break;
+        if (lost_) BOLT_TRY(replace_surface());
+        BOLT_TRY_ASSIGN(const auto made, remake(window));
+        if (made) break;
     }
     return plan_.extent;
 }
 
 void Swapchain::copy(VkCommandBuffer commands, VkImage to, const Image& picture, std::uint32_t layer) const {
-    image_barrier(commands, to, Use::acquired, Use::transfer_to);
+    image_barrier(commands, to, ResourceUse::acquired, ResourceUse::transfer_to);
     const VkExtent2D from_size = picture.info().extent, to_size = plan_.extent;
     const VkImageSubresourceLayers from_layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1},
         to_layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
@@ -179,28 +174,28 @@ void Swapchain::copy(VkCommandBuffer commands, VkImage to, const Image& picture,
         vkCmdBlitImage(commands, picture.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, filter);
     }
-    image_barrier(commands, to, Use::transfer_to, Use::present);
+    image_barrier(commands, to, ResourceUse::transfer_to, ResourceUse::present);
 }
 
-Result<bool> Swapchain::show(Frames& frames, Frame& frame, const Image& picture, std::uint32_t layer) {
+Result<bool> Swapchain::show(Frames& frames, FrameContext& frame, const Image& picture, std::uint32_t layer) {
     if (!swapchain_ || stale_ || lost_ || empty(plan_.extent)) {
-        if (Status sent = frames.submit(frame); !sent) return fail(sent.error());
+        BOLT_TRY(frames.submit(frame));
         return false;
     }
     const VkSemaphore acquired = acquired_[next_acquired_].get();
     std::uint32_t index = 0;
-    const Result<bool> got = judge(vkAcquireNextImageKHR(device_->get(), swapchain_.get(), longest_wait,
-                                                         acquired, VK_NULL_HANDLE, &index),
-                                   "getting an image of the window");
-    if (!got) return fail(got.error());
-    if (!*got) {
-        if (Status sent = frames.submit(frame); !sent) return fail(sent.error());
+    BOLT_TRY_ASSIGN(const auto got,
+                    judge(vkAcquireNextImageKHR(device_->get(), swapchain_.get(), longest_wait, acquired,
+                                                VK_NULL_HANDLE, &index),
+                          "acquiring a swapchain image"));
+    if (!got) {
+        BOLT_TRY(frames.submit(frame));
         return false;
     }
     next_acquired_ = (next_acquired_ + 1) % frames_in_flight;
     copy(frame.commands(), images_[index], picture, layer);
     const VkSemaphore drawn = drawn_[index].get();
-    if (Status sent = frames.submit(frame, {acquired, drawn}); !sent) return fail(sent.error());
+    BOLT_TRY(frames.submit(frame, {acquired, drawn}));
 
     const VkSwapchainKHR swapchain = swapchain_.get();
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
@@ -209,8 +204,7 @@ Result<bool> Swapchain::show(Frames& frames, Frame& frame, const Image& picture,
     info.swapchainCount = 1;
     info.pSwapchains = &swapchain;
     info.pImageIndices = &index;
-    const Result<bool> shown =
-        judge(vkQueuePresentKHR(device_->queue(), &info), "showing a picture in the window");
+    const Result<bool> shown = judge(vkQueuePresentKHR(device_->queue(), &info), "presenting a picture");
     if (shown && *shown) losses_ = 0;
     return shown;
 }

@@ -1,7 +1,6 @@
-// Pictures on a window. What windows do to a program is handled here: they change their size, have no area
-// for a while (minimised), and lose their surface. A picture that cannot be shown is dropped; the next one
-// finds everything made anew. Only a lost device is the caller's: everything made from it has to be made
-// again.
+// Presents pictures in a window and handles the window's changes: a new size, no area (minimised), a lost
+// surface. A picture that cannot be presented is dropped, and the swapchain is recreated for the next one.
+// Only a lost device is left to the caller, who must recreate everything made from it.
 #pragma once
 
 #include <functional>
@@ -13,14 +12,15 @@
 
 namespace bolt::gpu {
 
-// Makes the window's surface: at the start, and after it was lost.
+// Creates the window's surface: at the start, and after a loss.
 using MakeSurface = std::function<Result<Surface>()>;
 
 struct SwapchainOptions {
     bool may_tear = false;
 };
 
-// Goes before the device, which has to be made for a surface of the same window.
+// Must be destroyed before the device, and the device must have been created for a surface of the same
+// window.
 class Swapchain {
   public:
     static Result<std::unique_ptr<Swapchain>> create(Device& device, Surface surface,
@@ -30,17 +30,17 @@ class Swapchain {
     Swapchain& operator=(const Swapchain&) = delete;
     ~Swapchain();
 
-    // How large the next picture should be; nothing in one direction: there is nothing to show it on.
-    // `window` is the window's size in pixels. Called between frames.
+    // Returns the size for the next picture; a zero width or height means that nothing can be shown now.
+    // `window` is the window's size in pixels. Call it between frames.
     Result<VkExtent2D> ready(VkExtent2D window);
 
-    // Ends the frame with a copy of a layer of `picture` (in use `transfer_from`, of any size) on the window,
-    // and hands it to the GPU. False: it was drawn but not shown.
-    Result<bool> show(Frames& frames, Frame& frame, const Image& picture, std::uint32_t layer = 0);
+    // Copies a layer of `picture` (in use `transfer_from`, of any size) to the window, ends the frame and
+    // submits it. Returns false if the picture was drawn but not presented.
+    Result<bool> show(Frames& frames, FrameContext& frame, const Image& picture, std::uint32_t layer = 0);
 
-    // What was decided for the window as it is, and why.
+    // The decisions for the current window, with reasons.
     [[nodiscard]] const SwapchainPlan& plan() const { return plan_; }
-    // How often it was made: at the start, for every new size, after a loss.
+    // How often the swapchain was created: at the start, for every new size, after a loss.
     [[nodiscard]] std::uint32_t made() const { return made_; }
 
   private:
@@ -58,15 +58,15 @@ class Swapchain {
     SwapchainHandle swapchain_;
     SwapchainPlan plan_;
     std::vector<VkImage> images_;
-    // An image is waited for with the semaphore of a frame, and shown with one of its own: when a frame's
-    // fence is through, nobody waits for the first any more, but the screen may still wait for the second.
+    // Acquire semaphores belong to frames, present semaphores to images. When a frame's fence is signalled,
+    // its acquire semaphore is free, but the presentation may still wait for the present semaphore.
     std::array<Semaphore, frames_in_flight> acquired_;
     std::vector<Semaphore> drawn_;
     std::uint32_t next_acquired_ = 0;
     VkExtent2D window_{};
     bool stale_ = true, lost_ = false;
-    bool suboptimal_ = false, suboptimal_is_normal_ = false;  // normal: making it anew did not help
-    std::uint32_t losses_ = 0;                                // of the surface, since something was shown
+    bool suboptimal_ = false, suboptimal_is_normal_ = false;  // normal: recreation did not help
+    std::uint32_t losses_ = 0;  // losses of the surface since the last presentation
     std::uint32_t made_ = 0;
 };
 

@@ -1,4 +1,5 @@
-// Getting data to the GPU and back outside a frame: loading and tests. Each call waits until it is done.
+// Transfers to and from the GPU outside of frames, for loading and tests. Each call waits until it is
+// complete.
 #pragma once
 
 #include <functional>
@@ -8,19 +9,19 @@
 
 namespace bolt::gpu {
 
-// Records commands, runs them and waits.
-Status run_now(Device& device, const std::function<void(VkCommandBuffer)>& record);
+// Records commands, submits them and waits for their completion.
+Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)>& record);
 
-// A buffer in the GPU's memory with these bytes.
+// Creates a buffer in device memory with these bytes.
 Result<Buffer> upload_buffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
 
-// Fills mip 0 of every layer, layers one after the other in `texels`, makes the other mips by halving, and
-// leaves the image `sampled`. Needs transfer usages both ways; the format must allow linear blits if there
-// are mips.
+// Fills mip 0 of every layer from `texels` (layers one after the other), generates the other mips by halving,
+// and leaves the image in use `sampled`. Needs both transfer usages; if there are mips, the format must
+// support linear blits.
 Status upload_image(Device& device, Image& image, std::span<const std::byte> texels);
 
-// The texels of one mip of one layer of an image that is in use `from`, which it is in again afterwards.
-Result<std::vector<std::byte>> download_image(Device& device, const Image& image, Use from,
+// Reads the texels of one mip of one layer. The image is in use `from` before and afterwards.
+Result<std::vector<std::byte>> download_image(Device& device, const Image& image, ResourceUse from,
                                               std::uint32_t texel_size, std::uint32_t mip = 0,
                                               std::uint32_t layer = 0);
 

@@ -1,4 +1,4 @@
-// What people do to a window, as plain values in the order in which it happened.
+// Input of a window as plain values, in the order in which it happened.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace bolt::platform {
 
-// Letters are those that the keyboard's layout prints on the key; all others are named by their place, so
-// that digits are digits on keyboards that print them with shift only.
+// Letters are the letters that the keyboard layout prints on the keys. Other keys are identified by position,
+// so that digits work on layouts that print them with shift only.
 enum class Key : std::uint8_t {
     // clang-format off
     unknown,
@@ -25,9 +25,9 @@ enum class Key : std::uint8_t {
 
 inline constexpr std::size_t key_count = static_cast<std::size_t>(Key::super) + 1;
 
-// "F11", "Escape", "R": for messages, help and files; each key has its own.
+// Key names for messages, help and files: "F11", "Escape", "R". Each key has a unique name.
 std::string_view name(Key key);
-Key key_named(std::string_view name);  // unknown: none is
+Key key_named(std::string_view name);  // unknown if no key has this name
 
 struct Modifiers {
     bool shift = false, control = false, alt = false, super = false;
@@ -41,18 +41,18 @@ struct KeyEvent {
     Modifiers modifiers;
 };
 struct TextEvent {
-    char32_t letter = 0;  // as typed, with whatever keys and input methods that took
+    char32_t letter = 0;  // as composed by the layout and input methods
 };
 struct ButtonEvent {
     Button button = Button::other;
     bool down = false;
-    glm::dvec2 at{0.0};  // pixels from the upper left
+    glm::dvec2 at{0.0};  // pixels from the upper left corner
 };
 struct CursorEvent {
     glm::dvec2 at{0.0};
 };
 struct WheelEvent {
-    glm::dvec2 by{0.0};  // notches; y: away from the hand
+    glm::dvec2 by{0.0};  // notches; y: away from the user
     glm::dvec2 at{0.0};
 };
 struct ResizeEvent {
@@ -61,8 +61,8 @@ struct ResizeEvent {
 struct FocusEvent {
     bool here = false;
 };
-struct RefreshEvent {};  // the system has lost what was shown
-struct CloseEvent {};    // somebody wants the window closed
+struct RefreshEvent {};  // the contents were lost and must be drawn again
+struct CloseEvent {};    // the user wants to close the window
 
 using Event = std::variant<KeyEvent, TextEvent, ButtonEvent, CursorEvent, WheelEvent, ResizeEvent, FocusEvent,
                            RefreshEvent, CloseEvent>;

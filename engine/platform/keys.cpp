@@ -50,7 +50,7 @@ constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ", digits = "012
 constexpr std::array<std::string_view, 12> functions{"F1", "F2", "F3", "F4",  "F5",  "F6",
                                                      "F7", "F8", "F9", "F10", "F11", "F12"};
 
-// The key `index` places after `first`, where the enumeration counts as GLFW does.
+// Returns the key `index` positions after `first`; both enumerations count the same way.
 Key after(Key first, int index) { return static_cast<Key>(static_cast<int>(first) + index); }
 
 bool within(int value, int first, int last) { return value >= first && value <= last; }
@@ -61,7 +61,7 @@ Key key_of(int glfw_key, const char* printed) {
     if (within(glfw_key, GLFW_KEY_0, GLFW_KEY_9)) return after(Key::digit_0, glfw_key - GLFW_KEY_0);
     if (within(glfw_key, GLFW_KEY_KP_0, GLFW_KEY_KP_9)) return after(Key::digit_0, glfw_key - GLFW_KEY_KP_0);
     if (within(glfw_key, GLFW_KEY_F1, GLFW_KEY_F12)) return after(Key::f1, glfw_key - GLFW_KEY_F1);
-    // One ASCII letter is printed there; other alphabets fall back to the place.
+    // Use the printed letter if it is one ASCII letter; keys of other alphabets fall back to the position.
     if (printed != nullptr && printed[0] != 0 && printed[1] == 0) {
         if (within(printed[0], 'a', 'z')) return after(Key::a, printed[0] - 'a');
         if (within(printed[0], 'A', 'Z')) return after(Key::a, printed[0] - 'A');

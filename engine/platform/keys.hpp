@@ -1,11 +1,11 @@
-// Keys as GLFW tells them, in ours.
+// Maps GLFW's keys to Key.
 #pragma once
 
 #include "engine/platform/input.hpp"
 
 namespace bolt::platform {
 
-// `printed`: what GLFW says the layout prints on the key; may be null.
+// `printed`: the layout's name of the key from GLFW; may be null.
 Key key_of(int glfw_key, const char* printed);
 
 }  // namespace bolt::platform

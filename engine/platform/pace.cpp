@@ -7,32 +7,32 @@ namespace bolt::platform {
 
 namespace {
 
-// Multiplied out anew each time: sums of rounded periods would drift.
-Clock::time_point deadline(const Pace& pace, std::uint64_t beat) {
-    const std::chrono::duration<double> after(static_cast<double>(beat) * pace.period);
+// Multiply each time: accumulated rounded periods would drift.
+Clock::time_point deadline_time(const Pace& pace, std::uint64_t index) {
+    const std::chrono::duration<double> after(static_cast<double>(index) * pace.period);
     return pace.start + std::chrono::round<Clock::duration>(after);
 }
 
 }  // namespace
 
-Due next_due(Pace& pace, Clock::time_point now) {
-    const std::uint64_t expected = pace.beat + 1;
+Deadline next_deadline(Pace& pace, Clock::time_point now) {
+    const std::uint64_t expected = pace.index + 1;
     const std::chrono::duration<double> passed = now - pace.start;
-    std::uint64_t beat = expected;
-    if (deadline(pace, beat) < now) {
-        beat = std::max(beat, static_cast<std::uint64_t>(passed.count() / pace.period));
-        while (deadline(pace, beat) < now) ++beat;
+    std::uint64_t index = expected;
+    if (deadline_time(pace, index) < now) {
+        index = std::max(index, static_cast<std::uint64_t>(passed.count() / pace.period));
+        while (deadline_time(pace, index) < now) ++index;
     }
-    pace.beat = beat;
-    return {deadline(pace, beat), beat - expected};
+    pace.index = index;
+    return {deadline_time(pace, index), index - expected};
 }
 
 double period_of(double refresh) { return 1.0 / (refresh >= 20.0 && refresh <= 1000.0 ? refresh : 60.0); }
 
-std::uint64_t wait_for_due(Pace& pace) {
-    const Due due = next_due(pace, Clock::now());
-    std::this_thread::sleep_until(due.deadline);
-    return due.missed;
+std::uint64_t wait_for_deadline(Pace& pace) {
+    const Deadline deadline = next_deadline(pace, Clock::now());
+    std::this_thread::sleep_until(deadline.time);
+    return deadline.missed;
 }
 
 }  // namespace bolt::platform

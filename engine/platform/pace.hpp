@@ -1,6 +1,5 @@
-// When the next frame is due. Presenting does not pace a program everywhere (not in a mailbox, not under
-// Xvfb), so the program does: deadlines are whole periods after one start, and nothing that is late moves
-// them.
+// Frame pacing. Presentation does not limit the frame rate everywhere (not in mailbox mode, not under Xvfb),
+// so the program does. Deadlines are whole periods after one start; a late frame does not move them.
 #pragma once
 
 #include <chrono>
@@ -10,27 +9,26 @@ namespace bolt::platform {
 
 using Clock = std::chrono::steady_clock;
 
-// Deadlines are start + beat · period.
+// Deadlines are at start + index · period.
 struct Pace {
     Clock::time_point start{};
     double period = 1.0 / 60.0;  // s
-    std::uint64_t beat = 0;      // of the last deadline
+    std::uint64_t index = 0;     // of the last deadline
 };
 
-struct Due {
-    Clock::time_point deadline;
-    std::uint64_t missed = 0;  // deadlines that passed unused before it
+struct Deadline {
+    Clock::time_point time;
+    std::uint64_t missed = 0;  // earlier deadlines that were skipped
 };
 
-// The next deadline that is not over, and the pace with it. A frame that took too long costs the beats that
-// it slept through: the next one is on a beat again, and none is made up for in a hurry. `now` is not before
-// the start.
-Due next_due(Pace& pace, Clock::time_point now);
+// Returns the next deadline that is not over, and advances `pace` to it. A frame that took too long skips the
+// missed deadlines; none is made up for. `now` must not be before the start.
+Deadline next_deadline(Pace& pace, Clock::time_point now);
 
-// Period of a display that shows `refresh` pictures a second; 60 where it says nothing sensible.
+// Returns the period of a display with this refresh rate in Hz; 1/60 s if the rate is implausible.
 double period_of(double refresh);
 
-// Waits for the next deadline; returns how many were missed.
-std::uint64_t wait_for_due(Pace& pace);
+// Waits for the next deadline. Returns how many deadlines were skipped.
+std::uint64_t wait_for_deadline(Pace& pace);
 
 }  // namespace bolt::platform

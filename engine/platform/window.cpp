@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "engine/platform/display_end.hpp"
+#include "engine/platform/display_loss.hpp"
 #include "engine/platform/keys.hpp"
 
 namespace bolt::platform {
@@ -45,7 +45,7 @@ Rect area(GLFWwindow* window) {
     return r;
 }
 
-// The display that shows most of the window.
+// Returns the display that shows most of the window.
 GLFWmonitor* monitor_of(GLFWwindow* window) {
     if (GLFWmonitor* whole = glfwGetWindowMonitor(window)) return whole;
     const Rect w = area(window);
@@ -75,19 +75,19 @@ struct Window::State {
     GLFWwindow* window = nullptr;
     std::vector<Event> events;
     Rect before_full_screen;
-    std::shared_ptr<const bool> gone;
-    // Where it was when things happened: GLFW, asked for it, tells where it is by now.
+    std::shared_ptr<const bool> lost;
+    // The cursor position at the time of the event: glfwGetCursorPos would return the current one.
     glm::dvec2 cursor{0.0};
 
     State() = default;
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State() {
-        if (window != nullptr && !(gone && *gone)) glfwDestroyWindow(window);
+        if (window != nullptr && !(lost && *lost)) glfwDestroyWindow(window);
     }
 
     void listen();
-    // GLFW counts in the desktop's units, which are several pixels on some displays.
+    // GLFW uses desktop units, which are several pixels on some displays.
     [[nodiscard]] glm::dvec2 pixel(double x, double y) const {
         int width = 0, height = 0, across = 0, down = 0;
         glfwGetWindowSize(window, &width, &height);
@@ -106,7 +106,7 @@ Modifiers modifiers_of(int mods) {
 }  // namespace
 
 void Window::State::listen() {
-    // Plain functions for GLFW: what they close over is the window's user pointer.
+    // Plain function pointers for GLFW; their state is the window's user pointer.
     static constexpr auto of = [](GLFWwindow* w) -> State& {
         return *static_cast<State*>(glfwGetWindowUserPointer(w));
     };
@@ -139,29 +139,29 @@ void Window::State::listen() {
         window, [](GLFWwindow* w, int focused) { of(w).events.emplace_back(FocusEvent{focused != 0}); });
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).events.emplace_back(RefreshEvent{}); });
     glfwSetWindowCloseCallback(window, [](GLFWwindow* w) {
-        glfwSetWindowShouldClose(w, GLFW_FALSE);  // whoever reads the events decides
+        glfwSetWindowShouldClose(w, GLFW_FALSE);  // the reader of the events decides
         of(w).events.emplace_back(CloseEvent{});
     });
 }
 
 Result<Desktop> Desktop::open() {
     if (glfwInit() != GLFW_TRUE)
-        return desktop_error("there is no desktop to open a window on",
-                             "a display: DISPLAY names one, xvfb-run makes one that nobody sees");
+        return desktop_error("a window cannot be opened: there is no display",
+                             "a display named by DISPLAY; xvfb-run provides a virtual one");
     Desktop desktop(true);
-    note_display_end(*desktop.gone_);
+    watch_display_loss(*desktop.lost_);
     return desktop;
 }
 
 Desktop::~Desktop() {
-    if (open_ && !*gone_) glfwTerminate();  // what the display had has ended with it
+    if (open_ && !*lost_) glfwTerminate();  // a lost display has released its resources already
 }
 
 Result<std::vector<const char*>> Desktop::vulkan_extensions() const {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     if (names == nullptr)
-        return desktop_error("Vulkan cannot show anything on this desktop",
+        return desktop_error("Vulkan cannot present to this display",
                              "a Vulkan loader and driver (mesa-vulkan-drivers renders without a GPU)");
     return std::vector<const char*>(names, names + count);
 }
@@ -178,8 +178,8 @@ Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options
     auto state = std::make_unique<State>();
     state->window = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height),
                                      options.title.c_str(), nullptr, nullptr);
-    if (state->window == nullptr) return desktop_error("no window could be opened", "");
-    state->gone = desktop.gone_;
+    if (state->window == nullptr) return desktop_error("the window cannot be opened", "");
+    state->lost = desktop.lost_;
     state->listen();
     Window window(std::move(state));
     if (options.full_screen) window.set_full_screen(true);
@@ -189,7 +189,7 @@ Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options
 Result<gpu::Surface> Window::make_surface(const gpu::Instance& instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     const VkResult made = glfwCreateWindowSurface(instance.get(), state_->window, nullptr, &surface);
-    if (Status ok = gpu::check(made, "preparing the window for Vulkan"); !ok) return fail(ok.error());
+    BOLT_TRY(gpu::check(made, "creating the window surface"));
     return gpu::Surface(instance.get(), surface);
 }
 
@@ -203,13 +203,13 @@ std::vector<Event> Window::wait_for_events(double seconds) {
     return std::exchange(state_->events, {});
 }
 
-Status Window::there() const {
-    if (!*state_->gone) return {};
-    return fail(ErrorCode::failed, "the display has ended, and the window with it", "");
+Status Window::display_status() const {
+    if (!*state_->lost) return {};
+    return fail(ErrorCode::failed, "the display has ended and closed the window", "");
 }
 
 Size Window::pixels() const {
-    if (*state_->gone) return {};
+    if (*state_->lost) return {};
     int width = 0, height = 0;
     glfwGetFramebufferSize(state_->window, &width, &height);
     return {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))};

@@ -1,5 +1,4 @@
-// A window of the desktop, by GLFW. What people do to it comes as values (input.hpp); what it shows is
-// gpu::Swapchain's.
+// A desktop window (GLFW). Input arrives as values (input.hpp); gpu::Swapchain presents the pictures.
 #pragma once
 
 #include <memory>
@@ -12,36 +11,36 @@
 
 namespace bolt::platform {
 
-// The desktop. GLFW knows only one, so there is one of these at a time; it goes after its windows. Everything
-// here belongs to the main thread.
+// The desktop connection. GLFW supports one only, so there is one Desktop at a time; it must outlive its
+// windows. Main thread only.
 class Desktop {
   public:
-    // Fails where there is no display.
+    // Fails if there is no display.
     static Result<Desktop> open();
     Desktop(Desktop&& other) noexcept
-        : open_(std::exchange(other.open_, false)), gone_(std::move(other.gone_)) {}
+        : open_(std::exchange(other.open_, false)), lost_(std::move(other.lost_)) {}
     Desktop& operator=(Desktop&& other) noexcept {
         std::swap(open_, other.open_);
-        std::swap(gone_, other.gone_);
+        std::swap(lost_, other.lost_);
         return *this;
     }
     ~Desktop();
 
-    // What Vulkan needs for windows here: gpu::InstanceOptions::extensions.
+    // The Vulkan extensions for windows, for gpu::InstanceOptions::extensions.
     [[nodiscard]] Result<std::vector<const char*>> vulkan_extensions() const;
 
   private:
     friend class Window;
-    explicit Desktop(bool open) : open_(open), gone_(std::make_shared<bool>(false)) {}
+    explicit Desktop(bool open) : open_(open), lost_(std::make_shared<bool>(false)) {}
     bool open_ = false;
-    std::shared_ptr<bool> gone_;  // its display server has ended; at an address that stays
+    std::shared_ptr<bool> lost_;  // the display server has ended; GLFW's handler holds the address
 };
 
 struct WindowOptions {
     std::string title = "Boltwright";
-    std::uint32_t width = 1280, height = 720;  // in the units of the desktop
+    std::uint32_t width = 1280, height = 720;  // in desktop units
     bool full_screen = false;
-    bool hidden = false;  // to ask what it could show
+    bool hidden = false;  // for querying what the display supports
 };
 
 struct Size {
@@ -55,28 +54,28 @@ class Window {
     Window& operator=(Window&&) noexcept;
     ~Window();
 
-    // A surface goes before its window and its instance.
+    // The surface must be destroyed before the window and the instance.
     [[nodiscard]] Result<gpu::Surface> make_surface(const gpu::Instance& instance) const;
 
-    // What has happened since the last call: at once, or after at most `seconds` of nothing.
+    // Returns the events since the last call: at once, or after waiting at most `seconds` for the first one.
     std::vector<Event> events();
     std::vector<Event> wait_for_events(double seconds);
 
-    // Why nothing is seen and heard of people any more, if the display server has ended.
-    [[nodiscard]] Status there() const;
+    // Fails if the display server has ended.
+    [[nodiscard]] Status display_status() const;
 
-    [[nodiscard]] Size pixels() const;  // of what is drawn; zero while it is minimised on some systems
-    [[nodiscard]] float content_scale() const;  // 2 on a display where text is to be twice as large
-    [[nodiscard]] double refresh() const;       // pictures a second of the display that it is on; 0: unknown
+    [[nodiscard]] Size pixels() const;          // framebuffer size; zero while minimised on some systems
+    [[nodiscard]] float content_scale() const;  // 2 on a display with doubled text size
+    [[nodiscard]] double refresh() const;       // refresh rate of the window's display, Hz; 0: unknown
     void set_title(const std::string& title);
-    void resize(Size size);  // in the units of the desktop
+    void resize(Size size);  // in desktop units
 
-    // All of the display that most of the window is on, and back to where the window was.
+    // Fills the display that shows most of the window; leaving full screen restores the window's place.
     void set_full_screen(bool on);
     [[nodiscard]] bool full_screen() const;
 
   private:
-    struct State;  // its address is GLFW's
+    struct State;  // GLFW holds its address
     explicit Window(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

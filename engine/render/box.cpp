@@ -2,8 +2,8 @@
 
 namespace bolt::render {
 
-Box transformed(const Box& box, const glm::mat4& transform) {
-    Box moved;
+BoundingBox transformed(const BoundingBox& box, const glm::mat4& transform) {
+    BoundingBox moved;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 point((corner & 1) != 0 ? box.high.x : box.low.x,
                               (corner & 2) != 0 ? box.high.y : box.low.y,

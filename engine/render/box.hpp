@@ -1,4 +1,4 @@
-// Boxes along the axes.
+// Axis-aligned bounding boxes.
 #pragma once
 
 #include <glm/common.hpp>
@@ -7,7 +7,7 @@
 
 namespace bolt::render {
 
-struct Box {
+struct BoundingBox {
     glm::vec3 low{1e30F}, high{-1e30F};
 
     void add(const glm::vec3& point) {
@@ -17,7 +17,7 @@ struct Box {
     [[nodiscard]] bool empty() const { return low.x > high.x; }
 };
 
-// The corners of a box moved by a transform, boxed again.
-Box transformed(const Box& box, const glm::mat4& transform);
+// Returns the axis-aligned bounding box of a transformed box.
+BoundingBox transformed(const BoundingBox& box, const glm::mat4& transform);
 
 }  // namespace bolt::render

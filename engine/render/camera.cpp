@@ -9,7 +9,7 @@ namespace bolt::render {
 
 namespace {
 
-// The frustum through [left, right] × [bottom, top] at distance 1.
+// Returns the frustum through [left, right] × [bottom, top] at distance 1.
 glm::mat4 frustum(float left, float right, float bottom, float top, float znear, float zfar) {
     glm::mat4 m(0.0F);
     m[0][0] = 2.0F / (right - left);
@@ -39,15 +39,15 @@ Eye make_eye(const glm::vec3& eye, const glm::vec3& target, const Perspective& p
     return {eye, perspective(p) * look_at(eye, target)};
 }
 
-Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& lower_right,
+Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& inset_rectangle,
                   const glm::vec3& upper_left, float znear, float zfar) {
-    const glm::vec3 right = glm::normalize(lower_right - lower_left);
+    const glm::vec3 right = glm::normalize(inset_rectangle - lower_left);
     const glm::vec3 up = glm::normalize(upper_left - lower_left);
     const glm::vec3 normal = glm::cross(right, up);
     const glm::vec3 a = lower_left - eye;
     const float distance = -glm::dot(a, normal);
     const float left = glm::dot(a, right) / distance, bottom = glm::dot(a, up) / distance;
-    const float width = glm::length(lower_right - lower_left) / distance,
+    const float width = glm::length(inset_rectangle - lower_left) / distance,
                 height = glm::length(upper_left - lower_left) / distance;
     const glm::mat4 turn = glm::transpose(
         glm::mat4(glm::vec4(right, 0), glm::vec4(up, 0), glm::vec4(normal, 0), glm::vec4(0, 0, 0, 1)));
@@ -55,7 +55,7 @@ Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::
                      glm::translate(glm::mat4(1.0F), -eye)};
 }
 
-glm::vec3 framing_eye(const Box& box, const glm::vec3& side, const Perspective& p) {
+glm::vec3 framing_eye(const BoundingBox& box, const glm::vec3& side, const Perspective& p) {
     const glm::vec3 middle = 0.5F * (box.low + box.high), back = glm::normalize(side);
     const glm::mat4 view = look_at(middle + back, middle);
     const float tan_y = std::tan(0.5F * p.fov), tan_x = tan_y * p.aspect;
@@ -65,13 +65,13 @@ glm::vec3 framing_eye(const Box& box, const glm::vec3& side, const Perspective& 
                               (corner & 2) != 0 ? box.high.y : box.low.y,
                               (corner & 4) != 0 ? box.high.z : box.low.z);
         const glm::vec3 seen =
-            glm::vec3(view * glm::vec4(point, 1.0F)) + glm::vec3(0, 0, 1);  // from the middle
+            glm::vec3(view * glm::vec4(point, 1.0F)) + glm::vec3(0, 0, 1);  // relative to the middle
         distance = std::max({distance, std::abs(seen.x) / tan_x + seen.z, std::abs(seen.y) / tan_y + seen.z});
     }
     return middle + back * (1.04F * distance);
 }
 
-bool in_sight(const Box& box, const glm::mat4& clip_from_world) {
+bool in_sight(const BoundingBox& box, const glm::mat4& clip_from_world) {
     glm::vec4 corners[8];
     for (int i = 0; i < 8; ++i)
         corners[i] = clip_from_world * glm::vec4((i & 1) != 0 ? box.high.x : box.low.x,
@@ -86,6 +86,20 @@ bool in_sight(const Box& box, const glm::mat4& clip_from_world) {
              all([](const glm::vec4& c) { return c.y > c.w; }) ||
              all([](const glm::vec4& c) { return c.z > c.w; }) ||
              all([](const glm::vec4& c) { return c.z < 0.0F; }));
+}
+
+glm::mat4 shadow_view(const BoundingBox& box, const glm::vec3& direction) {
+    const glm::mat4 turn = look_at(glm::vec3(0.0F), glm::normalize(direction));
+    const BoundingBox extent = transformed(box, turn);  // the view looks along -Z
+    const glm::vec3 size = glm::max(extent.high - extent.low, glm::vec3(1e-6F));
+    const glm::vec3 margin(0.01F);
+    glm::mat4 fit(1.0F);
+    fit[0][0] = 2.0F / (size.x * (1.0F + 2.0F * margin.x));
+    fit[1][1] = -2.0F / (size.y * (1.0F + 2.0F * margin.y));
+    fit[2][2] = -1.0F / (size.z * (1.0F + 2.0F * margin.z));
+    const glm::vec3 middle = 0.5F * (extent.low + extent.high);
+    fit[3] = glm::vec4(-fit[0][0] * middle.x, -fit[1][1] * middle.y, 0.5F - fit[2][2] * middle.z, 1.0F);
+    return fit * turn;
 }
 
 }  // namespace bolt::render

@@ -10,8 +10,8 @@ namespace bolt::render {
 
 namespace {
 
-// Each joint's share is a mean of points that the joint alone would have moved there (weights sum to one), so
-// the boxes of what each joint moves hold them all.
+// The weights of a vertex sum to one, so its position is a mean of the positions that its joints alone would
+// give. The union of the joints' boxes therefore contains all vertices.
 void add_joint_boxes(const assets::Primitive& p, std::span<const std::uint32_t> sources,
                      std::span<const Influences> influences, Deformable& part) {
     for (std::size_t i = 0; i < influences.size(); ++i)
@@ -33,7 +33,7 @@ void add_targets(const assets::Primitive& p, std::span<const std::uint32_t> sour
     part.first_delta = static_cast<std::uint32_t>(data.deltas.size());
     for (const assets::MorphTarget& target : p.targets) {
         const std::array streams{&target.positions, &target.normals, &target.tangents};
-        Box box;
+        BoundingBox box;
         for (const std::uint32_t source : sources) {
             for (std::size_t s = 0; s < part.delta_floats / 3; ++s) {
                 const glm::vec3 delta = streams[s]->empty() ? glm::vec3(0.0F) : (*streams[s])[source];
@@ -51,7 +51,7 @@ Influences make_influences(const glm::u16vec4& joints, const glm::vec4& weights)
     std::array<float, 4> share{};
     for (int i = 0; i < 4; ++i) share[static_cast<std::size_t>(i)] = std::max(weights[i], 0.0F);
     float sum = std::accumulate(share.begin(), share.end(), 0.0F);
-    if (!(sum > 0.0F)) share[0] = sum = 1.0F;  // it goes with its first joint
+    if (!(sum > 0.0F)) share[0] = sum = 1.0F;  // the vertex follows its first joint
     Influences to{};
     int left = 65535;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -60,7 +60,7 @@ Influences make_influences(const glm::u16vec4& joints, const glm::vec4& weights)
         to.weights[i] = static_cast<std::uint16_t>(part);
         left -= part;
     }
-    // What rounding leaves goes to the strongest.
+    // Add the rounding remainder to the largest weight.
     *std::max_element(std::begin(to.weights), std::end(to.weights)) += static_cast<std::uint16_t>(left);
     return to;
 }
@@ -81,21 +81,21 @@ Deformable make_deformable(const assets::Primitive& p, std::span<const std::uint
     return part;
 }
 
-Box bounds(const Box& rest, const Deformable& part, const Deformation* deformation) {
+BoundingBox bounds(const BoundingBox& rest, const Deformable& part, const Deformation* deformation) {
     if (deformation == nullptr || part.vertices == 0) return rest;
-    glm::vec3 low(0.0F), high(0.0F);  // how far the targets move
+    glm::vec3 low(0.0F), high(0.0F);  // displacements by the targets
     for (std::size_t i = 0; i < part.targets.size() && i < deformation->weights.size(); ++i) {
         const glm::vec3 a = deformation->weights[i] * part.targets[i].low,
                         b = deformation->weights[i] * part.targets[i].high;
         low += glm::min(a, b);
         high += glm::max(a, b);
     }
-    const auto morphed = [&](const Box& box) { return Box{box.low + low, box.high + high}; };
+    const auto morphed = [&](const BoundingBox& box) { return BoundingBox{box.low + low, box.high + high}; };
     if (deformation->joints.empty() || part.joints.empty()) return morphed(rest);
-    Box box;
+    BoundingBox box;
     for (std::size_t i = 0; i < part.joints.size() && i < deformation->joints.size(); ++i) {
         if (part.joints[i].empty()) continue;
-        const Box moved = transformed(morphed(part.joints[i]), deformation->joints[i]);
+        const BoundingBox moved = transformed(morphed(part.joints[i]), deformation->joints[i]);
         box.add(moved.low);
         box.add(moved.high);
     }

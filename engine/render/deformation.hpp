@@ -1,5 +1,5 @@
-// What bends: joints and morph weights of an object, and what a part brings to be bent by them. The GPU does
-// it, in passes/deform.hpp.
+// Skinning and morphing: the joints and weights of an object, and the vertex data of a deformable part. The
+// GPU evaluates them in passes/deform.hpp.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,32 @@
 
 namespace bolt::render {
 
-// Of an object, made anew for every pose.
+// The pose of one object, created anew for every pose.
 struct Deformation {
-    std::vector<glm::mat4> joints;  // from the mesh as it was bound into the object's frame; empty: no skin
-    std::vector<float> weights;     // of the morph targets, first to last; what is missing is 0
+    std::vector<glm::mat4> joints;  // from the mesh in its bind pose to the object's frame; empty: no skin
+    std::vector<float> weights;     // morph target weights, in order; missing ones are 0
 };
 
-// Of a vertex: four joints and how much each has to say.
+// Four joints of a vertex and their weights.
 struct Influences {
     std::uint16_t joints[4];
     std::uint16_t
-        weights[4];  // unorm; their sum is exactly 65535, so that joints that move alike move it alike
+        weights[4];  // unorm; the sum is exactly 65535: joints with one motion move the vertex by just that
 };
 static_assert(sizeof(Influences) == 16);
 
-// Of a part: where what bends it stands in the model's buffers, and how far that reaches.
+// The deformation data of a part: its ranges in the model's buffers, and bounds of the motion.
 struct Deformable {
-    std::uint32_t vertices = 0;         // 0: it is stiff
-    std::uint32_t first_influence = 0;  // of the model's; only if `joints` is not empty
-    std::uint32_t first_delta = 0;      // float of the model's; target by target
-    std::uint32_t delta_floats = 0;     // a vertex: 3 position, 6 and normal, 9 and tangent
-    bool own_normals = true;            // otherwise those of its triangles, which have no common corners
-    std::vector<Box> joints;            // as it was bound, what each joint moves; may be empty boxes
-    std::vector<Box> targets;           // how far each target moves it at weight 1
+    std::uint32_t vertices = 0;         // 0: rigid
+    std::uint32_t first_influence = 0;  // index into the model's influences; only if `joints` is not empty
+    std::uint32_t first_delta = 0;      // index into the model's deltas, in floats; target by target
+    std::uint32_t delta_floats = 0;     // per vertex: 3 position, 6 with normal, 9 with tangent
+    bool own_normals = true;            // false: flat normals of triangles without shared vertices
+    std::vector<BoundingBox> joints;    // bind pose, what each joint moves; boxes may be empty
+    std::vector<BoundingBox> targets;   // displacement of each target at weight 1
 };
 
-// What bends all parts of a model, as the GPU takes it.
+// The deformation data of all parts of a model, as uploaded to the GPU.
 struct DeformData {
     std::vector<Influences> influences;
     std::vector<float> deltas;
@@ -44,14 +44,15 @@ struct DeformData {
 
 Influences make_influences(const glm::u16vec4& joints, const glm::vec4& weights);
 
-// `sources`: which vertex of the primitive each drawn one comes from.
+// `sources`: for each drawn vertex, the vertex of the primitive that it was made from.
 Deformable make_deformable(const assets::Primitive& primitive, std::span<const std::uint32_t> sources,
                            DeformData& data);
 
-// Holds the part however it is bent, in the object's frame. `rest`: its box when it is not.
-Box bounds(const Box& rest, const Deformable& part, const Deformation* deformation);
+// Returns a box that contains the part in every pose, in the object's frame. `rest`: its box without
+// deformation.
+BoundingBox bounds(const BoundingBox& rest, const Deformable& part, const Deformation* deformation);
 
-// How much larger a part may get by the joints' scales, and whether they turn it inside out.
+// The largest scale of the joints, and whether they mirror the part.
 float scale_of(const Deformation* deformation);
 bool mirrors(const Deformation* deformation);
 

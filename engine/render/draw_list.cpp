@@ -13,24 +13,24 @@ namespace bolt::render {
 namespace {
 
 struct Item {
-    Kind kind;
+    PipelineKind kind;
     const Object* object = nullptr;
-    std::uint32_t model = 0;  // in the order in which models appear
+    std::uint32_t model = 0;  // in order of first use
     std::uint32_t part = 0, level = 0;
-    float distance = 0.0F;  // of blending ones, to the first eye
+    float distance = 0.0F;  // of blended parts, to the first eye
     bool outlined = false;
 };
 
-// What says something else at every point than the material's numbers.
+// Features whose values vary over a part, unlike the material's constants.
 constexpr std::uint32_t own_values =
     SCENE_BASE_MAP | SCENE_METALLIC_ROUGHNESS_MAP | SCENE_OCCLUSION_MAP | SCENE_VERTEX_COLORS | SCENE_MARKED;
 
-Kind kind_of(const Object& object, const Part& part) {
+PipelineKind kind_of(const Object& object, const MeshPart& part) {
     const MaterialMaps& maps = object.model->maps[part.material];
-    Kind kind;
+    PipelineKind kind;
     kind.ghost = object.opacity < 1.0F;
     kind.blends = maps.blends || kind.ghost;
-    // A mirrored part shows the other winding.
+    // Mirroring reverses the winding.
     const bool mirrored = glm::determinant(glm::mat3(object.world)) < 0.0F;
     kind.double_sided = maps.double_sided || mirrored != mirrors(object.deformation.get());
     kind.features = object.model->features[part.material];
@@ -45,8 +45,8 @@ Kind kind_of(const Object& object, const Part& part) {
     return kind;
 }
 
-// How long a metre is at most in any picture, in pixels: at the corner of the box that is nearest to an eye.
-float pixels_a_metre(const Box& box, std::span<const Eye> eyes, float height_px) {
+// Returns the largest number of pixels per metre in any picture: at the box corner nearest to an eye.
+float pixels_a_metre(const BoundingBox& box, std::span<const Eye> eyes, float height_px) {
     float most = 0.0F;
     for (const Eye& eye : eyes) {
         const glm::mat4& m = eye.clip_from_world;
@@ -57,14 +57,14 @@ float pixels_a_metre(const Box& box, std::span<const Eye> eyes, float height_px)
                                   (corner & 4) != 0 ? box.high.z : box.low.z, 1.0F);
             nearest = std::min(nearest, glm::dot(glm::vec4(m[0].w, m[1].w, m[2].w, m[3].w), point));
         }
-        if (nearest <= 0.0F) return 1e30F;  // it reaches behind the eye
+        if (nearest <= 0.0F) return 1e30F;  // the box reaches behind the eye
         most = std::max(most, glm::length(glm::vec3(m[0].y, m[1].y, m[2].y)) * 0.5F * height_px / nearest);
     }
     return most;
 }
 
-std::uint32_t level_of(const Part& part, const Box& box, float scale, std::span<const Eye> eyes,
-                       const Detail& detail) {
+std::uint32_t level_of(const MeshPart& part, const BoundingBox& box, float scale, std::span<const Eye> eyes,
+                       const DetailLimits& detail) {
     if (part.levels.size() < 2) return 0;
     const float allowed =
         eyes.empty() ? detail.allowed_m : detail.allowed_px / pixels_a_metre(box, eyes, detail.height_px);
@@ -73,9 +73,9 @@ std::uint32_t level_of(const Part& part, const Box& box, float scale, std::span<
     return level;
 }
 
-// Whether a box may reach into the cone between an eye and what is to be seen; never says no of one that
-// does.
-bool hides(const Box& box, const CutAway& cut, std::span<const Eye> eyes) {
+// Returns whether a box may reach into the cone between an eye and the cut-away's focus; conservative: never
+// false for a box that does.
+bool hides(const BoundingBox& box, const CutAway& cut, std::span<const Eye> eyes) {
     const glm::vec3 middle = 0.5F * (box.low + box.high);
     const float reach = 0.5F * glm::distance(box.low, box.high);
     return std::any_of(eyes.begin(), eyes.end(), [&](const Eye& eye) {
@@ -88,7 +88,7 @@ bool hides(const Box& box, const CutAway& cut, std::span<const Eye> eyes) {
     });
 }
 
-bool seen(const Box& box, std::span<const Eye> eyes) {
+bool seen(const BoundingBox& box, std::span<const Eye> eyes) {
     return eyes.empty() || std::any_of(eyes.begin(), eyes.end(),
                                        [&](const Eye& eye) { return in_sight(box, eye.clip_from_world); });
 }
@@ -113,7 +113,7 @@ shared::Instance instance_of(const Object& object) {
 
 }  // namespace
 
-Box end_of(const CutAway& cut) { return {cut.focus - cut.radius, cut.focus + cut.radius}; }
+BoundingBox cone_end(const CutAway& cut) { return {cut.focus - cut.radius, cut.focus + cut.radius}; }
 
 std::uint32_t features_of(const Scene& scene) {
     std::uint32_t features =
@@ -124,7 +124,7 @@ std::uint32_t features_of(const Scene& scene) {
     return features;
 }
 
-DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Detail& detail,
+DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const DetailLimits& detail,
                         const DeformedParts& deformed) {
     DrawList list;
     std::map<const GpuModel*, std::pair<std::uint32_t, std::uint32_t>> models;  // → order, first material
@@ -142,12 +142,12 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
             std::cbrt(std::abs(glm::determinant(glm::mat3(object.world)))) * scale_of(deformation);
         const MeshRange range = object.model->meshes[object.mesh];
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-            const Part& part = object.model->parts[i];
-            const Box box = bounds(object, part);
+            const MeshPart& part = object.model->parts[i];
+            const BoundingBox box = bounds(object, part);
             if (!seen(box, eyes)) continue;
             const float distance =
                 eyes.empty() ? 0.0F : glm::distance(0.5F * (box.low + box.high), eyes.front().position);
-            Kind kind = kind_of(object, part);
+            PipelineKind kind = kind_of(object, part);
             kind.features |= scene_features;
             Item item{kind,
                       &object,
@@ -158,15 +158,15 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
                       object.outline.w > 0.0F};
             if (item.outlined) list.outlined.push_back(box);
             if (object.cut && scene.cut_away.strength > 0.0F && hides(box, scene.cut_away, eyes)) {
-                // What stays of it is a surface as ever, what fades is blended.
+                // The remaining region is drawn as an opaque surface, the fading region is blended.
                 item.kind.features |= SCENE_CUT;
                 if (!kind.forward) {
                     items.push_back(item);
                     item.kind.features |= SCENE_CUT_REST;
                 }
                 item.kind.blends = item.kind.forward = true;
-                if (!kind.forward) list.forward.push_back(end_of(scene.cut_away));
-                item.kind.ghost = false;  // what is gone hides nothing
+                if (!kind.forward) list.forward.push_back(cone_end(scene.cut_away));
+                item.kind.ghost = false;  // removed regions hide nothing
                 item.kind.features &= ~SCENE_WIDE;
                 item.outlined = item.outlined && kind.forward;
             }
@@ -176,7 +176,7 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
     }
     std::stable_sort(items.begin(), items.end(), before);
     for (const Item& item : items) {
-        const Part& part = item.object->model->parts[item.part];
+        const MeshPart& part = item.object->model->parts[item.part];
         const auto bent = deformed.find({item.object->deformation.get(), &part});
         const DeformedPart vertices = bent != deformed.end() ? bent->second : DeformedPart{};
         const bool joins = !list.draws.empty() && list.draws.back().kind == item.kind &&

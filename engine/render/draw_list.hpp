@@ -1,4 +1,4 @@
-// A scene turned into draw calls: culled, sorted so that state changes little, and gathered into instances.
+// Converts a scene into draw calls: culled, sorted to minimise state changes, and merged into instances.
 #pragma once
 
 #include <map>
@@ -8,30 +8,31 @@
 
 namespace bolt::render {
 
-// Which pipeline draws it: what a part needs that others do not. Shaders are compiled for just these
-// features: one for all of them, with flags, took lavapipe half as long again.
-struct Kind {
+// Selects the pipeline of a part. Shaders are specialized for exactly these features: one shader with flags
+// for all features took 1.5 times as long on lavapipe.
+struct PipelineKind {
     bool blends = false;
-    bool forward = false;  // lit as it is drawn: blends, or has more than the geometry buffer keeps
-    bool ghost = false;    // blends, and hides what of it lies behind
+    bool forward =
+        false;  // shaded while drawn: blended, or with properties that the geometry buffer cannot store
+    bool ghost = false;  // blended, and hides its own back layers
     bool double_sided = false;
     std::uint32_t features = 0;  // SCENE_… bits
-    friend auto operator<=>(const Kind&, const Kind&) = default;
+    friend auto operator<=>(const PipelineKind&, const PipelineKind&) = default;
 };
 
-// Where the deform pass has put a part's vertices, in the order that they have in the model.
+// The location of a part's deformed vertices, in the vertex order of the model.
 struct DeformedPart {
-    VkBuffer buffer = VK_NULL_HANDLE;  // null: the part is as its model has it
+    VkBuffer buffer = VK_NULL_HANDLE;  // null: the part is not deformed
     VkDeviceSize positions = 0, attributes = 0;
     friend bool operator==(const DeformedPart&, const DeformedPart&) = default;
 };
-using DeformedParts = std::map<std::pair<const Deformation*, const Part*>, DeformedPart>;
+using DeformedParts = std::map<std::pair<const Deformation*, const MeshPart*>, DeformedPart>;
 
 struct Draw {
-    Kind kind;
+    PipelineKind kind;
     const GpuModel* model = nullptr;
     std::uint32_t part = 0, level = 0;
-    std::uint32_t material = 0;  // of the list
+    std::uint32_t material = 0;  // index into the list's materials
     bool outlined = false;
     std::uint32_t first_instance = 0, instances = 0;
     DeformedPart deformed;
@@ -40,29 +41,30 @@ struct Draw {
 struct DrawList {
     std::vector<shared::Instance> instances;
     std::vector<shared::Material> materials;  // of all models
-    std::vector<Draw> draws;                  // opaque by state, then what blends, far to near
-    std::uint32_t features = 0;               // SCENE_… bits that any part of the geometry buffer needs
-    std::vector<Box> forward;                 // world: where something is lit as it is drawn
-    std::vector<Box> outlined;                // world
+    std::vector<Draw> draws;            // opaque ones sorted by state, then blended ones from far to near
+    std::uint32_t features = 0;         // SCENE_… bits that parts in the geometry buffer need
+    std::vector<BoundingBox> forward;   // world: boxes of parts that are shaded while drawn
+    std::vector<BoundingBox> outlined;  // world: boxes of outlined parts
     std::uint64_t triangles = 0;
 };
 
-// Which level of detail is drawn: the coarsest whose error stays below this.
-struct Detail {
-    float height_px = 0.0F;   // of the picture
-    float allowed_px = 0.0F;  // as the nearest eye sees it
-    float allowed_m = 0.0F;   // without eyes
+// Limits of the error of levels of detail: the coarsest level within the limit is drawn.
+struct DetailLimits {
+    float height_px = 0.0F;   // height of the picture
+    float allowed_px = 0.0F;  // error on the screen, for the nearest eye
+    float allowed_m = 0.0F;   // limit without eyes
 };
 
-// What fades does so in the cone around what is to be seen; of the cone the eye sees no more than its end.
-Box end_of(const CutAway& cut);
+// Objects fade inside a cone between the eye and the cut-away's focus. Returns the box of the cone's end, the
+// only part of it that the eye sees.
+BoundingBox cone_end(const CutAway& cut);
 
-// SCENE_… bits of the scene's light, the same for every part.
+// SCENE_… bits of the scene's lighting, the same for every part.
 std::uint32_t features_of(const Scene& scene);
 
-// What any of the eyes may see. Without eyes: everything (for the shadow map). `deformed`: what bends is
-// there; what is not found is drawn as its model has it.
-DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Detail& detail,
+// Collects everything that any of the eyes may see; without eyes, everything (for the shadow map). Parts that
+// are not in `deformed` are drawn undeformed.
+DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const DetailLimits& detail,
                         const DeformedParts& deformed = {});
 
 }  // namespace bolt::render

@@ -15,7 +15,7 @@ constexpr std::uint32_t table_size = 48;
 
 std::uint16_t half(float x) { return glm::packHalf1x16(std::clamp(x, 0.0F, 65000.0F)); }
 
-// Every level of every face in one staging buffer.
+// Copies every level of every face from one staging buffer.
 Status upload_levels(gpu::Device& device, gpu::Image& image, const std::vector<shading::Cube>& levels) {
     std::vector<std::uint32_t> texels;
     std::vector<VkBufferImageCopy> regions;
@@ -28,16 +28,15 @@ Status upload_levels(gpu::Device& device, gpu::Image& image, const std::vector<s
         for (const glm::vec3& texel : levels[level].texels)
             texels.push_back(glm::packF3x9_E1x5(glm::clamp(texel, 0.0F, 65000.0F)));
     }
-    Result<gpu::Buffer> staging =
-        gpu::Buffer::create(device, texels.size() * sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                            gpu::MemoryUse::upload);
-    if (!staging) return fail(staging.error());
-    std::memcpy(staging->bytes().data(), texels.data(), texels.size() * sizeof(std::uint32_t));
-    return gpu::run_now(device, [&](VkCommandBuffer commands) {
-        gpu::image_barrier(commands, image.get(), gpu::Use::undefined, gpu::Use::transfer_to);
-        vkCmdCopyBufferToImage(commands, staging->get(), image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+    BOLT_TRY_ASSIGN(auto staging,
+                    gpu::Buffer::create(device, texels.size() * sizeof(std::uint32_t),
+                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::upload));
+    std::memcpy(staging.bytes().data(), texels.data(), texels.size() * sizeof(std::uint32_t));
+    return gpu::submit_and_wait(device, [&](VkCommandBuffer commands) {
+        gpu::image_barrier(commands, image.get(), gpu::ResourceUse::undefined, gpu::ResourceUse::transfer_to);
+        vkCmdCopyBufferToImage(commands, staging.get(), image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                static_cast<std::uint32_t>(regions.size()), regions.data());
-        gpu::image_barrier(commands, image.get(), gpu::Use::transfer_to, gpu::Use::sampled);
+        gpu::image_barrier(commands, image.get(), gpu::ResourceUse::transfer_to, gpu::ResourceUse::sampled);
     });
 }
 
@@ -47,17 +46,17 @@ Result<EnvironmentLight> upload_environment(gpu::Device& device, const shading::
                                             std::uint32_t size) {
     const std::vector<shading::Cube> levels = shading::prefilter(radiance, size);
     gpu::ImageInfo info;
-    // A shared exponent: half the bytes of four half floats, and quicker to read where there is no hardware.
+    // A shared-exponent format: half the size of four half floats, and faster to read without hardware
+    // support.
     info.format = VK_FORMAT_E5B9G9R9_UFLOAT_PACK32;
     info.extent = {size, size};
     info.mips = static_cast<std::uint32_t>(levels.size());
     info.layers = 6;
     info.cube = true;
     info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    Result<gpu::Image> image = gpu::Image::create(device, info);
-    if (!image) return fail(image.error());
-    if (Status done = upload_levels(device, *image, levels); !done) return fail(done.error());
-    return EnvironmentLight{std::move(*image), shading::diffuse_harmonics(levels.front())};
+    BOLT_TRY_ASSIGN(auto image, gpu::Image::create(device, info));
+    BOLT_TRY(upload_levels(device, image, levels));
+    return EnvironmentLight{std::move(image), shading::diffuse_harmonics(levels.front())};
 }
 
 Result<gpu::Image> upload_albedo_table(gpu::Device& device) {
@@ -65,8 +64,7 @@ Result<gpu::Image> upload_albedo_table(gpu::Device& device) {
     info.format = VK_FORMAT_R16G16_SFLOAT;
     info.extent = {table_size, table_size};
     info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    Result<gpu::Image> image = gpu::Image::create(device, info);
-    if (!image) return image;
+    BOLT_TRY_ASSIGN(auto image, gpu::Image::create(device, info));
     std::vector<std::uint16_t> texels;
     for (std::uint32_t row = 0; row < table_size; ++row) {
         for (std::uint32_t column = 0; column < table_size; ++column) {
@@ -77,8 +75,7 @@ Result<gpu::Image> upload_albedo_table(gpu::Device& device) {
             texels.push_back(half(albedo.y));
         }
     }
-    if (Status done = gpu::upload_image(device, *image, std::as_bytes(std::span(texels))); !done)
-        return fail(done.error());
+    BOLT_TRY(gpu::upload_image(device, image, std::as_bytes(std::span(texels))));
     return image;
 }
 

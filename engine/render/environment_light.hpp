@@ -1,4 +1,4 @@
-// An environment prepared for the GPU.
+// Image-based lighting, prefiltered and uploaded to the GPU.
 #pragma once
 
 #include "engine/gpu/resources.hpp"
@@ -7,14 +7,14 @@
 namespace bolt::render {
 
 struct EnvironmentLight {
-    gpu::Image levels;  // specular, from sharp to rough
+    gpu::Image levels;  // specular mips, from sharp to rough
     shading::Harmonics diffuse{};
 };
 
 Result<EnvironmentLight> upload_environment(gpu::Device& device, const shading::RadianceImage& image,
                                             std::uint32_t size = 128);
 
-// The table of directional albedos (engine/shading/albedo.hpp): columns √cos, rows roughness.
+// Uploads the table of directional albedos (engine/shading/albedo.hpp): columns √cos, rows roughness.
 Result<gpu::Image> upload_albedo_table(gpu::Device& device);
 
 }  // namespace bolt::render

@@ -11,11 +11,11 @@ namespace bolt::render {
 
 namespace {
 
-// All parts one after the other, as the buffers hold them.
+// All parts in sequence, as in the GPU buffers.
 struct Streams {
     Vertices vertices;
     std::vector<glm::vec2> second_uv;
-    bool has_second_uv = false;  // a material looks at them
+    bool has_second_uv = false;  // a material uses it
     DeformData deform;
 };
 
@@ -30,21 +30,21 @@ bool looks_at_second_uv(const assets::Model& model) {
     });
 }
 
-// Coarser levels of a part, whose added vertices are appended to it.
-std::vector<assets::Level> add_levels(const assets::Primitive& primitive, std::uint32_t features,
-                                      Vertices& vertices) {
+// Generates coarser levels of a part; vertices that they add are appended to it.
+std::vector<assets::LevelOfDetail> add_levels(const assets::Primitive& primitive, std::uint32_t features,
+                                              Vertices& vertices) {
     const bool bends = !primitive.targets.empty() || !primitive.joints.empty();
     assets::LevelOptions options;
     options.weld = !bends && primitive.colors.empty() && (features & SCENE_ANY_MAP) == 0;
     std::vector<glm::vec3> normals;
-    // Triangles that bend without normals of their own stand in the buffer as they are.
+    // Deformable triangles without normals keep their order in the buffer.
     if (!bends || !primitive.normals.empty())
         for (const VertexAttributes& a : vertices.attributes)
             normals.push_back(glm::vec3(a.normal[0], a.normal[1], a.normal[2]) / 32767.0F);
-    std::vector<assets::Level> levels =
+    std::vector<assets::LevelOfDetail> levels =
         assets::coarser_levels(vertices.positions, normals, vertices.indices, options);
     const auto own = static_cast<std::uint32_t>(vertices.positions.size());
-    for (assets::Level& level : levels) {
+    for (assets::LevelOfDetail& level : levels) {
         const auto more = static_cast<std::uint32_t>(vertices.positions.size()) - own;
         for (std::uint32_t& index : level.indices)
             if (index >= own) index += more;
@@ -54,9 +54,9 @@ std::vector<assets::Level> add_levels(const assets::Primitive& primitive, std::u
     return levels;
 }
 
-Part add_part(const assets::Model& model, const assets::Primitive& primitive, Vertices vertices,
-              std::uint32_t features, const UploadOptions& options, Streams& all) {
-    Part part;
+MeshPart add_part(const assets::Model& model, const assets::Primitive& primitive, Vertices vertices,
+                  std::uint32_t features, const UploadOptions& options, Streams& all) {
+    MeshPart part;
     const auto add_level = [&](const std::vector<std::uint32_t>& indices, float error) {
         part.levels.push_back({static_cast<std::uint32_t>(all.vertices.indices.size()),
                                static_cast<std::uint32_t>(indices.size()), error});
@@ -64,7 +64,7 @@ Part add_part(const assets::Model& model, const assets::Primitive& primitive, Ve
     };
     add_level(vertices.indices, 0.0F);
     if (options.levels)
-        for (const assets::Level& level : add_levels(primitive, features, vertices))
+        for (const assets::LevelOfDetail& level : add_levels(primitive, features, vertices))
             add_level(level.indices, level.error);
     part.first_vertex = static_cast<std::int32_t>(all.vertices.positions.size());
     part.material = static_cast<std::uint32_t>(
@@ -84,9 +84,8 @@ Part add_part(const assets::Model& model, const assets::Primitive& primitive, Ve
 
 template <class T>
 Status upload(gpu::Device& device, gpu::Buffer& to, const std::vector<T>& values, VkBufferUsageFlags usage) {
-    Result<gpu::Buffer> buffer = gpu::upload_buffer(device, std::as_bytes(std::span(values)), usage);
-    if (!buffer) return fail(buffer.error());
-    to = std::move(*buffer);
+    BOLT_TRY_ASSIGN(auto buffer, gpu::upload_buffer(device, std::as_bytes(std::span(values)), usage));
+    to = std::move(buffer);
     return {};
 }
 
@@ -133,10 +132,9 @@ Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model, c
     };
     for (const assets::Material& material : model.materials) add_material(material);
     add_material(plain);
-    if (Status s = upload_streams(device, all, gpu_model); !s) return fail(s.error());
-    Result<std::vector<GpuTexture>> textures = upload_textures(device, model);
-    if (!textures) return fail(textures.error());
-    gpu_model.textures = std::move(*textures);
+    BOLT_TRY(upload_streams(device, all, gpu_model));
+    BOLT_TRY_ASSIGN(auto textures, upload_textures(device, model));
+    gpu_model.textures = std::move(textures);
     return gpu_model;
 }
 

@@ -1,4 +1,4 @@
-// A model as the GPU draws it: all meshes in three buffers, materials as the shader reads them, textures.
+// A model in GPU memory: all meshes in shared buffers, materials in the shader's layout, and textures.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,20 @@
 
 namespace bolt::render {
 
-// Triangles of a part at one level of detail.
+// The triangles of a part at one level of detail.
 struct LevelRange {
     std::uint32_t first_index = 0, index_count = 0;
-    float error = 0.0F;  // m in the mesh's frame: how far it may be from the finest
+    float error = 0.0F;  // m in the mesh's frame: largest distance from the finest level
 };
 
-// What is drawn by one call: a primitive of a mesh.
-struct Part {
+// The unit of a draw call: a primitive of a mesh.
+struct MeshPart {
     std::vector<LevelRange> levels;  // finest first, at least one
     std::int32_t first_vertex = 0;
-    std::uint32_t material = 0;  // of the model
-    bool colors = false;         // has colours at its vertices
+    std::uint32_t material = 0;  // index into the model's materials
+    bool colors = false;         // has vertex colours
     bool tangents = false;
-    Box box;  // in the mesh's frame, m
+    BoundingBox box;  // in the mesh's frame, m
     Deformable bends;
 };
 
@@ -31,9 +31,10 @@ struct MeshRange {
     std::uint32_t first = 0, count = 0;  // parts
 };
 
-// Where a material's maps come from; −1: none. Order as in shared::Material::uv.
+// The textures of a material's maps; -1: none. The order is that of shared::Material::uv.
 struct MaterialMaps {
-    std::array<int, 11> textures{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};  // of the model
+    std::array<int, 11> textures{-1, -1, -1, -1, -1, -1,
+                                 -1, -1, -1, -1, -1};  // index into the model's textures
     bool blends = false, double_sided = false;
 };
 
@@ -45,33 +46,34 @@ struct GpuTexture {
 struct GpuModel {
     gpu::Buffer positions;   // vec3 float
     gpu::Buffer attributes;  // VertexAttributes
-    gpu::Buffer second_uv;   // vec2 float; only if a material looks at them
+    gpu::Buffer second_uv;   // vec2 float; only if a material uses it
     gpu::Buffer indices;     // uint32
-    gpu::Buffer influences;  // Influences, only of parts that have joints
-    gpu::Buffer deltas;      // float, of morph targets
-    std::vector<Part> parts;
+    gpu::Buffer influences;  // only for parts with joints
+    gpu::Buffer deltas;      // float, morph targets
+    std::vector<MeshPart> parts;
     std::vector<MeshRange> meshes;
-    std::vector<shared::Material> materials;  // one more than the model has: the default, last
-    std::vector<std::uint32_t> features;      // SCENE_… bits, beside materials
-    std::vector<MaterialMaps> maps;           // beside materials
+    std::vector<shared::Material> materials;  // the default material is appended
+    std::vector<std::uint32_t> features;      // SCENE_… bits, parallel to materials
+    std::vector<MaterialMaps> maps;           // parallel to materials
     std::vector<GpuTexture> textures;
     std::uint64_t triangles = 0;
 };
 
-// 28 bytes beside a position of 12.
+// The attributes of a vertex beside its position (12 bytes).
 struct VertexAttributes {
     std::int16_t normal[4];   // snorm
-    std::int16_t tangent[4];  // snorm; w: handedness; zero: none
+    std::int16_t tangent[4];  // snorm; w: handedness; zero: no tangent
     float texcoord[2];
     std::uint8_t color[4];  // unorm
 };
 static_assert(sizeof(VertexAttributes) == 28);
 
 struct UploadOptions {
-    bool levels = false;  // coarser levels of detail for what has many triangles
+    bool levels = false;  // generate coarser levels of detail for dense meshes
 };
 
-// Only triangles are drawn; missing normals become those of the faces. Decodes images.
+// Uploads the triangles of a model and decodes its images; other primitives are skipped. Missing normals
+// become face normals.
 Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model,
                               const UploadOptions& options = {});
 

@@ -23,7 +23,7 @@ namespace {
 constexpr const char* compiler = "glslangValidator";
 constexpr std::size_t largest_file = std::size_t{64} << 20;
 
-// The names after the colon of a rule of make; a space within a name has a backslash before it.
+// Parses the file names after the colon of a make rule; a backslash escapes a space in a name.
 std::set<fs::path> files_of_rule(const std::string& rule) {
     std::set<fs::path> files;
     std::string name;
@@ -42,13 +42,12 @@ std::set<fs::path> files_of_rule(const std::string& rule) {
 
 }  // namespace
 
-Result<gpu::Shader> take_shader(const std::string& name, const ShaderCode& instead) {
+Result<gpu::Shader> load_shader(const std::string& name, const ShaderCode& instead) {
     Result<gpu::Shader> built_in = gpu::make_shader(name, scene_shaders(name));
     const auto given = instead.find(name);
     if (!built_in || given == instead.end()) return built_in;
-    Result<gpu::Shader> shader = gpu::make_shader(name, given->second);
-    if (!shader) return shader;
-    std::vector<gpu::Binding>& bindings = shader->reflection.bindings;
+    BOLT_TRY_ASSIGN(auto shader, gpu::make_shader(name, given->second));
+    std::vector<gpu::Binding>& bindings = shader.reflection.bindings;
     for (const gpu::Binding& usual : built_in->reflection.bindings) {
         const bool used = std::any_of(bindings.begin(), bindings.end(), [&](const gpu::Binding& binding) {
             return binding.set == usual.set && binding.binding == usual.binding;
@@ -62,10 +61,11 @@ Result<HotShaders> HotShaders::open(const fs::path& given) {
     std::error_code problem;
     const fs::path folder = fs::canonical(given, problem);
     if (problem || !fs::is_directory(folder))
-        return fail(ErrorCode::usage, fmt::format("{} is no folder with shaders", given.string()));
+        return fail(ErrorCode::usage, fmt::format("{} does not exist", given.string()),
+                    "expected a folder with shaders");
     if (folder.filename() != "shaders")
-        return fail(ErrorCode::usage, fmt::format("{} is not called \"shaders\"", given.string()),
-                    "that name: by it the files include each other");
+        return fail(ErrorCode::usage, fmt::format("{} is not named \"shaders\"", given.string()),
+                    "expected a folder with that name, by which the files include each other");
     HotShaders hot;
     hot.folder_ = folder;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
@@ -73,13 +73,14 @@ Result<HotShaders> HotShaders::open(const fs::path& given) {
         if (!scene_shaders(name).empty()) hot.waiting_.insert(std::move(name));
     }
     if (hot.waiting_.empty())
-        return fail(ErrorCode::usage, fmt::format("{} holds none of the renderer's shaders", given.string()),
-                    "scene.vert, scene.frag and the others");
-    if (const auto found = run_program({compiler, "--version"}, Hear::output_and_errors); !found)
+        return fail(ErrorCode::usage,
+                    fmt::format("{} contains none of the renderer's shaders", given.string()),
+                    "expected scene.vert, scene.frag and the others");
+    if (const auto found = run_program({compiler, "--version"}, Capture::output_and_errors); !found)
         return fail(ErrorCode::failed, found.error().what, "expected the package glslang-tools");
     std::string pattern = (fs::temp_directory_path() / "boltwright-shaders-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr)
-        return fail(ErrorCode::failed, fmt::format("no folder for the compiler can be made: {}", pattern));
+        return fail(ErrorCode::failed, fmt::format("the compiler's folder cannot be created: {}", pattern));
     hot.work_ = pattern;
     hot.watch();
     return hot;
@@ -100,7 +101,7 @@ HotShaders::~HotShaders() {
     if (!work_.empty()) fs::remove_all(work_, ignored);
 }
 
-// The folder, and what the shaders include from elsewhere.
+// Watches the folder, and included files outside of it.
 void HotShaders::watch() {
     std::vector<fs::path> files;
     std::error_code problem;
@@ -114,23 +115,20 @@ void HotShaders::watch() {
 Status HotShaders::compile(const std::string& name) {
     const fs::path spirv = work_ / (name + ".spv"), rule = work_ / (name + ".d");
     std::vector<std::string> command{compiler};
-    std::istringstream flags(BOLT_GLSL_FLAGS);  // as the build has them
+    std::istringstream flags(BOLT_GLSL_FLAGS);  // the same flags as in the build
     for (std::string flag; flags >> flag;) command.push_back(flag);
     for (const std::string& word :
          {"-I" + folder_.parent_path().string(), std::string("--depfile"), rule.string(), std::string("-o"),
           spirv.string(), (folder_ / name).string()})
         command.push_back(word);
-    const Result<Finished> run = run_program(command, Hear::output_and_errors);
-    if (!run) return fail(run.error());
-    if (run->exit_code != 0) return fail(ErrorCode::bad_content, run->said);
-    const Result<std::string> bytes = read_file(spirv, largest_file, ErrorCode::failed);
-    if (!bytes) return fail(bytes.error());
-    std::vector<std::uint32_t> words(bytes->size() / sizeof(std::uint32_t));
-    std::memcpy(words.data(), bytes->data(), words.size() * sizeof(std::uint32_t));
+    BOLT_TRY_ASSIGN(const auto run, run_program(command, Capture::output_and_errors));
+    if (run.exit_code != 0) return fail(ErrorCode::bad_content, run.output);
+    BOLT_TRY_ASSIGN(const auto bytes, read_file(spirv, largest_file, ErrorCode::failed));
+    std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
+    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
     code_[name] = std::move(words);
-    const Result<std::string> read = read_file(rule, largest_file, ErrorCode::failed);
-    if (!read) return fail(read.error());
-    read_[name] = files_of_rule(*read);
+    BOLT_TRY_ASSIGN(const auto read, read_file(rule, largest_file, ErrorCode::failed));
+    read_[name] = files_of_rule(read);
     read_[name].insert(folder_ / name);
     return {};
 }
@@ -156,9 +154,9 @@ std::optional<Result<ShaderCode>> HotShaders::changed(double now) {
     watch();
     if (waiting_.empty()) return Result<ShaderCode>(code_);
     while (!said.empty() && said.back() == '\n') said.pop_back();
-    return Result<ShaderCode>(
-        fail(ErrorCode::bad_content,
-             fmt::format("{} of the shaders: {}\n{}", waiting_.size(), fmt::join(waiting_, ", "), said)));
+    return Result<ShaderCode>(fail(
+        ErrorCode::bad_content,
+        fmt::format("{} shaders do not compile: {}\n{}", waiting_.size(), fmt::join(waiting_, ", "), said)));
 }
 
 }  // namespace bolt::render

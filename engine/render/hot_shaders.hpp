@@ -1,5 +1,5 @@
-// Shaders compiled while the program runs, for those who write them: a folder with GLSL is watched, and what
-// changes is compiled as cmake/shaders.cmake does it.
+// Shader hot reload for shader authors: watches a folder of GLSL files and recompiles changed ones with the
+// options of cmake/shaders.cmake.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +19,22 @@ namespace bolt::render {
 // SPIR-V by file name: RendererOptions::shaders.
 using ShaderCode = std::map<std::string, std::vector<std::uint32_t>>;
 
-// One of the renderer's shaders: the one that is given instead, or the one built in. A shader in work may
-// leave out what the finished one uses (it returns red at once); what passes bind stays in its layout all the
-// same.
-Result<gpu::Shader> take_shader(const std::string& name, const ShaderCode& instead);
+// Returns one of the renderer's shaders: the given replacement or the built-in one. A replacement may leave
+// out bindings that the built-in shader uses (for example while it returns red at once); they stay in its
+// layout, because the passes bind them.
+Result<gpu::Shader> load_shader(const std::string& name, const ShaderCode& instead);
 
 class HotShaders {
   public:
-    // The folder has to be called "shaders": by that name its files include each other.
+    // The folder must be named "shaders", because its files include each other by that name.
     static Result<HotShaders> open(const std::filesystem::path& folder);
     HotShaders(HotShaders&&) noexcept = default;
     HotShaders& operator=(HotShaders&&) noexcept;
     ~HotShaders();
 
-    // All shaders of the renderer, when one of them (or what it includes) has changed since the last call,
-    // and at the first call. An error holds the compiler's words; what compiled before is still good then.
-    // `now` as FileWatch has it.
+    // Returns all shaders of the renderer at the first call, and whenever one of them or its includes has
+    // changed since the last call. An error holds the compiler's output; the shaders compiled before stay
+    // valid. `now`: see FileWatch.
     std::optional<Result<ShaderCode>> changed(double now);
 
   private:
@@ -42,10 +42,10 @@ class HotShaders {
     Status compile(const std::string& name);
     void watch();
 
-    std::filesystem::path folder_, work_;  // work: for the compiler's files
+    std::filesystem::path folder_, work_;  // work: the compiler's output folder
     ShaderCode code_;
-    std::map<std::string, std::set<std::filesystem::path>> read_;  // by each shader
-    std::set<std::string> waiting_;                                // to be compiled
+    std::map<std::string, std::set<std::filesystem::path>> read_;  // the files that each shader includes
+    std::set<std::string> waiting_;                                // shaders to compile
     FileWatch watch_;
 };
 

@@ -5,25 +5,34 @@
 #include <cstddef>
 #include <numeric>
 
-#include "engine/render/srgb.hpp"
 #include "engine/text/layout.hpp"
 
 namespace bolt::render {
 
 namespace {
 
+// Decodes an sRGB component (IEC 61966-2-1).
+float linear(float encoded) {
+    return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
+}
+
+// Alpha is not encoded.
+glm::vec4 linear(const glm::vec4& encoded) {
+    return {linear(encoded.r), linear(encoded.g), linear(encoded.b), encoded.a};
+}
+
 static_assert(sizeof(shared::LabelFrame) == 64 && sizeof(shared::LabelQuad) == 64);
 static_assert(offsetof(shared::LabelQuad, grow) == 48);
 
-// Around a text on a plate, em.
+// Margin of the background around the text, em.
 constexpr glm::vec2 margin(0.35F, 0.15F);
 constexpr float corner = 0.3F;
 
 shared::LabelFrame frame_of(const Label& label) {
     shared::LabelFrame frame{};
-    const float stand = label.stand == LabelStand::fixed    ? LABEL_FIXED
-                        : label.stand == LabelStand::facing ? LABEL_FACING
-                                                            : LABEL_ON_SCREEN;
+    const float stand = label.stand == LabelPlacement::fixed    ? LABEL_FIXED
+                        : label.stand == LabelPlacement::facing ? LABEL_FACING
+                                                                : LABEL_ON_SCREEN;
     frame.position = glm::vec4(label.position, label.height);
     frame.right = glm::vec4(label.turn * glm::vec3(1, 0, 0), stand);
     frame.up = glm::vec4(label.turn * glm::vec3(0, 1, 0), std::clamp(label.through, 0.0F, 1.0F));
@@ -34,7 +43,7 @@ shared::LabelFrame frame_of(const Label& label) {
 shared::LabelQuad plate_of(const Label& label, const glm::vec2& low, const glm::vec2& size) {
     shared::LabelQuad quad{};
     const glm::vec2 half = 0.5F * size + margin, middle = low + 0.5F * size;
-    // A little larger than the plate itself: its edge is smoothed over a pixel.
+    // Enlarge the background slightly, because its edge is smoothed over one pixel.
     const glm::vec2 room = half + static_cast<float>(text::Atlas::reach);
     quad.rect = glm::vec4(middle - room, middle + room);
     quad.uv = glm::vec4(half, half);
@@ -58,7 +67,7 @@ std::optional<LabelBatch> make_label_batch(std::span<const Label> labels, const 
     LabelBatch batch;
     for (const std::size_t i : order) {
         const Label& label = labels[i];
-        const text::Layout layout = text::lay_out(fonts, label.text, label.anchor.x);
+        const text::TextLayout layout = text::lay_out(fonts, label.text, label.anchor.x);
         if (layout.glyphs.empty()) continue;
         const glm::vec2 low = -label.anchor * layout.size;
         const auto add = [&](shared::LabelQuad quad) {
@@ -81,7 +90,7 @@ std::optional<LabelBatch> make_label_batch(std::span<const Label> labels, const 
             }
             return true;
         };
-        // All outlines come first: a letter's outline does not lie over the letter before it.
+        // Draw all outlines first, so that a glyph's outline does not cover the previous glyph.
         if (label.outline.a > 0.0F && !add_glyphs(label.outline, std::clamp(label.outline_width, 0.0F, 0.1F)))
             return std::nullopt;
         if (!add_glyphs(label.color, 0.0F)) return std::nullopt;

@@ -1,4 +1,4 @@
-// Labels as the GPU draws them: a quad a glyph, the farthest label first.
+// Labels prepared for the GPU: one quad per glyph, the farthest label first.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ struct LabelBatch {
     std::vector<shared::LabelQuad> quads;
 };
 
-// Nothing if the atlas is full. What lies behind what is judged by the first eye.
+// Returns nullopt if the atlas is full. Labels are sorted by depth for `clip_from_world`, the first eye.
 std::optional<LabelBatch> make_label_batch(std::span<const Label> labels, const glm::mat4& clip_from_world,
                                            const text::Fonts& fonts, text::Atlas& atlas);
 

@@ -11,7 +11,7 @@ namespace bolt::render {
 
 namespace {
 
-// In the order of shared::Material::uv. The first five have a bit each, SCENE_BASE_MAP and its neighbours.
+// In the order of shared::Material::uv. The first five have one feature bit each, from SCENE_BASE_MAP on.
 std::array<const assets::TextureRef*, 11> references(const assets::Material& m) {
     return {&m.base_color_texture,
             &m.metallic_roughness_texture,
@@ -26,7 +26,7 @@ std::array<const assets::TextureRef*, 11> references(const assets::Material& m) 
             &m.specular_color_texture};
 }
 
-// KHR_texture_transform: scale, then turn, then move.
+// KHR_texture_transform: scale, then rotate, then translate.
 void set_uv(shared::Material& to, std::size_t map, const assets::TextureRef& t) {
     const float c = std::cos(t.rotation), s = std::sin(t.rotation);
     to.uv[2 * map] = {c * t.scale.x, s * t.scale.y, t.offset.x, static_cast<float>(t.texcoord & 1)};
@@ -45,14 +45,14 @@ VkSamplerAddressMode address_mode(assets::Wrap wrap) {
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
 
-// Eight bits and four channels, whatever the file has.
+// Converts to eight bits and four channels.
 std::vector<std::uint8_t> four_channels(const assets::Image& image) {
     const auto count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     const auto channels = static_cast<std::size_t>(image.channels);
     std::vector<std::uint8_t> texels(4 * count, 255);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < 4; ++c) {
-            const std::size_t from = channels >= 3 ? c : c < 3 ? 0 : 1;  // grey, grey with alpha
+            const std::size_t from = channels >= 3 ? c : c < 3 ? 0 : 1;  // grey, or grey with alpha
             if (from < channels) texels[4 * i + c] = image.pixels[channels * i + from];
         }
     return texels;
@@ -66,10 +66,8 @@ Result<gpu::Image> upload_texels(gpu::Device& device, std::uint32_t width, std::
     info.mips = mips ? static_cast<std::uint32_t>(std::bit_width(std::max(width, height))) : 1;
     info.usage =
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    Result<gpu::Image> image = gpu::Image::create(device, info);
-    if (!image) return image;
-    if (Status done = gpu::upload_image(device, *image, std::as_bytes(texels)); !done)
-        return fail(done.error());
+    BOLT_TRY_ASSIGN(auto image, gpu::Image::create(device, info));
+    BOLT_TRY(gpu::upload_image(device, image, std::as_bytes(texels)));
     return image;
 }
 
@@ -129,7 +127,7 @@ MaterialMaps maps_of(const assets::Material& m) {
 }
 
 Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const assets::Model& model) {
-    // A texture holds colours if a material uses it for some.
+    // A texture holds colours if at least one material uses it as a colour map.
     std::vector<bool> color(model.textures.size(), false);
     for (const assets::Material& material : model.materials)
         for (const assets::TextureRef* ref :
@@ -138,18 +136,16 @@ Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const asset
     std::vector<GpuTexture> textures;
     for (std::size_t i = 0; i < model.textures.size(); ++i) {
         const assets::Texture& texture = model.textures[i];
-        if (texture.image < 0) {  // its image is in a format that only an extension names
-            Result<GpuTexture> white = plain_texture(device, {255, 255, 255, 255});
-            if (!white) return fail(white.error());
-            textures.push_back(std::move(*white));
+        if (texture.image < 0) {  // the image's format is known only to an extension
+            BOLT_TRY_ASSIGN(auto white, plain_texture(device, {255, 255, 255, 255}));
+            textures.push_back(std::move(white));
             continue;
         }
         assets::Image image = model.images[static_cast<std::size_t>(texture.image)];
-        if (Status decoded = assets::decode(image); !decoded) return fail(decoded.error());
-        Result<gpu::Image> uploaded = upload_texels(device, static_cast<std::uint32_t>(image.width),
-                                                    static_cast<std::uint32_t>(image.height), color[i],
-                                                    texture.mipmapped, four_channels(image));
-        if (!uploaded) return fail(uploaded.error());
+        BOLT_TRY(assets::decode(image));
+        BOLT_TRY_ASSIGN(auto uploaded, upload_texels(device, static_cast<std::uint32_t>(image.width),
+                                                     static_cast<std::uint32_t>(image.height), color[i],
+                                                     texture.mipmapped, four_channels(image)));
         gpu::SamplerInfo info;
         info.filter = texture.mag == assets::Filter::nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
         info.min_filter = texture.min == assets::Filter::nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
@@ -158,19 +154,16 @@ Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const asset
         info.address = address_mode(texture.wrap_s);
         info.address_v = address_mode(texture.wrap_t);
         info.anisotropy = 8.0F;
-        Result<gpu::Sampler> sampler = gpu::make_sampler(device, info);
-        if (!sampler) return fail(sampler.error());
-        textures.push_back({std::move(*uploaded), std::move(*sampler)});
+        BOLT_TRY_ASSIGN(auto sampler, gpu::make_sampler(device, info));
+        textures.push_back({std::move(uploaded), std::move(sampler)});
     }
     return textures;
 }
 
 Result<GpuTexture> plain_texture(gpu::Device& device, const std::array<std::uint8_t, 4>& texel) {
-    Result<gpu::Image> image = upload_texels(device, 1, 1, false, false, texel);
-    if (!image) return fail(image.error());
-    Result<gpu::Sampler> sampler = gpu::make_sampler(device, {});
-    if (!sampler) return fail(sampler.error());
-    return GpuTexture{std::move(*image), std::move(*sampler)};
+    BOLT_TRY_ASSIGN(auto image, upload_texels(device, 1, 1, false, false, texel));
+    BOLT_TRY_ASSIGN(auto sampler, gpu::make_sampler(device, {}));
+    return GpuTexture{std::move(image), std::move(sampler)};
 }
 
 }  // namespace bolt::render

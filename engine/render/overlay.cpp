@@ -32,12 +32,12 @@ void add_rectangle(Overlay& overlay, const Rectangle& place, const glm::vec4& co
     add(overlay, place, color, -1);
 }
 
-void add_picture(Overlay& overlay, const Rectangle& place, const Layer& picture) {
-    overlay.textures.push_back({picture, gpu::Use::transfer_from, false});
+void add_picture(Overlay& overlay, const Rectangle& place, const ImageLayer& picture) {
+    overlay.textures.push_back({picture, gpu::ResourceUse::transfer_from, false});
     add(overlay, place, glm::vec4(1.0F), static_cast<int>(overlay.textures.size()) - 1);
 }
 
-void add_inset(Overlay& overlay, const Rectangle& place, const Layer& picture, float frame_px,
+void add_inset(Overlay& overlay, const Rectangle& place, const ImageLayer& picture, float frame_px,
                const glm::vec4& frame_color) {
     add_rectangle(overlay, {place.low - frame_px, place.high + frame_px}, frame_color);
     add_picture(overlay, place, picture);

@@ -9,9 +9,9 @@ namespace bolt::render {
 
 namespace {
 
-shared::Frame describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
-                       const EnvironmentLight& environment, float level_error_px) {
-    shared::Frame f{};
+shared::FrameData describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
+                           const EnvironmentLight& environment, float level_error_px) {
+    shared::FrameData f{};
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         f.views[i].clip_from_world = eyes[i].clip_from_world;
         f.views[i].world_from_clip = glm::inverse(eyes[i].clip_from_world);
@@ -37,13 +37,12 @@ shared::Frame describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D
     return f;
 }
 
-// Passes whose pipelines are made for a number of views, when one is first drawn.
+// Creates passes whose pipelines depend on the number of views when that number is first drawn.
 template <class Pass>
 Result<Pass*> of_views(std::map<std::uint32_t, Pass>& passes, const PassMaker& maker, std::uint32_t views) {
     if (const auto known = passes.find(views); known != passes.end()) return &known->second;
-    Result<Pass> made = Pass::create(maker, views);
-    if (!made) return fail(made.error());
-    return &passes.emplace(views, std::move(*made)).first->second;
+    BOLT_TRY_ASSIGN(auto made, Pass::create(maker, views));
+    return &passes.emplace(views, std::move(made)).first->second;
 }
 
 }  // namespace
@@ -52,26 +51,25 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device, const Re
     auto renderer = std::make_unique<Renderer>();
     renderer->device_ = &device;
     renderer->options_ = options;
-    if (Status done = renderer->prepare(); !done) return fail(done.error());
+    BOLT_TRY(renderer->prepare());
     return renderer;
 }
 
 Status Renderer::prepare() {
-    if (Status s = take(cache_, gpu::PipelineCache::open(*device_, options_.pipeline_cache)); !s) return s;
+    BOLT_TRY(assign(cache_, gpu::PipelineCache::open(*device_, options_.pipeline_cache)));
     for (const char* name :
          {"scene.vert", "light.vert", "surface.frag", "light.frag", "scene.frag", "over.frag", "mark.vert",
           "mark.frag", "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag",
           "smooth.frag", "labels.vert", "labels.frag", "overlay.vert", "overlay.frag", "deform.comp"}) {
-        Result<gpu::Shader> shader = take_shader(name, options_.shaders);
-        if (!shader) return fail(shader.error());
-        shaders_.insert_or_assign(name, std::move(*shader));
+        BOLT_TRY_ASSIGN(auto shader, load_shader(name, options_.shaders));
+        shaders_.insert_or_assign(name, std::move(shader));
     }
-    if (Status s = take(no_environment_, upload_environment(*device_, shading::constant(glm::vec3(0.0F)), 8));
+    if (Status s =
+            assign(no_environment_, upload_environment(*device_, shading::constant(glm::vec3(0.0F)), 8));
         !s)
         return s;
-    if (Status s = take(white_, plain_texture(*device_, {255, 255, 255, 255})); !s) return s;
-    if (Status s = take(white_array_, white_.image.view(VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, 1, 0, 1)); !s)
-        return s;
+    BOLT_TRY(assign(white_, plain_texture(*device_, {255, 255, 255, 255})));
+    BOLT_TRY(assign(white_array_, white_.image.view(VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, 1, 0, 1)));
     return make_passes();
 }
 
@@ -80,12 +78,12 @@ Status Renderer::make_passes() {
     occlusion_.clear();
     forward_.clear();
     outline_.clear();
-    if (Status s = take(deform_, DeformPass::create(maker)); !s) return s;
-    if (Status s = take(shadow_, ShadowPass::create(maker, options_.shadow_size)); !s) return s;
-    if (Status s = take(surfaces_, SurfacePass::create(maker)); !s) return s;
-    if (Status s = take(light_, LightPass::create(maker)); !s) return s;
-    if (Status s = take(labels_, LabelPass::create(maker)); !s) return s;
-    return take(overlay_, OverlayPass::create(maker));
+    BOLT_TRY(assign(deform_, DeformPass::create(maker)));
+    BOLT_TRY(assign(shadow_, ShadowPass::create(maker, options_.shadow_size)));
+    BOLT_TRY(assign(surfaces_, SurfacePass::create(maker)));
+    BOLT_TRY(assign(light_, LightPass::create(maker)));
+    BOLT_TRY(assign(labels_, LabelPass::create(maker)));
+    return assign(overlay_, OverlayPass::create(maker));
 }
 
 bool Renderer::multiview() const {
@@ -94,86 +92,83 @@ bool Renderer::multiview() const {
     return device_->properties().deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
 }
 
-Status Renderer::resize(gpu::Frame& frame, ViewGroup& group, VkExtent2D extent, std::uint32_t views) const {
+Status Renderer::resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D extent,
+                        std::uint32_t views) const {
     if (group.extent.width == extent.width && group.extent.height == extent.height && group.views == views)
         return {};
-    for (Targets& targets : group.targets)
+    for (RenderTargets& targets : group.targets)
         each_image(targets, [&](gpu::Image& image) { frame.retire(std::move(image)); });
     group.targets.clear();
-    group.views = 0;  // until all is there
-    group.views_a_pass = multiview() ? views : 1;
-    for (std::uint32_t first = 0; first < views; first += group.views_a_pass) {
-        Result<Targets> targets = make_targets(*device_, extent, group.views_a_pass);
-        if (!targets) return fail(targets.error());
-        if (options_.keep_depth)
-            if (Status s = add_kept_depth(*device_, *targets); !s) return s;
-        group.targets.push_back(std::move(*targets));
+    group.views = 0;  // until all targets exist
+    group.views_per_pass = multiview() ? views : 1;
+    for (std::uint32_t first = 0; first < views; first += group.views_per_pass) {
+        BOLT_TRY_ASSIGN(auto targets, make_targets(*device_, extent, group.views_per_pass));
+        if (options_.keep_depth) BOLT_TRY(add_kept_depth(*device_, targets));
+        group.targets.push_back(std::move(targets));
     }
     group.extent = extent;
     group.views = views;
     return {};
 }
 
-Status Renderer::render(gpu::Frame& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
-                        std::uint32_t group_number) {
+Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<const Eye> eyes,
+                        VkExtent2D extent, std::uint32_t group_number) {
     if (eyes.empty() || eyes.size() > MAX_VIEWS || extent.width == 0 || extent.height == 0)
-        return fail(ErrorCode::failed, "a picture needs one to four eyes and at least one pixel");
+        return fail(ErrorCode::failed, "the picture has no pixel, or not one to four eyes");
     ViewGroup& group = groups_[group_number];
-    if (Status sized = resize(frame, group, extent, static_cast<std::uint32_t>(eyes.size())); !sized)
-        return sized;
+    BOLT_TRY(resize(frame, group, extent, static_cast<std::uint32_t>(eyes.size())));
     const EnvironmentLight& environment = scene.environment != nullptr ? *scene.environment : no_environment_;
-    shared::Frame shared = describe(scene, eyes, extent, environment, options_.level_error_px);
-    PassContext context{*device_,           frame,  scene, environment, shared, {},
-                        group.views_a_pass, extent, {},    {},          white_, white_array_.get(),
-                        deform_.parts()};
-    const auto put_frame = [&] { return take(context.frame_block, put<shared::Frame>(frame, {&shared, 1})); };
-    if (Status s = put_frame(); !s) return s;
+    shared::FrameData shared = describe(scene, eyes, extent, environment, options_.level_error_px);
+    PassContext context{
+        *device_, frame, scene,  environment,        shared,         {}, group.views_per_pass, extent,
+        {},       {},    white_, white_array_.get(), deform_.parts()};
+    const auto put_frame = [&] {
+        return assign(context.frame_block, upload_transient<shared::FrameData>(frame, {&shared, 1}));
+    };
+    BOLT_TRY(put_frame());
 
     const PassMaker maker{*device_, cache_, shaders_};
-    if (Status s = deform_.draw(context); !s) return s;
+    BOLT_TRY(deform_.draw(context));
     const DrawList list = make_draw_list(
         scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F}, deform_.parts());
-    if (Status s = take(context.instances, put<shared::Instance>(frame, list.instances)); !s) return s;
-    if (Status s = take(context.materials, put<shared::Material>(frame, list.materials)); !s) return s;
+    BOLT_TRY(assign(context.instances, upload_transient<shared::Instance>(frame, list.instances)));
+    BOLT_TRY(assign(context.materials, upload_transient<shared::Material>(frame, list.materials)));
 
-    if (Status s = shadow_.draw(context); !s) return s;
-    if (Status s = labels_.prepare(context, eyes); !s) return s;
+    BOLT_TRY(shadow_.draw(context));
+    BOLT_TRY(labels_.prepare(context, eyes));
     LightInputs inputs{&shadow_.map(), VK_NULL_HANDLE};
     for (std::size_t pass = 0; pass < group.targets.size(); ++pass) {
-        Targets& targets = group.targets[pass];
-        if (pass > 0) {  // a view of its own
+        RenderTargets& targets = group.targets[pass];
+        if (pass > 0) {  // a separate view
             shared.views[0] = {eyes[pass].clip_from_world, glm::inverse(eyes[pass].clip_from_world),
                                glm::vec4(eyes[pass].position, 1.0F)};
-            if (Status s = put_frame(); !s) return s;
+            BOLT_TRY(put_frame());
         }
-        if (Status s = surfaces_.draw(context, targets, list); !s) return s;
+        BOLT_TRY(surfaces_.draw(context, targets, list));
         if (scene.occlusion_radius > 0.0F) {
-            Result<OcclusionPass*> occluding = of_views(occlusion_, maker, group.views_a_pass);
-            if (!occluding) return fail(occluding.error());
-            if (Status s = (*occluding)->draw(context, targets); !s) return s;
+            BOLT_TRY_ASSIGN(auto occluding, of_views(occlusion_, maker, group.views_per_pass));
+            BOLT_TRY((occluding)->draw(context, targets));
             inputs.occlusion = targets.occlusion.view();
         }
-        if (Status s = light_.draw(context, targets, list, inputs); !s) return s;
+        BOLT_TRY(light_.draw(context, targets, list, inputs));
         if (!list.forward.empty()) {
-            Result<ForwardPass*> forward = of_views(forward_, maker, group.views_a_pass);
-            if (!forward) return fail(forward.error());
-            if (Status s = (*forward)->draw(context, targets, list, light_, inputs); !s) return s;
+            BOLT_TRY_ASSIGN(auto forward, of_views(forward_, maker, group.views_per_pass));
+            BOLT_TRY((forward)->draw(context, targets, list, light_, inputs));
         }
         if (!list.outlined.empty()) {
-            Result<OutlinePass*> outlining = of_views(outline_, maker, group.views_a_pass);
-            if (!outlining) return fail(outlining.error());
-            if (Status s = (*outlining)->draw(context, targets, list); !s) return s;
+            BOLT_TRY_ASSIGN(auto outlining, of_views(outline_, maker, group.views_per_pass));
+            BOLT_TRY((outlining)->draw(context, targets, list));
         }
-        if (Status s = labels_.draw(context, targets); !s) return s;
-        gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::Use::color_target,
-                           gpu::Use::transfer_from);
+        BOLT_TRY(labels_.draw(context, targets));
+        gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::ResourceUse::color_target,
+                           gpu::ResourceUse::transfer_from);
     }
     statistics_ = {list.triangles, static_cast<std::uint32_t>(list.draws.size()),
                    static_cast<std::uint32_t>(list.instances.size()), shadow_.drawn()};
     return {};
 }
 
-Status Renderer::draw_over(gpu::Frame& frame, const Overlay& overlay, const Layer& picture) {
+Status Renderer::draw_over(gpu::FrameContext& frame, const Overlay& overlay, const ImageLayer& picture) {
     return overlay_.draw(*device_, frame, overlay, picture, white_array_.get());
 }
 

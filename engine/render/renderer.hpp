@@ -1,24 +1,24 @@
-// The frame, from the scene to a picture. Renderer::render reads like it:
+// Renders a frame. Renderer::render runs these passes:
 //
-//   deform     vertices of what bends, where joints and morph targets move them
-//   shadow     depth of what light 0 sees; what stands still is kept
-//   surfaces   depth, normal and material of what is seen, 4 samples a pixel
-//   occlusion  how much light neighbours keep away, at half the size, if the scene asks for it
-//   light      every surface lit and tone-mapped, once for all samples of a pixel that show it
-//   forward    what is lit as it is drawn: what blends, and what the geometry buffer has no room for
-//   outline    lines around what the scene marks
+//   deform     vertices of deformable parts, moved by joints and morph targets
+//   shadow     depth seen from light 0; static objects are cached
+//   surfaces   depth, normal and material of visible surfaces, 4 samples per pixel
+//   occlusion  ambient occlusion at half size, if the scene requests it
+//   light      shading and tone mapping, once for all samples of a pixel on one surface
+//   forward    parts shaded while drawn: blended ones, and those the geometry buffer cannot store
+//   outline    lines around marked objects
 //   labels     text in the scene
 //
-// draw_over puts an overlay on a finished picture: the user interface, and pictures of other views as insets.
+// draw_over() draws an overlay on a finished picture: the user interface, or pictures of other views as
+// insets.
 //
-// Light comes after, and not while parts are drawn, because a part's triangles are often smaller than the
-// blocks that a rasteriser shades: on lavapipe the same picture of the reducer took nearly three times as
-// long.
+// Lighting is deferred, because a part's triangles are often smaller than the blocks that a rasteriser
+// shades: with forward lighting the same picture of the reducer took nearly three times as long on lavapipe.
 //
-// Each pass is a class in passes/ with its pipelines. Several views are drawn in one pass by multiview, a
-// layer each; on software rasterisers one after the other, each into images of its own. lavapipe (Mesa 22.3)
-// draws triangles that it clips into the layer of the view before, and resolves into layer 0 whatever layer
-// the view of the image begins with.
+// Each pass is a class in passes/ with its pipelines. Several views are drawn in one pass by multiview, one
+// layer each. Software rasterisers draw them one after the other into separate images, because lavapipe (Mesa
+// 22.3) draws clipped triangles into the layer of the previous view, and resolves into layer 0 whatever layer
+// the image view begins with.
 #pragma once
 
 #include "engine/render/hot_shaders.hpp"
@@ -36,17 +36,16 @@ namespace bolt::render {
 
 struct RendererOptions {
     std::uint32_t shadow_size = 2048;
-    std::filesystem::path pipeline_cache;  // empty: none on disk
-    ShaderCode shaders;                    // instead of those built in
+    std::filesystem::path pipeline_cache;  // empty: no cache on disk
+    ShaderCode shaders;                    // replacements of built-in shaders
     enum class Multiview : std::uint8_t {
         where_it_works,
         always,
         never
     } multiview = Multiview::where_it_works;
-    // How far a coarser level of detail may be from the part, in pixels of the picture; 0: always all
-    // triangles.
+    // The error allowed for coarser levels of detail, in pixels of the picture; 0: always draw all triangles.
     float level_error_px = 0.0F;
-    bool keep_depth = false;  // so that depth() can be read back
+    bool keep_depth = false;  // required by depth()
 };
 
 struct Statistics {
@@ -59,33 +58,34 @@ class Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererOptions& options);
 
-    // Records a frame's views of one size. The pictures are in use `transfer_from` afterwards. Views of
-    // another size (an inset, the instructor's) are another group, by any number; their pictures are kept
-    // beside.
-    Status render(gpu::Frame& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
+    // Records the views of a frame that have one size. Their pictures are in use `transfer_from` afterwards.
+    // Views of another size (an inset, the instructor's view) form another group with any number, whose
+    // pictures are stored separately.
+    Status render(gpu::FrameContext& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
                   std::uint32_t group = 0);
 
-    // Over a picture that has been rendered in this frame. Pictures that it shows are named by `picture`.
-    Status draw_over(gpu::Frame& frame, const Overlay& overlay, const Layer& picture);
+    // Draws over a picture that was rendered in this frame. The overlay may refer to other pictures by
+    // picture().
+    Status draw_over(gpu::FrameContext& frame, const Overlay& overlay, const ImageLayer& picture);
 
-    [[nodiscard]] Layer picture(std::uint32_t view, std::uint32_t group = 0) const {
+    [[nodiscard]] ImageLayer picture(std::uint32_t view, std::uint32_t group = 0) const {
         return groups_.at(group).picture(view);
     }
-    // The depth of each pixel's first sample, in use `transfer_from`; none without
-    // RendererOptions::keep_depth. What blends is not in it.
-    [[nodiscard]] Layer depth(std::uint32_t view, std::uint32_t group = 0) const {
-        return options_.keep_depth ? groups_.at(group).depth(view) : Layer{};
+    // The depth of each pixel's first sample, without blended parts, in use `transfer_from`. Empty without
+    // RendererOptions::keep_depth.
+    [[nodiscard]] ImageLayer depth(std::uint32_t view, std::uint32_t group = 0) const {
+        return options_.keep_depth ? groups_.at(group).depth(view) : ImageLayer{};
     }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
-    // What bent in the last frame; for a look at its vertices.
+    // The deformed vertices of the last frame, for tests.
     [[nodiscard]] const DeformPass& deformed() const { return deform_; }
-    // Keeps compiled pipelines for the next start.
+    // Writes compiled pipelines to the cache for the next start.
     [[nodiscard]] Status save_pipelines() const { return cache_.save(); }
 
   private:
     Status prepare();
     Status make_passes();
-    Status resize(gpu::Frame& frame, ViewGroup& group, VkExtent2D extent, std::uint32_t views) const;
+    Status resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D extent, std::uint32_t views) const;
     [[nodiscard]] bool multiview() const;
 
     gpu::Device* device_ = nullptr;
@@ -94,9 +94,9 @@ class Renderer {
     Shaders shaders_;
     DeformPass deform_;
     ShadowPass shadow_;
-    std::map<std::uint32_t, ForwardPass> forward_;      // by views
-    std::map<std::uint32_t, OcclusionPass> occlusion_;  // by views
-    std::map<std::uint32_t, OutlinePass> outline_;      // by views
+    std::map<std::uint32_t, ForwardPass> forward_;      // by number of views
+    std::map<std::uint32_t, OcclusionPass> occlusion_;  // by number of views
+    std::map<std::uint32_t, OutlinePass> outline_;      // by number of views
     SurfacePass surfaces_;
     LightPass light_;
     LabelPass labels_;

@@ -38,8 +38,8 @@ shared::Light make_light(const assets::Light& light, const glm::mat4& world) {
 
 }  // namespace
 
-void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const assets::Pose& pose,
-           const glm::mat4& world) {
+void add_model(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
+               const assets::ModelPose& pose, const glm::mat4& world) {
     const std::vector<glm::mat4> transforms = assets::world_transforms(model, pose);
     walk(model, [&](std::size_t index) {
         const assets::Node& node = model.nodes[index];
@@ -48,7 +48,7 @@ void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, 
         object.model = &gpu_model;
         object.mesh = static_cast<std::uint32_t>(node.mesh);
         object.node = static_cast<int>(index);
-        // glTF 2.0, 3.7.3.3: joints alone say where a skin is, not its node.
+        // glTF 2.0, 3.7.3.3: the joints alone place a skinned mesh, not its node.
         object.world = node.skin >= 0 ? world : world * transforms[index];
         const std::vector<float>& weights = pose[index].weights;
         const bool morphs = std::any_of(weights.begin(), weights.end(), [](float w) { return w != 0.0F; });
@@ -63,16 +63,16 @@ void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, 
     });
 }
 
-void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const glm::mat4& world) {
-    place(scene, model, gpu_model, assets::rest_pose(model), world);
+void add_model(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const glm::mat4& world) {
+    add_model(scene, model, gpu_model, assets::rest_pose(model), world);
 }
 
-void place_lights(Scene& scene, const assets::Model& model, const glm::mat4& world) {
-    place_lights(scene, model, assets::rest_pose(model), world);
+void add_lights(Scene& scene, const assets::Model& model, const glm::mat4& world) {
+    add_lights(scene, model, assets::rest_pose(model), world);
 }
 
-void place_lights(Scene& scene, const assets::Model& model, const assets::Pose& pose,
-                  const glm::mat4& world) {
+void add_lights(Scene& scene, const assets::Model& model, const assets::ModelPose& pose,
+                const glm::mat4& world) {
     const std::vector<glm::mat4> transforms = assets::world_transforms(model, pose);
     walk(model, [&](std::size_t node) {
         if (model.nodes[node].light < 0) return;
@@ -95,16 +95,16 @@ bool casts_shadow(const Scene& scene) {
                        [](const Object& object) { return casts_shadow(object); });
 }
 
-Box bounds(const Object& object, const Part& part) {
+BoundingBox bounds(const Object& object, const MeshPart& part) {
     return transformed(bounds(part.box, part.bends, object.deformation.get()), object.world);
 }
 
-Box bounds(const Scene& scene) {
-    Box box;
+BoundingBox bounds(const Scene& scene) {
+    BoundingBox box;
     for (const Object& object : scene.objects) {
         const MeshRange range = object.model->meshes[object.mesh];
         for (std::uint32_t i = 0; i < range.count; ++i) {
-            const Box moved = bounds(object, object.model->parts[range.first + i]);
+            const BoundingBox moved = bounds(object, object.model->parts[range.first + i]);
             box.add(moved.low);
             box.add(moved.high);
         }

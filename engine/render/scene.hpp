@@ -1,4 +1,4 @@
-// What is to be drawn: plain values, filled anew for every frame.
+// The contents of a frame: plain values, filled anew for every frame.
 #pragma once
 
 #include <memory>
@@ -14,27 +14,28 @@ struct Object {
     const GpuModel* model = nullptr;
     std::uint32_t mesh = 0;
     glm::mat4 world{1.0F};
-    glm::vec4 tint{0.0F};  // w: how much of the material's colour it replaces
-    float opacity = 1.0F;  // below 1: a ghost, of which only what is nearest shows
-    bool flat = false;     // its own colour, without light
-    // What bends it; null: nothing. A new one for every pose: what was rendered may still be looked at.
+    glm::vec4 tint{0.0F};  // w: the fraction of the material's colour that it replaces
+    float opacity = 1.0F;  // below 1: a ghost, whose nearest layer only is visible
+    bool flat = false;     // unlit
+    // Joints and weights; null: rigid. Create a new one for every pose: the GPU may still use the previous
+    // one.
     std::shared_ptr<const Deformation> deformation = nullptr;
-    bool moves = false;       // drawn into the shadow map anew each frame
-    bool cut = false;         // fades where it hides what the scene's cut-away wants to be seen
-    glm::vec4 outline{0.0F};  // a line around it, through whatever hides it; w: its opacity
-    int node = -1;            // of the model that it came from; for those who look for it
+    bool moves = false;       // drawn into the shadow map in every frame
+    bool cut = false;         // fades where it hides the focus of the scene's cut-away
+    glm::vec4 outline{0.0F};  // a line around it, visible through occluders; w: opacity
+    int node = -1;            // the model's node that it was created from; -1: unknown
 };
 
-// What must be seen: between it and the eye, objects that allow it fade.
+// Objects with `cut` set fade between the eye and this sphere.
 struct CutAway {
     glm::vec3 focus{0.0F};
-    float radius = 0.03F;   // m, kept free around it
-    float strength = 0.0F;  // 0: nothing fades … 1: what hides it goes
+    float radius = 0.03F;   // m, kept visible around the focus
+    float strength = 0.0F;  // 0: no fading … 1: full fading
 };
 
 struct SceneLight {
     shared::Light light{};
-    bool casts_shadow = false;  // the first light only, if it is directional
+    bool casts_shadow = false;  // only for the first light, if it is directional
 };
 
 struct Scene {
@@ -43,40 +44,40 @@ struct Scene {
     std::vector<Label> labels;
     const EnvironmentLight* environment = nullptr;
     float environment_intensity = 1.0F;
-    float environment_turn = 0.0F;  // rad about Y
+    float environment_turn = 0.0F;  // rad, rotation about Y
     float exposure = 1.0F;
-    float occlusion_radius = 0.0F;  // m, how far parts keep light from each other; 0: not at all
-    glm::vec4 background{0.0F};     // w: 1 shows it, 0 the environment
+    float occlusion_radius = 0.0F;  // m, radius of ambient occlusion; 0: off
+    glm::vec4 background{0.0F};     // w: 1 shows this colour, 0 the environment
     CutAway cut_away;
     float outline_px = 3.0F;
 };
 
-// A point of view. Any projection with depth 1 near and 0 far.
+// A viewpoint with any projection that has depth 1 near and 0 far.
 struct Eye {
     glm::vec3 position{0.0F};
     glm::mat4 clip_from_world{1.0F};
 };
 
-// The meshes of a model's default scene where its nodes stand in a pose, skins and morph targets too, moved
-// by `world`.
-void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model, const assets::Pose& pose,
-           const glm::mat4& world = glm::mat4(1.0F));
-// At rest.
-void place(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
-           const glm::mat4& world = glm::mat4(1.0F));
+// Adds the meshes of a model's default scene with its nodes in a pose, including skins and morph targets,
+// transformed by `world`.
+void add_model(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
+               const assets::ModelPose& pose, const glm::mat4& world = glm::mat4(1.0F));
+// The same in the rest pose.
+void add_model(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
+               const glm::mat4& world = glm::mat4(1.0F));
 
-// KHR_lights_punctual lights of the model. The first directional one is moved to the front and casts a
-// shadow.
-void place_lights(Scene& scene, const assets::Model& model, const assets::Pose& pose,
-                  const glm::mat4& world = glm::mat4(1.0F));
-void place_lights(Scene& scene, const assets::Model& model, const glm::mat4& world = glm::mat4(1.0F));
+// Adds the KHR_lights_punctual lights of the model. The first directional one is moved to the front and casts
+// a shadow.
+void add_lights(Scene& scene, const assets::Model& model, const assets::ModelPose& pose,
+                const glm::mat4& world = glm::mat4(1.0F));
+void add_lights(Scene& scene, const assets::Model& model, const glm::mat4& world = glm::mat4(1.0F));
 
-// Whether an object gives shadow, and whether light 0 throws one in this scene.
+// Whether an object casts a shadow, and whether light 0 casts shadows in this scene.
 bool casts_shadow(const Object& object);
 bool casts_shadow(const Scene& scene);
 
-// Of a part of an object's model, in the world, as the object is bent.
-Box bounds(const Object& object, const Part& part);
-Box bounds(const Scene& scene);
+// The world bounds of a part of an object, including its deformation.
+BoundingBox bounds(const Object& object, const MeshPart& part);
+BoundingBox bounds(const Scene& scene);
 
 }  // namespace bolt::render

@@ -6,7 +6,7 @@ namespace bolt::render {
 
 namespace {
 
-Status add(gpu::Device& device, const Targets& targets, gpu::Image& to, VkFormat format,
+Status add(gpu::Device& device, const RenderTargets& targets, gpu::Image& to, VkFormat format,
            VkImageUsageFlags usage, VkSampleCountFlagBits samples, std::uint32_t divisor = 1) {
     if (to.get() != VK_NULL_HANDLE) return {};
     gpu::ImageInfo info;
@@ -17,7 +17,7 @@ Status add(gpu::Device& device, const Targets& targets, gpu::Image& to, VkFormat
     info.format = format;
     info.samples = samples;
     info.usage = usage;
-    return take(to, gpu::Image::create(device, info));
+    return assign(to, gpu::Image::create(device, info));
 }
 
 constexpr VkImageUsageFlags drawn_and_read = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -26,42 +26,39 @@ constexpr VkImageUsageFlags depth_and_read =
 
 }  // namespace
 
-Result<Targets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers) {
-    Targets t;
+Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers) {
+    RenderTargets t;
     t.extent = extent;
     t.layers = layers;
-    if (Status s = add(device, t, t.depth, depth_format, depth_and_read, samples); !s) return fail(s.error());
-    if (Status s = add(device, t, t.surfaces, surface_format, drawn_and_read, samples); !s)
-        return fail(s.error());
+    BOLT_TRY(add(device, t, t.depth, depth_format, depth_and_read, samples));
+    BOLT_TRY(add(device, t, t.surfaces, surface_format, drawn_and_read, samples));
     const VkImageUsageFlags seen = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    if (Status s = add(device, t, t.picture, color_format, seen, VK_SAMPLE_COUNT_1_BIT); !s)
-        return fail(s.error());
+    BOLT_TRY(add(device, t, t.picture, color_format, seen, VK_SAMPLE_COUNT_1_BIT));
     return t;
 }
 
-Status add_wide_targets(gpu::Device& device, Targets& t) {
-    if (Status s = add(device, t, t.wide_colors, wide_color_format, drawn_and_read, samples); !s) return s;
+Status add_wide_targets(gpu::Device& device, RenderTargets& t) {
+    BOLT_TRY(add(device, t, t.wide_colors, wide_color_format, drawn_and_read, samples));
     return add(device, t, t.wide_roughs, wide_rough_format, drawn_and_read, samples);
 }
 
-Status add_forward_targets(gpu::Device& device, Targets& t) {
-    if (Status s = add(device, t, t.drawn, layer_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples); !s)
-        return s;
+Status add_forward_targets(gpu::Device& device, RenderTargets& t) {
+    BOLT_TRY(add(device, t, t.drawn, layer_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples));
     return add(device, t, t.over, layer_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
 }
 
-Status add_mark_target(gpu::Device& device, Targets& t) {
+Status add_mark_target(gpu::Device& device, RenderTargets& t) {
     return add(device, t, t.marks, mark_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
 }
 
-Status add_occlusion_targets(gpu::Device& device, Targets& t) {
+Status add_occlusion_targets(gpu::Device& device, RenderTargets& t) {
     constexpr VkSampleCountFlagBits one = VK_SAMPLE_COUNT_1_BIT;
-    if (Status s = add(device, t, t.small_depth, depth_format, depth_and_read, one, 2); !s) return s;
-    if (Status s = add(device, t, t.raw_occlusion, occlusion_format, drawn_and_read, one, 2); !s) return s;
+    BOLT_TRY(add(device, t, t.small_depth, depth_format, depth_and_read, one, 2));
+    BOLT_TRY(add(device, t, t.raw_occlusion, occlusion_format, drawn_and_read, one, 2));
     return add(device, t, t.occlusion, occlusion_format, drawn_and_read, one, 2);
 }
 
-Status add_kept_depth(gpu::Device& device, Targets& t) {
+Status add_kept_depth(gpu::Device& device, RenderTargets& t) {
     return add(device, t, t.kept_depth, depth_format,
                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                VK_SAMPLE_COUNT_1_BIT);

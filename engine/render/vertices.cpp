@@ -37,7 +37,7 @@ VertexAttributes attributes_of(const assets::Primitive& p, std::uint32_t i, cons
     return a;
 }
 
-// Brushed metal needs to know along what; normal maps find out in the shader.
+// Brushed metal needs a direction along the surface; for normal maps the shader derives one.
 bool wants_tangents(const assets::Primitive& p, const assets::Material& material, std::size_t set) {
     return p.tangents.empty() && material.anisotropy > 0.0F && !p.texcoords[set].empty();
 }
@@ -59,7 +59,7 @@ std::vector<glm::vec4> make_tangents(const assets::Primitive& p, std::size_t set
         const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
         const glm::vec2 u = uv[b] - uv[a], v = uv[c] - uv[a];
         const glm::vec3 x = p.positions[b] - p.positions[a], y = p.positions[c] - p.positions[a];
-        // Divided by the sign of the area of the map only: large triangles have more to say.
+        // Divide only by the sign of the triangle's texture area, so that large triangles have more weight.
         const float side = u.x * v.y - u.y * v.x < 0.0F ? -1.0F : 1.0F;
         for (const std::uint32_t corner : {a, b, c}) {
             along[corner] += side * (x * v.y - y * u.y);

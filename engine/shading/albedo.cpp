@@ -9,7 +9,7 @@ namespace bolt::shading {
 
 namespace {
 
-// Even steps in roughness and in the root of the cosine: the albedo bends at grazing angles.
+// Uniform steps in roughness and in √cosine, because the albedo varies most at grazing angles.
 constexpr int size = 48;
 constexpr unsigned directions = 256;
 
@@ -40,7 +40,7 @@ glm::vec2 integrate_albedo(float alpha, float cosine, unsigned count) {
         const float along = glm::dot(out, half);
         const glm::vec3 in = 2.0F * along * half - out;
         if (in.z <= 0.0F || along <= 0.0F) continue;
-        // D V cos over the density of visible normals is G2/G1 (Heitz 2018, eq. 19).
+        // D V cos divided by the density of visible normals is G2/G1 (Heitz 2018, eq. 19).
         const float weight = visibility(out, in, width) * 4.0F * in.z * out.z / masking(out, width);
         const float grazing = pow5(1.0F - along);
         sum += glm::dvec2(weight * (1.0F - grazing), weight * grazing);

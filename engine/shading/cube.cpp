@@ -29,7 +29,7 @@ float centre(std::uint32_t i, std::uint32_t size) {
     return (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(size) - 1.0F;
 }
 
-// ∫∫ 1/(1 + s² + t²)^{3/2} from the middle of a face to (s, t).
+// ∫∫ 1/(1 + s² + t²)^{3/2} from a face's centre to (s, t).
 double area(double s, double t) { return std::atan2(s * t, std::sqrt(s * s + t * t + 1.0)); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A cube map on the CPU: six square faces in Vulkan's order and orientation (+X, −X, +Y, −Y, +Z, −Z;
+// A cube map on the CPU: six square faces in Vulkan's order and orientation (+X, -X, +Y, -Y, +Z, -Z;
 // specification, "Cube Map Face Selection").
 #pragma once
 
@@ -17,19 +17,19 @@ struct Cube {
     }
 };
 
-// The direction through the middle of a texel; not of unit length.
+// Returns the direction through a texel's centre, not normalised.
 glm::vec3 cube_direction(std::uint32_t face, std::uint32_t x, std::uint32_t y, std::uint32_t size);
 
-// The part of the sphere that a texel covers, sr.
+// Returns the solid angle of a texel, sr.
 float texel_solid_angle(std::uint32_t x, std::uint32_t y, std::uint32_t size);
 
-// Bilinear within a face.
+// Bilinear interpolation within a face.
 glm::vec3 lookup(const Cube& cube, const glm::vec3& direction);
 
-// Each texel the mean of the image over four points of it.
+// Resamples the image; each texel is the mean of four points.
 Cube make_cube(const RadianceImage& image, std::uint32_t size);
 
-// Half the size; the size must be even.
+// Returns the map at half its size, which must be even.
 Cube halved(const Cube& cube);
 
 }  // namespace bolt::shading

@@ -1,4 +1,4 @@
-// The Trowbridge–Reitz distribution and what goes with it, in the frame whose third axis is the normal.
+// The Trowbridge–Reitz (GGX) distribution and its masking functions, in tangent space with the normal as z.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline float ggx(const glm::vec3& half, const glm::vec2& alpha) {
     return 1.0F / (std::numbers::pi_v<float> * alpha.x * alpha.y * t * t);
 }
 
-// |v| stretched by the roughness: the root in Smith's functions.
+// The length of v scaled by the roughness: the square root in Smith's functions.
 inline float stretched(const glm::vec3& v, const glm::vec2& alpha) {
     return std::sqrt(alpha.x * alpha.x * v.x * v.x + alpha.y * alpha.y * v.y * v.y + v.z * v.z);
 }
@@ -33,8 +33,8 @@ inline float masking(const glm::vec3& v, const glm::vec2& alpha) {
     return 2.0F * v.z / (v.z + stretched(v, alpha));
 }
 
-// A half vector as `out` sees them. E. Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 7(4),
-// 2018.
+// Samples a half vector from the normals visible from `out` (E. Heitz, Sampling the GGX Distribution of
+// Visible Normals, JCGT 7(4), 2018).
 inline glm::vec3 sample_half(const glm::vec3& out, const glm::vec2& alpha, const glm::vec2& u) {
     const glm::vec3 v = glm::normalize(glm::vec3(alpha.x * out.x, alpha.y * out.y, out.z));
     const float flat = v.x * v.x + v.y * v.y;
@@ -49,7 +49,7 @@ inline glm::vec3 sample_half(const glm::vec3& out, const glm::vec2& alpha, const
     return glm::normalize(glm::vec3(alpha.x * n.x, alpha.y * n.y, std::max(1e-7F, n.z)));
 }
 
-// Per solid angle of the reflected direction.
+// The probability density per solid angle of the reflected direction.
 inline float half_density(const glm::vec3& out, const glm::vec3& half, const glm::vec2& alpha) {
     return masking(out, alpha) * ggx(half, alpha) / (4.0F * out.z);
 }

@@ -14,8 +14,8 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// A direction of the lobe around (0, 0, 1), its weight, and the level of the environment that is as coarse as
-// it is sparse.
+// A direction of the lobe around (0, 0, 1), its weight, and the level of the environment whose texels match
+// the sample density.
 struct LobeSample {
     glm::vec3 direction;
     float weight;
@@ -34,7 +34,7 @@ std::vector<LobeSample> lobe(float roughness, std::uint32_t count, std::uint32_t
         const glm::vec3 half(sine * std::cos(phi), sine * std::sin(phi), cosine);
         const glm::vec3 in = 2.0F * cosine * half - glm::vec3(0.0F, 0.0F, 1.0F);
         if (in.z <= 0.0F) continue;
-        const float density = ggx(half, glm::vec2(alpha)) / 4.0F;  // D cos / (4 V·H) with N = V
+        const float density = ggx(half, glm::vec2(alpha)) / 4.0F;  // D cos / (4 V·H) for N = V
         const float covered = 1.0F / (static_cast<float>(count) * density);
         samples.push_back({in, in.z, std::max(0.0F, 0.5F * std::log2(covered / texel) + 0.5F)});
     }
@@ -103,7 +103,7 @@ Harmonics diffuse_harmonics(const Cube& cube) {
             }
         }
     }
-    // The clamped cosine's factors π, 2π/3, π/4 over π, and the polynomials' own.
+    // The factors π, 2π/3, π/4 of the clamped cosine divided by π, times the polynomials' own factors.
     const float band[] = {1.0F, 2.0F / 3.0F, 0.25F};
     h[0] *= 0.282095F * band[0];
     for (std::size_t i = 1; i < 4; ++i) h[i] *= 0.488603F * band[1];

@@ -12,11 +12,10 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// Brightness of a soft box that is seen in `direction`: a rectangle on a plane at distance one, with soft
-// rims.
+// The brightness of a soft box in `direction`: a rectangle on a plane at distance one, with soft edges.
 struct SoftBox {
-    glm::vec3 towards;    // its middle, any length
-    glm::vec2 half_size;  // in distances
+    glm::vec3 towards;    // direction of its centre, any length
+    glm::vec2 half_size;  // relative to the distance
     float radiance;
 };
 

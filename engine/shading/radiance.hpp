@@ -1,4 +1,4 @@
-// Light from all around, looked up by direction.
+// Environment radiance by direction.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,17 +11,17 @@ namespace bolt::shading {
 
 using assets::RadianceImage;
 
-// Where a unit direction lies in the image, both in [0, 1], and back.
+// Maps a unit direction to image coordinates in [0, 1], and back.
 glm::vec2 to_square(const glm::vec3& direction);
 glm::vec3 to_direction(const glm::vec2& uv);
 
-// Bilinear, around the seam.
+// Bilinear interpolation that wraps around the seam.
 glm::vec3 lookup(const RadianceImage& image, const glm::vec3& direction);
 
 RadianceImage constant(const glm::vec3& radiance);
 
-// The light of a photographer's table: a large soft box above, one to either side, a dim surrounding that
-// brightens upwards.
+// A photographer's light table: a large soft box above, one on each side, and a dim background that brightens
+// upwards.
 RadianceImage studio(int width = 256);
 
 }  // namespace bolt::shading

@@ -1,4 +1,4 @@
-// Points that fill the unit interval evenly: van der Corput's sequence in base 2.
+// The van der Corput sequence in base 2, which covers the unit interval evenly.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ inline std::uint32_t reverse_bits(std::uint32_t x) {
     return ((x & 0x55555555U) << 1U) | ((x & 0xAAAAAAAAU) >> 1U);
 }
 
-// 24 bits, so that the result is below one as a float.
+// Uses 24 bits, so that the result as a float is below one.
 inline float unit_float(std::uint32_t x) { return static_cast<float>(x >> 8U) * 0x1p-24F; }
 
 inline float radical_inverse(std::uint32_t i) { return unit_float(reverse_bits(i)); }

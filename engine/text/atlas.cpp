@@ -10,12 +10,12 @@ namespace bolt::text {
 
 namespace {
 
-// Curves as lines, well below what a texel tells.
+// Tolerance for flattened curves, well below the size of a texel.
 constexpr double tolerance = 0.02 / Atlas::texels_per_em;
 
 }  // namespace
 
-// Where there is no glyph it is far from every edge: small text reads a little beyond its glyphs.
+// Fill the background with the largest distance: small text samples slightly beyond its glyphs.
 Atlas::Atlas(int size)
     : size_(size),
       texels_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
@@ -36,7 +36,7 @@ const AtlasGlyph* Atlas::glyph(const Fonts& fonts, const GlyphId& id) {
         for (int x = 0; x < field.width; ++x)
             texels_[static_cast<std::size_t>((shelf_ + y) * size_ + next_ + x)] =
                 glm::packHalf1x16(field.distances[static_cast<std::size_t>(y * field.width + x)]);
-    // Fields meet without a gap: what is sampled stays half a texel inside.
+    // Neighbouring fields touch, so keep the sampled area half a texel inside.
     const auto uv = [&](double x, double y) { return glm::vec2((next_ + x) / size_, (shelf_ + y) / size_); };
     const auto em = [&](double x, double y) {
         return glm::vec2(field.low + glm::dvec2(x, y) / texels_per_em);

@@ -25,15 +25,14 @@ std::vector<Edge> edges_of(const Outline& outline) {
     return edges;
 }
 
-// Where an edge passes the height y, and which way: 0 if it does not. Half-open, so that a corner counts
-// once.
+// The direction in which an edge crosses height y; 0: it does not. Half-open, so that a vertex counts once.
 int passes(const Edge& edge, double y, double& x) {
     if ((edge.a.y <= y) == (edge.b.y <= y)) return 0;
     x = edge.a.x + (y - edge.a.y) / (edge.b.y - edge.a.y) * (edge.b.x - edge.a.x);
     return edge.b.y > edge.a.y ? 1 : -1;
 }
 
-// The edges by the heights that they pass, so that who asks about a point need not look at all of them.
+// Edges sorted by the heights that they cross, so that a query visits only some of them.
 class EdgesByHeight {
   public:
     EdgesByHeight(const std::vector<Edge>& edges, double low, double high, double step)
@@ -64,8 +63,8 @@ class EdgesByHeight {
     std::vector<std::vector<Edge>> rows_;
 };
 
-// Strokes of a glyph may overlap (Chinese ones do): what of an edge lies inside is no edge to be seen. Edges
-// are cut into pieces of up to `step`, and a piece is left out if both of its sides are filled, or none is.
+// Strokes of a glyph may overlap, as in Chinese fonts, and edges inside the union must not count. Cuts edges
+// into pieces of at most `step` and removes those with both or neither side filled.
 std::vector<Edge> visible_pieces(const std::vector<Edge>& edges, const EdgesByHeight& by_height,
                                  double step) {
     std::vector<Edge> pieces;
@@ -92,7 +91,7 @@ double distance_squared(const Edge& edge, const Point& p) {
     return glm::dot(d, d);
 }
 
-// The rows or columns whose middles are between `low` and `high`.
+// Returns the rows or columns whose centres are between `low` and `high`.
 std::pair<int, int> between(double low, double high, int count) {
     return {std::max(0, static_cast<int>(std::ceil(low - 0.5))),
             std::min(count - 1, static_cast<int>(std::floor(high - 0.5)))};
@@ -128,7 +127,7 @@ DistanceField distance_field(const Outline& outline, double texels_per_em, doubl
             }
     }
     field.distances.resize(nearest.size());
-    std::vector<std::pair<double, int>> crossings;  // of a row
+    std::vector<std::pair<double, int>> crossings;  // in one row
     for (int y = 0; y < field.height; ++y) {
         crossings.clear();
         double x = 0.0;

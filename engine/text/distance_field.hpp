@@ -1,6 +1,5 @@
-// A glyph as the distance to its edge (C. Green, Improved Alpha-Tested Magnification for Vector Textures,
-// 2007): drawn at any size and angle, the edge is found between the texels and is as sharp as the picture
-// allows. Distances are exact, to the outline itself and not to pixels of a raster.
+// Signed distance fields of glyphs (C. Green, Improved Alpha-Tested Magnification for Vector Textures, 2007),
+// for sharp edges at every size and angle. Distances are computed from the outline itself, not from a raster.
 #pragma once
 
 #include "engine/text/face.hpp"
@@ -9,11 +8,12 @@ namespace bolt::text {
 
 struct DistanceField {
     int width = 0, height = 0;
-    glm::dvec2 low{0.0};           // em, where the first texel's lower left corner is
-    std::vector<float> distances;  // em, positive inside, rows from below; held between −reach and reach
+    glm::dvec2 low{0.0};           // em, lower left corner of the first texel
+    std::vector<float> distances;  // em, positive inside, rows from the bottom; clamped to [-reach, reach]
 };
 
-// Nothing for an outline without area. The field is `reach` (em) larger than the outline on every side.
+// Returns an empty field for an outline without area. The field extends `reach` (em) beyond the outline on
+// every side.
 DistanceField distance_field(const Outline& outline, double texels_per_em, double reach);
 
 }  // namespace bolt::text

@@ -19,8 +19,8 @@ glm::dvec2 quadratic(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2&
     return glm::mix(glm::mix(a, b, t), glm::mix(b, c, t), t);
 }
 
-// How many lines keep a curve within the tolerance: a chord over 1/n of it is off by |second derivative| /
-// 8n².
+// Returns the number of segments that keep a curve within the tolerance: the error of a chord over 1/n of it
+// is |second derivative| / 8n².
 int pieces(double second_derivative, double tolerance) {
     return std::clamp(static_cast<int>(std::ceil(std::sqrt(second_derivative / (8.0 * tolerance)))), 1, 64);
 }
@@ -30,7 +30,7 @@ int pieces(double second_derivative, double tolerance) {
 struct Face::Data {
     std::string bytes;
     stbtt_fontinfo info{};
-    float em = 1.0F;  // of a font unit
+    float em = 1.0F;  // em per font unit
     float ascent = 0.0F, descent = 0.0F;
 };
 
@@ -40,18 +40,17 @@ Face& Face::operator=(Face&&) noexcept = default;
 Face::~Face() = default;
 
 Result<Face> Face::read(const std::filesystem::path& file) {
-    Result<std::string> bytes = read_file(file, largest_font, ErrorCode::failed);
-    if (!bytes) return fail(bytes.error());
+    BOLT_TRY_ASSIGN(auto bytes, read_file(file, largest_font, ErrorCode::failed));
     auto data = std::make_unique<Data>();
-    data->bytes = std::move(*bytes);
-    // Shorter than a table directory, stb_truetype would read past it.
+    data->bytes = std::move(bytes);
+    // stb_truetype would read past the end of a file shorter than a table directory.
     const auto* first = reinterpret_cast<const unsigned char*>(data->bytes.data());
     const int offset = data->bytes.size() < 64 ? -1 : stbtt_GetFontOffsetForIndex(first, 0);
     if (offset < 0 || stbtt_InitFont(&data->info, first, offset) == 0) {
         Error error;
         error.code = ErrorCode::failed;
-        error.what = "no font that can be read";
-        error.expected = "TrueType or OpenType";
+        error.what = "is no readable font";
+        error.expected = "a TrueType or OpenType font";
         error.file = file.string();
         return fail(std::move(error));
     }

@@ -1,6 +1,5 @@
-// A font file: which glyphs it has, how wide they are and what they look like. Lengths are shares of an em.
-// The file is trusted: stb_truetype does not guard itself against hostile ones, so only fonts of the system
-// are read.
+// A font file: its glyphs, metrics and outlines, in units of an em. The file must be trusted: stb_truetype
+// does not validate its input, so only system fonts are read.
 #pragma once
 
 #include <filesystem>
@@ -12,30 +11,30 @@
 
 namespace bolt::text {
 
-// Closed rings of points; what they wind around is filled (non-zero rule).
+// Closed polygons, filled by the non-zero winding rule.
 using Outline = std::vector<std::vector<glm::dvec2>>;
 
 class Face {
   public:
-    // TrueType or OpenType; of a collection the first face.
+    // Reads TrueType or OpenType; the first face of a collection.
     static Result<Face> read(const std::filesystem::path& file);
 
     Face(Face&&) noexcept;
     Face& operator=(Face&&) noexcept;
     ~Face();
 
-    [[nodiscard]] int glyph(char32_t point) const;  // 0: it has none
+    [[nodiscard]] int glyph(char32_t point) const;  // 0: the face has no such glyph
     [[nodiscard]] float advance(int glyph) const;
     [[nodiscard]] float kerning(int left, int right) const;
-    [[nodiscard]] float ascent() const;   // of a line above its baseline
-    [[nodiscard]] float descent() const;  // below it, positive
+    [[nodiscard]] float ascent() const;   // above the baseline
+    [[nodiscard]] float descent() const;  // below the baseline, positive
 
-    // Curves become lines that stay within `tolerance` of them.
+    // Returns the outline with curves flattened within `tolerance`.
     [[nodiscard]] Outline outline(int glyph, double tolerance) const;
 
-    // Coverage of each pixel at this size with the origin `shift` (pixels, 0 … 1) to the right of a pixel's
-    // edge: what a rasteriser makes of it. Rows from the top; the upper left corner is `left`, `top` pixels
-    // from the origin (y up).
+    // The pixel coverage of a glyph from stb_truetype's rasteriser, with the origin `shift` (0 … 1 pixel) to
+    // the right of a pixel edge. Rows from the top; the upper left corner is at (`left`, `top`) pixels from
+    // the origin, y up.
     struct Raster {
         int width = 0, height = 0, left = 0, top = 0;
         std::vector<unsigned char> coverage;

@@ -15,7 +15,7 @@ const std::vector<FontFile>& font_files() {
 std::vector<std::filesystem::path> font_folders() {
     const char* own = std::getenv("BOLTWRIGHT_FONTS");
     if (own != nullptr && *own != '\0') return {own};
-    // The first two are where Debian keeps ours; other systems, and fonts that a user has added, come after.
+    // The first two are Debian's folders of our fonts; other systems and user fonts follow.
     std::vector<std::filesystem::path> folders{"/usr/share/fonts/truetype/dejavu",
                                                "/usr/share/fonts/truetype/wqy", "/usr/share/fonts",
                                                "/usr/local/share/fonts"};
@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> font_folders() {
 Result<std::filesystem::path> find_font(const FontFile& font,
                                         const std::vector<std::filesystem::path>& folders) {
     using Walk = std::filesystem::recursive_directory_iterator;
-    std::error_code ignored;  // a folder that is not there or not ours to read holds no font for us
+    std::error_code ignored;  // missing and unreadable folders are skipped
     for (const std::filesystem::path& folder : folders)
         for (Walk at(folder, std::filesystem::directory_options::skip_permission_denied, ignored), end;
              at != end; at.increment(ignored))
@@ -39,16 +39,14 @@ Result<std::filesystem::path> find_font(const FontFile& font,
 Result<Fonts> load_fonts() {
     Fonts fonts;
     for (const FontFile& wanted : font_files()) {
-        Result<std::filesystem::path> file = find_font(wanted, font_folders());
-        if (!file) return fail(file.error());
-        Result<Face> face = Face::read(*file);
-        if (!face) return fail(face.error());
-        fonts.faces.push_back(std::move(*face));
+        BOLT_TRY_ASSIGN(auto file, find_font(wanted, font_folders()));
+        BOLT_TRY_ASSIGN(auto face, Face::read(file));
+        fonts.faces.push_back(std::move(face));
     }
     return fonts;
 }
 
-GlyphId find(const Fonts& fonts, char32_t point) {
+GlyphId find_glyph(const Fonts& fonts, char32_t point) {
     for (std::size_t face = 0; face < fonts.faces.size(); ++face)
         if (const int glyph = fonts.faces[face].glyph(point); glyph != 0)
             return {static_cast<int>(face), glyph};

@@ -1,5 +1,5 @@
-// The fonts that everything is written in: DejaVu Sans for European languages and symbols, and for Chinese
-// what DejaVu has not. They are Debian's and are found when the program runs.
+// The fonts of all texts: DejaVu Sans for European languages and symbols, and a second font for Chinese. They
+// are Debian packages and are searched for at run time.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@ namespace bolt::text {
 
 struct FontFile {
     std::string file;     // "DejaVuSans.ttf"
-    std::string package;  // that brings it
+    std::string package;  // the package that contains it
 };
 
-// In the order in which they are asked for a glyph.
+// In order of priority.
 const std::vector<FontFile>& font_files();
 
-// Where fonts lie: the folder that BOLTWRIGHT_FONTS names, or the system's.
+// The folders with fonts: the one in BOLTWRIGHT_FONTS, or the system's.
 std::vector<std::filesystem::path> font_folders();
 
-// Looks through the folders and all below them; an error says which package is missing.
+// Searches the folders recursively. The error names the missing package.
 Result<std::filesystem::path> find_font(const FontFile& font,
                                         const std::vector<std::filesystem::path>& folders);
 
@@ -28,11 +28,11 @@ struct Fonts {
 };
 Result<Fonts> load_fonts();
 
-// The first face that has the code point; a box (glyph 0 of the first) where none has.
+// The glyph of the first face that has the code point; otherwise a box (glyph 0 of the first face).
 struct GlyphId {
     int face = 0, glyph = 0;
     friend auto operator<=>(const GlyphId&, const GlyphId&) = default;
 };
-GlyphId find(const Fonts& fonts, char32_t point);
+GlyphId find_glyph(const Fonts& fonts, char32_t point);
 
 }  // namespace bolt::text

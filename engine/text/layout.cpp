@@ -8,16 +8,16 @@ namespace bolt::text {
 
 namespace {
 
-struct Line {
-    std::size_t first = 0;  // glyph
+struct TextLine {
+    std::size_t first = 0;  // index of its first glyph
     float width = 0.0F;
 };
 
 }  // namespace
 
-Layout lay_out(const Fonts& fonts, std::string_view utf8, float align) {
-    Layout layout;
-    std::vector<Line> lines(1);
+TextLayout lay_out(const Fonts& fonts, std::string_view utf8, float align) {
+    TextLayout layout;
+    std::vector<TextLine> lines(1);
     GlyphId before;
     for (const char32_t point : decode(utf8)) {
         if (point == U'\n') {
@@ -25,7 +25,7 @@ Layout lay_out(const Fonts& fonts, std::string_view utf8, float align) {
             before = {};
             continue;
         }
-        const GlyphId id = find(fonts, point);
+        const GlyphId id = find_glyph(fonts, point);
         const Face& face = fonts.faces[static_cast<std::size_t>(id.face)];
         float& x = lines.back().width;
         if (before.glyph != 0 && before.face == id.face) x += face.kerning(before.glyph, id.glyph);
@@ -35,7 +35,7 @@ Layout lay_out(const Fonts& fonts, std::string_view utf8, float align) {
     }
     const float ascent = fonts.faces.front().ascent(), descent = fonts.faces.front().descent();
     const float height = ascent + descent;
-    for (const Line& line : lines) layout.size.x = std::max(layout.size.x, line.width);
+    for (const TextLine& line : lines) layout.size.x = std::max(layout.size.x, line.width);
     layout.size.y = height * static_cast<float>(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const std::size_t end = i + 1 < lines.size() ? lines[i + 1].first : layout.glyphs.size();

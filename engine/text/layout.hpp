@@ -1,5 +1,5 @@
-// Text set in lines: which glyph stands where. Left to right, a glyph a code point, with kerning; no shaping
-// of scripts that join their letters.
+// Text layout from left to right: one glyph per code point, with kerning, without shaping for joining
+// scripts.
 #pragma once
 
 #include <string_view>
@@ -10,15 +10,15 @@ namespace bolt::text {
 
 struct PlacedGlyph {
     GlyphId id;
-    glm::vec2 at{0.0F};  // em, its origin on the baseline
+    glm::vec2 at{0.0F};  // em, the glyph's origin on the baseline
 };
 
-struct Layout {
+struct TextLayout {
     std::vector<PlacedGlyph> glyphs;
-    glm::vec2 size{0.0F};  // em; the box goes from (0, 0), lower left, to it
+    glm::vec2 size{0.0F};  // em; the box extends from (0, 0), lower left, to this corner
 };
 
-// `align` moves lines that are shorter than the longest: 0 left, 0.5 to the middle, 1 right.
-Layout lay_out(const Fonts& fonts, std::string_view utf8, float align = 0.0F);
+// `align` positions lines shorter than the longest: 0 left, 0.5 centred, 1 right.
+TextLayout lay_out(const Fonts& fonts, std::string_view utf8, float align = 0.0F);
 
 }  // namespace bolt::text

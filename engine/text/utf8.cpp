@@ -9,7 +9,7 @@ namespace {
 
 constexpr char32_t replacement = 0xFFFD;
 
-// Bytes that follow a first byte, or −1 if none starts with it.
+// Returns the number of continuation bytes; -1 for an invalid first byte.
 int followers(std::uint8_t first) {
     if (first < 0x80) return 0;
     if (first >= 0xC2 && first < 0xE0) return 1;
@@ -18,7 +18,7 @@ int followers(std::uint8_t first) {
     return -1;
 }
 
-// Longer than it need be, half of a surrogate pair, or beyond Unicode (RFC 3629).
+// Overlong encodings, surrogates and values beyond Unicode are invalid (RFC 3629).
 bool forbidden(char32_t point, int follow) {
     constexpr std::array<char32_t, 4> smallest{0, 0x80, 0x800, 0x10000};
     return point < smallest.at(static_cast<std::size_t>(follow)) || (point >= 0xD800 && point < 0xE000) ||

@@ -1,4 +1,4 @@
-// UTF-8 to code points and back.
+// Conversion between UTF-8 and code points.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace bolt::text {
 
-// What is no UTF-8 becomes U+FFFD, one for each byte that starts nothing.
+// Invalid UTF-8 becomes U+FFFD, one per byte that starts no character.
 std::u32string decode(std::string_view utf8);
 std::string encode(std::u32string_view points);
 

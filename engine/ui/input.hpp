@@ -1,5 +1,4 @@
-// What the user does, as plain values: whoever has the window, the headset or the test fills it in once a
-// frame.
+// User input as plain values, filled in once per frame by the owner of the window, the headset or the test.
 #pragma once
 
 #include <array>
@@ -9,7 +8,7 @@
 
 namespace bolt::ui {
 
-// Keys that the interface itself asks for; what is typed comes as text.
+// Keys that the interface itself handles; typed text arrives as text.
 enum class Key : std::uint8_t {
     tab,
     left,
@@ -42,12 +41,12 @@ struct Button {
 
 struct Input {
     glm::vec2 size{0.0F};   // of the picture, pixels
-    float scale = 1.0F;     // of the display: pixels for each point of the design
+    float scale = 1.0F;     // of the display: pixels per point
     double seconds = 0.0;   // since the last frame
     bool pointing = false;  // the pointer is over the picture
     glm::vec2 pointer{0.0F};
     std::array<Button, 3> buttons{};  // left, right, middle
-    glm::vec2 wheel{0.0F};            // steps since the last frame; y: away from the user
+    glm::vec2 wheel{0.0F};            // notches since the last frame; y: away from the user
     std::array<bool, key_count> keys{};
     bool ctrl = false, shift = false, alt = false;
     std::string text;  // UTF-8, typed since the last frame

@@ -1,12 +1,12 @@
-// How the interface looks.
+// The style of the user interface.
 #pragma once
 
 #include <imgui/imgui.h>
 
 namespace bolt::ui {
 
-// Lengths in points times `scale`. Colours are for blending of light (see shaders/overlay.frag): what is half
-// transparent shows more of a bright background than it would where encoded values are mixed.
+// Lengths are points times `scale`. Colours are blended linearly (see shaders/overlay.frag), so that
+// translucent colours let a bright background through more than with blending of encoded values.
 ImGuiStyle make_style(float scale);
 
 }  // namespace bolt::ui

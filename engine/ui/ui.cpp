@@ -16,11 +16,11 @@ namespace {
 
 static_assert(IM_COL32_R_SHIFT == 0 && IM_COL32_A_SHIFT == 24);
 
-// European languages, and what is written about bolts; ranges of code points, both ends included.
+// European languages and symbols used in bolting; ranges of code points, inclusive.
 constexpr std::pair<char32_t, char32_t> always[] = {{0x20, 0x7E}, {0xA0, 0x17F}, {0x391, 0x3C9}};
 constexpr std::u32string_view signs = U"–—‘’‚“”„…•′″€⁰¹²³⁴⁻₀₁₂₃₄←↑→↓∆∑−√∞∠∥≈≠≤≥✓✗�";
 
-// Textures are numbers from 1: the font, then this frame's pictures.
+// Texture ids start at 1: the font, then this frame's pictures.
 ImTextureID texture_id(std::size_t number) {
     ImTextureID id = nullptr;
     static_assert(sizeof id == sizeof number);
@@ -43,7 +43,7 @@ constexpr ImGuiKey_ keys[key_count] = {
 void feed(ImGuiIO& io, const Input& input) {
     io.DisplaySize = {input.size.x, input.size.y};
     io.DeltaTime = static_cast<float>(std::max(input.seconds, 1e-6));
-    // A pointer that is elsewhere is where nothing can be.
+    // A pointer outside the picture is moved to where no widget can be.
     io.MousePos = input.pointing
                       ? ImVec2(input.pointer.x, input.pointer.y)
                       : ImVec2(-std::numeric_limits<float>::max(), -std::numeric_limits<float>::max());
@@ -91,11 +91,9 @@ Result<std::unique_ptr<Ui>> Ui::create(gpu::Device& device, const UiOptions& opt
     ui->device_ = &device;
     ui->options_ = options;
     for (const text::FontFile& wanted : text::font_files()) {
-        Result<std::filesystem::path> file = text::find_font(wanted, text::font_folders());
-        if (!file) return fail(file.error());
-        Result<text::Face> face = text::Face::read(*file);
-        if (!face) return fail(face.error());
-        ui->fonts_.push_back({file->string(), face->ascent() + face->descent()});
+        BOLT_TRY_ASSIGN(auto file, text::find_font(wanted, text::font_folders()));
+        BOLT_TRY_ASSIGN(auto face, text::Face::read(file));
+        ui->fonts_.push_back({file.string(), face.ascent() + face.descent()});
     }
     for (const auto& [first, last] : always)
         for (char32_t point = first; point <= last; ++point) ui->letters_.insert(point);
@@ -105,7 +103,7 @@ Result<std::unique_ptr<Ui>> Ui::create(gpu::Device& device, const UiOptions& opt
     ui->context_.reset(ImGui::CreateContext());
     ImGui::SetCurrentContext(ui->context_.get());
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // nothing is written beside the program
+    io.IniFilename = nullptr;  // no settings file
     io.LogFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
@@ -121,7 +119,7 @@ void Ui::need(std::string_view utf8) {
         if (point >= 0x20 && point <= IM_UNICODE_CODEPOINT_MAX) stale_ |= letters_.insert(point).second;
 }
 
-Status Ui::rebuild(gpu::Frame& frame) {
+Status Ui::rebuild(gpu::FrameContext& frame) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
     ImFontGlyphRangesBuilder builder;
@@ -131,7 +129,8 @@ Status Ui::rebuild(gpu::Frame& frame) {
     for (const Font& font : fonts_) {
         ImFontConfig config;
         config.MergeMode = &font != &fonts_.front();
-        // Chinese characters are all equally wide and stand on whole pixels; others between them.
+        // Chinese characters have one width and are aligned to whole pixels; others may be placed between
+        // pixels.
         config.OversampleH = config.MergeMode ? 1 : 3;
         config.PixelSnapH = config.MergeMode;
         const float em = std::round(options_.text_size * scale_);
@@ -141,49 +140,46 @@ Status Ui::rebuild(gpu::Frame& frame) {
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     atlas.GetTexDataAsAlpha8(&texels, &width, &height);
-    if (texels == nullptr) return fail(ErrorCode::failed, "the interface's letters cannot be drawn");
+    if (texels == nullptr) return fail(ErrorCode::failed, "the interface's font cannot be rasterised");
     gpu::ImageInfo info;
     info.format = VK_FORMAT_R8_UNORM;
     info.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
     info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     info.array = true;
-    Result<gpu::Image> image = gpu::Image::create(*device_, info);
-    if (!image) return fail(image.error());
+    BOLT_TRY_ASSIGN(auto image, gpu::Image::create(*device_, info));
     const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (Status sent = gpu::upload_image(*device_, *image, std::as_bytes(std::span(texels, size))); !sent)
-        return sent;
+    BOLT_TRY(gpu::upload_image(*device_, image, std::as_bytes(std::span(texels, size))));
     if (font_image_.get() != VK_NULL_HANDLE) frame.retire(std::move(font_image_));
-    font_image_ = std::move(*image);
+    font_image_ = std::move(image);
     atlas.SetTexID(texture_id(1));
     atlas.ClearTexData();
     stale_ = false;
     return {};
 }
 
-Status Ui::begin(gpu::Frame& frame, const Input& input) {
+Status Ui::begin(gpu::FrameContext& frame, const Input& input) {
     ImGui::SetCurrentContext(context_.get());
     if (const float scale = std::clamp(input.scale, 0.25F, 8.0F); scale != scale_) {
         scale_ = scale;
         ImGui::GetStyle() = make_style(scale);
         stale_ = true;
     }
-    if (stale_)
-        if (Status built = rebuild(frame); !built) return built;
+    if (stale_) BOLT_TRY(rebuild(frame));
     pictures_.clear();
     feed(ImGui::GetIO(), input);
     ImGui::NewFrame();
     return {};
 }
 
-ImTextureID Ui::picture(const render::Layer& picture) {
-    pictures_.push_back({picture, gpu::Use::transfer_from, false});
+ImTextureID Ui::picture(const render::ImageLayer& picture) {
+    pictures_.push_back({picture, gpu::ResourceUse::transfer_from, false});
     return texture_id(pictures_.size() + 1);
 }
 
 render::Overlay Ui::end() {
     ImGui::Render();
     render::Overlay overlay;
-    overlay.textures.push_back({{&font_image_, 0}, gpu::Use::sampled, true});
+    overlay.textures.push_back({{&font_image_, 0}, gpu::ResourceUse::sampled, true});
     overlay.textures.insert(overlay.textures.end(), pictures_.begin(), pictures_.end());
     const ImDrawData& data = *ImGui::GetDrawData();
     for (int i = 0; i < data.CmdListsCount; ++i) append(overlay, *data.CmdLists[i]);

@@ -1,7 +1,6 @@
-// The user interface: Dear ImGui, drawn as an overlay. Between begin and end the caller uses <imgui/imgui.h>
-// in this Ui's context; several live side by side as long as one is ended before the next begins. Lengths are
-// pixels: what is designed in points is multiplied by scale(). Text is rasterised at the size at which it is
-// shown.
+// The user interface: Dear ImGui, drawn as an overlay. Between begin() and end() the caller uses
+// <imgui/imgui.h> in this Ui's context; several Uis may exist if each is ended before the next begins.
+// Lengths are pixels: multiply points by scale(). Text is rasterised at its displayed size.
 #pragma once
 
 #include <imgui/imgui.h>
@@ -16,7 +15,7 @@
 namespace bolt::ui {
 
 struct UiOptions {
-    float text_size = 14.0F;  // of an em, points
+    float text_size = 14.0F;  // em size, points
 };
 
 class Ui {
@@ -27,33 +26,33 @@ class Ui {
     Ui& operator=(const Ui&) = delete;
     ~Ui();
 
-    // Letters beyond those of European languages that will be written. Unknown ones are drawn as "?".
+    // Adds characters beyond the European ones to the font. Unknown characters are drawn as "?".
     void need(std::string_view utf8);
 
-    // `frame` is the one that will draw it.
-    Status begin(gpu::Frame& frame, const Input& input);
+    // `frame` is the frame that will draw the interface.
+    Status begin(gpu::FrameContext& frame, const Input& input);
 
-    // A picture of the renderer's, for ImGui::Image. Until end.
-    ImTextureID picture(const render::Layer& picture);
+    // Registers a picture of the renderer for ImGui::Image, until end().
+    ImTextureID picture(const render::ImageLayer& picture);
 
-    // What Renderer::draw_over takes. Refers to this Ui's font.
+    // Returns the overlay for Renderer::draw_over. It refers to this Ui's font.
     render::Overlay end();
 
     [[nodiscard]] float scale() const { return scale_; }
-    // Whether pointer and keys belong to the interface now, not to what is behind it.
+    // Whether pointer and keyboard input belong to the interface now, not to the scene.
     [[nodiscard]] bool wants_pointer() const;
     [[nodiscard]] bool wants_keys() const;
 
   private:
     Ui() = default;
-    Status rebuild(gpu::Frame& frame);
+    Status rebuild(gpu::FrameContext& frame);
 
     struct Destroy {
         void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
     };
     struct Font {
         std::string file;
-        float line = 1.0F;  // em from the lowest to the highest: what ImGui means by a font's size
+        float line = 1.0F;  // em between the lowest and the highest point, ImGui's definition of a font size
     };
 
     gpu::Device* device_ = nullptr;
@@ -61,10 +60,10 @@ class Ui {
     std::unique_ptr<ImGuiContext, Destroy> context_;
     std::vector<Font> fonts_;
     std::set<char32_t> letters_;
-    bool stale_ = true;  // the font has not all letters, or not the right size
+    bool stale_ = true;  // the font lacks characters or has the wrong size
     float scale_ = 0.0F;
     gpu::Image font_image_;
-    std::vector<render::OverlayTexture> pictures_;  // of this frame
+    std::vector<render::OverlayTexture> pictures_;  // in this frame
 };
 
 }  // namespace bolt::ui

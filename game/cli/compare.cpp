@@ -1,4 +1,4 @@
-#include "game/compare/compare.hpp"
+#include "game/analysis/compare.hpp"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -7,7 +7,7 @@
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
-#include "game/compare/page.hpp"
+#include "game/report/comparison.hpp"
 
 namespace bolt::cli {
 
@@ -19,22 +19,22 @@ struct CompareOptions {
 
 int run_compare(const CompareOptions& options) {
     for (const std::string& input : {options.session, options.measured})
-        if (Status apart = keep_apart(input, options.html); !apart) return complain(apart.error());
-    Result<record::Reader> reader = record::Reader::open(options.session);
-    if (!reader) return complain(reader.error());
-    Result<compare::Measured> measured = compare::read_measured(options.measured);
-    if (!measured) return complain(measured.error());
-    Result<compare::Comparison> comparison = compare::compare(*reader, *measured, options.joint);
-    if (!comparison) return complain(comparison.error());
-    if (Status said = say(compare::console_text(*comparison)); !said) return complain(said.error());
+        if (Status apart = require_different_files(input, options.html); !apart) return print_error(apart.error());
+    Result<session::Reader> reader = session::Reader::open(options.session);
+    if (!reader) return print_error(reader.error());
+    Result<analysis::Measured> measured = analysis::read_measured(options.measured);
+    if (!measured) return print_error(measured.error());
+    Result<analysis::Comparison> comparison = analysis::compare(*reader, *measured, options.joint);
+    if (!comparison) return print_error(comparison.error());
+    if (Status said = print(report::console_text(*comparison)); !said) return print_error(said.error());
 
     const std::filesystem::path page(options.html);
     std::error_code ignored;  // a folder that cannot be made shows as a page that cannot be written
     if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path(), ignored);
-    if (Status kept = write_file(page, compare::comparison_page(*comparison)); !kept)
-        return complain(kept.error());
-    const Status said = say(page.string() + "\n");
-    return said ? 0 : complain(said.error());
+    if (Status kept = write_file(page, report::comparison_page(*comparison)); !kept)
+        return print_error(kept.error());
+    const Status said = print(page.string() + "\n");
+    return said ? 0 : print_error(said.error());
 }
 
 }  // namespace

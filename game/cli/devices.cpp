@@ -9,17 +9,17 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "content/station/rig_file.hpp"
+#include "content/station/wheel_config_file.hpp"
 #include "engine/base/console.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/choice.hpp"
 #include "game/station/wearer.hpp"
-#include "haptics/device/line.hpp"
-#include "haptics/device/list.hpp"
-#include "haptics/device/words.hpp"
-#include "haptics/glove/adapter.hpp"
-#include "haptics/glove/driver.hpp"
-#include "haptics/glove/serial_line.hpp"
+#include "haptics/device/describe.hpp"
+#include "haptics/device/device_thread.hpp"
+#include "haptics/device/hid_devices.hpp"
+#include "haptics/hand/glove_adapter.hpp"
+#include "haptics/hand/glove_driver.hpp"
+#include "haptics/hand/serial_port.hpp"
 
 namespace bolt::cli {
 
@@ -47,9 +47,9 @@ const char* name_of(device::HidKind kind) {
     return "nothing to train with";
 }
 
-std::string listed(const std::vector<device::Listed>& found) {
+std::string listed(const std::vector<device::ListedDevice>& found) {
     std::string text = "Devices to hold:\n";
-    for (const device::Listed& l : found) {
+    for (const device::ListedDevice& l : found) {
         text += fmt::format("  {}  {}  {}\n    {}\n", l.id, l.name, l.path, name_of(l.kind));
         if (l.trouble) text += fmt::format("    cannot be used: {}\n", l.trouble->message());
     }
@@ -65,7 +65,7 @@ std::string listed(const std::vector<device::Listed>& found) {
 std::string ports(const std::vector<std::filesystem::path>& found) {
     std::string text = "Serial ports, which a CyberGlove may be on:\n";
     for (const auto& port : found) {
-        const Status may = glove::may_use(port);
+        const Status may = hand::check_port_access(port);
         text += fmt::format("  {}{}\n", port.string(), may ? "" : "\n    " + may.error().message());
     }
     if (found.empty())
@@ -78,28 +78,24 @@ std::string ports(const std::vector<std::filesystem::path>& found) {
 
 // Opens it and hears what it says for a while.
 Result<std::string> examine_device(const DevicesOptions& options) {
-    if (const auto found = station::find(device::list(true), options.device); !found)
-        return fail(found.error());
-    device::Rig rig;
+    BOLT_TRY(station_setup::find(device::list_devices(true), options.device));
+    device::WheelConfig rig;
     if (!options.rig.empty()) {
-        const Result<device::Rig> read = content::load_rig(options.rig);
-        if (!read) return fail(read.error());
-        rig = *read;
+        BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(options.rig));
+        rig = read;
     }
-    Result<device::Line> line = device::Line::start(device::opener(options.device, rig));
-    if (!line) return fail(line.error());
-    const auto description = line->await(device_patience);
-    if (!description) return fail(description.error());
+    BOLT_TRY_ASSIGN(auto line, device::DeviceThread::start(device::factory_for(options.device, rig)));
+    BOLT_TRY_ASSIGN(const auto description, line.wait_until_open(device_patience));
     const device::Timer timer = device::steady_timer();
-    const std::uint64_t before = line->told().number;
+    const std::uint64_t before = line.snapshot().number;
     timer.wait(options.seconds);
-    const auto heard = static_cast<double>(line->told().number - before);
-    const device::Report& report = line->report();
-    if (report.state != device::State::usable)
+    const auto heard = static_cast<double>(line.snapshot().number - before);
+    const device::DeviceReport& report = line.report();
+    if (report.state != device::DeviceState::usable)
         return fail(ErrorCode::no_device,
-                    report.trouble.empty() ? (*description)->name + " says nothing" : report.trouble);
-    std::string text = fmt::format("{}  {}\n", options.device, (*description)->name);
-    for (const std::string& words : device::words(**description)) text += fmt::format("  {}\n", words);
+                    report.trouble.empty() ? (description)->name + " says nothing" : report.trouble);
+    std::string text = fmt::format("{}  {}\n", options.device, (description)->name);
+    for (const std::string& words : device::summary_lines(*description)) text += fmt::format("  {}\n", words);
     if (options.seconds > 0.0)
         text += fmt::format("  said where it is {:.0f} times a second just now{}\n", heard / options.seconds,
                             heard < 1.0 ? ": it rests" : "");
@@ -108,23 +104,23 @@ Result<std::string> examine_device(const DevicesOptions& options) {
 }
 
 Result<std::string> examine_glove(const std::string& port, double seconds) {
-    if (Status may = glove::may_use(port); !may) return fail(may.error());
-    glove::Driver driver = glove::Driver::start(port);
-    if (const auto found = station::await_glove(driver, port); !found) return fail(found.error());
+    BOLT_TRY(hand::check_port_access(port));
+    hand::GloveDriver driver = hand::GloveDriver::start(port);
+    BOLT_TRY(station_setup::await_glove(driver, port));
     const device::Timer timer = device::steady_timer();
     const std::uint64_t before = driver.sample().number;
     timer.wait(seconds);
     const auto heard = static_cast<double>(driver.sample().number - before);
-    const glove::Report& report = driver.report();
-    const glove::Identity& glove = report.identity;
+    const hand::GloveReport& report = driver.report();
+    const hand::GloveIdentity& glove = report.identity;
     std::string text = fmt::format("{}\n  CyberGlove, {} hand, {} sensors{}\n", port,
-                                   glove.hand == glove::Hand::left ? "left" : "right", glove.sensors,
+                                   glove.hand == hand::Side::left ? "left" : "right", glove.sensors,
                                    glove.version.empty() ? "" : ", version " + glove.version);
     if (seconds > 0.0) text += fmt::format("  {:.0f} samples a second just now\n", heard / seconds);
     if (report.lost_bytes > 0)
         text += fmt::format("  {} bytes on the line made no sense\n", report.lost_bytes);
     if (report.trouble[0] != '\0') text += fmt::format("  {}\n", report.trouble.data());
-    if (const std::string about = station::about_adapter(port); !about.empty())
+    if (const std::string about = station_setup::about_adapter(port); !about.empty())
         text += fmt::format("  {}\n", about);
     return text;
 }
@@ -133,25 +129,25 @@ int run_devices(const DevicesOptions& options) {
     std::string text;
     if (!options.device.empty()) {
         const Result<std::string> found = examine_device(options);
-        if (!found) return complain(found.error());
+        if (!found) return print_error(found.error());
         text += *found;
     }
     if (!options.glove.empty()) {
         const Result<std::string> found = examine_glove(options.glove, options.seconds);
-        if (!found) return complain(found.error());
+        if (!found) return print_error(found.error());
         text += *found;
     }
-    if (text.empty()) text = listed(device::list(options.others)) + ports(glove::serial_ports());
-    const Status said = say(text);
-    return said ? 0 : complain(said.error());
+    if (text.empty()) text = listed(device::list_devices(options.others)) + ports(hand::serial_ports());
+    const Status said = print(text);
+    return said ? 0 : print_error(said.error());
 }
 
 }  // namespace
 
 std::string devices_line() {
     std::size_t usable = 0, troubled = 0;
-    for (const device::Listed& l : device::list()) ++(l.trouble ? troubled : usable);
-    const std::size_t found = glove::serial_ports().size();
+    for (const device::ListedDevice& l : device::list_devices()) ++(l.trouble ? troubled : usable);
+    const std::size_t found = hand::serial_ports().size();
     std::string text = fmt::format("Devices: {} by USB to hold", usable + troubled);
     if (troubled > 0) text += fmt::format(", {} of them cannot be used", troubled);
     return text +

@@ -23,41 +23,32 @@ namespace {
 
 // What a window would show, and on what; or why there would be none.
 Result<std::string> examine_windows() {
-    Result<platform::Desktop> desktop = platform::Desktop::open();
-    if (!desktop) return fail(desktop.error());
+    BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
     platform::WindowOptions options;
     options.hidden = true;
-    Result<platform::Window> window = platform::Window::open(*desktop, options);
-    if (!window) return fail(window.error());
-    const auto extensions = desktop->vulkan_extensions();
-    if (!extensions) return fail(extensions.error());
-    const Result<gpu::Instance> instance = gpu::Instance::create({false, *extensions});
-    if (!instance) return fail(instance.error());
-    const Result<gpu::Surface> surface = window->make_surface(*instance);
-    if (!surface) return fail(surface.error());
-    const Result<gpu::Survey> found = gpu::survey(*instance, {"", surface->get()});
-    if (!found) return fail(found.error());
-    if (found->choice.index < 0) return fail(ErrorCode::no_device, "no GPU can show on this display");
-    const auto index = static_cast<std::size_t>(found->choice.index);
-    gpu::SurfaceOffer offer;
-    const VkResult asked = gpu::ask_surface(found->physical[index], surface->get(), offer);
-    if (Status ok = gpu::check(asked, "asking what a window can show"); !ok) return fail(ok.error());
-    const Result<gpu::SwapchainPlan> plan = gpu::plan_swapchain(offer, {{1, 1}});
-    if (!plan) return fail(plan.error());
+    BOLT_TRY_ASSIGN(auto window, platform::Window::open(desktop, options));
+    BOLT_TRY_ASSIGN(const auto extensions, desktop.vulkan_extensions());
+    BOLT_TRY_ASSIGN(const auto instance, gpu::Instance::create({false, extensions}));
+    BOLT_TRY_ASSIGN(const auto surface, window.make_surface(instance));
+    BOLT_TRY_ASSIGN(const auto found, gpu::survey_devices(instance, {"", surface.get()}));
+    if (found.choice.index < 0) return fail(ErrorCode::no_device, "no GPU can show on this display");
+    const auto index = static_cast<std::size_t>(found.choice.index);
+    gpu::SurfaceSupport offer;
+    const VkResult asked = gpu::query_surface(found.physical[index], surface.get(), offer);
+    BOLT_TRY(gpu::check(asked, "asking what a window can show"));
+    BOLT_TRY_ASSIGN(const auto plan, gpu::plan_swapchain(offer, {{1, 1}}));
     return fmt::format("  drawn by {}\n  {}\n  {:.0f} pictures a second{}, scale {:.2f}\n",
-                       found->candidates[index].name, fmt::join(plan->reasons, "\n  "),
-                       1.0 / platform::period_of(window->refresh()),
-                       window->refresh() > 0.0 ? "" : " (the display does not tell)",
-                       static_cast<double>(window->content_scale()));
+                       found.candidates[index].name, fmt::join(plan.reasons, "\n  "),
+                       1.0 / platform::period_of(window.refresh()),
+                       window.refresh() > 0.0 ? "" : " (the display does not tell)",
+                       static_cast<double>(window.content_scale()));
 }
 
 Status examine() {
-    Result<gpu::Instance> instance = gpu::Instance::create({});
-    if (!instance) return fail(instance.error());
-    const Result<gpu::Survey> found = gpu::survey(*instance, {});
-    if (!found) return fail(found.error());
+    BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create({}));
+    BOLT_TRY_ASSIGN(const auto found, gpu::survey_devices(instance, {}));
     std::string text = "Vulkan devices:\n";
-    for (const std::string& reason : found->choice.reasons) text += fmt::format("  {}\n", reason);
+    for (const std::string& reason : found.choice.reasons) text += fmt::format("  {}\n", reason);
     gpu::InstanceOptions validated;
     validated.validation = true;
     text +=
@@ -65,8 +56,8 @@ Status examine() {
                     gpu::Instance::create(validated) ? "installed" : "not installed (only tests need them)");
     const Result<std::string> windows = examine_windows();
     text += "Windows:\n" + (windows ? *windows : fmt::format("  none: {}\n", windows.error().message()));
-    if (Status said = say(text); !said) return said;
-    if (found->choice.index < 0)
+    BOLT_TRY(print(text));
+    if (found.choice.index < 0)
         return fail(ErrorCode::no_device, "no Vulkan device can be used",
                     "mesa-vulkan-drivers renders without a GPU");
     return {};
@@ -117,14 +108,14 @@ void add_doctor(CLI::App& app, int& exit_code) {
             return;
         }
         const Status drawing = examine();
-        Status servo = say(devices_line() + what_to_try());
+        Status servo = print(devices_line() + what_to_try());
         const double seconds = options->seconds.value_or(2.0);
         if (servo && seconds > 0.0) {
             const Result<std::string> text = examine_servo(seconds, options->station.assembly);
             servo =
-                say("Servo:\n" + (text ? *text : fmt::format("  not timed: {}\n", text.error().message())));
+                print("Servo:\n" + (text ? *text : fmt::format("  not timed: {}\n", text.error().message())));
         }
-        exit_code = !drawing ? complain(drawing.error()) : !servo ? complain(servo.error()) : 0;
+        exit_code = !drawing ? print_error(drawing.error()) : !servo ? print_error(servo.error()) : 0;
     });
 }
 

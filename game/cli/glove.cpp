@@ -14,11 +14,11 @@
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/wearer.hpp"
-#include "haptics/glove/cal_file.hpp"
-#include "haptics/glove/calibration_session.hpp"
-#include "haptics/glove/driver.hpp"
-#include "haptics/glove/gloved_hand.hpp"
-#include "haptics/glove/serial_line.hpp"
+#include "haptics/hand/cal_file.hpp"
+#include "haptics/hand/calibration_session.hpp"
+#include "haptics/hand/glove_driver.hpp"
+#include "haptics/hand/measured_hand.hpp"
+#include "haptics/hand/serial_port.hpp"
 
 namespace bolt::cli {
 
@@ -44,15 +44,15 @@ double now() {
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr))); }
 
 Result<fs::path> kept_in(const GloveOptions& options) {
-    return options.folder.empty() ? station::calibrations_folder() : fs::path(options.folder);
+    return options.folder.empty() ? station_setup::calibrations_folder() : fs::path(options.folder);
 }
 
 // Reads every sample of a glove once.
 struct Reader {
-    glove::Driver driver;
+    hand::GloveDriver driver;
     std::uint64_t last = 0;
-    const glove::Sample* next() {
-        const glove::Sample& sample = driver.sample();
+    const hand::GloveSample* next() {
+        const hand::GloveSample& sample = driver.sample();
         if (sample.number == last) return nullptr;
         last = sample.number;
         return &sample;
@@ -62,7 +62,7 @@ struct Reader {
 // On the port that is named, or on the only one there is, and streaming.
 Result<Reader> open(GloveOptions& options) {
     if (options.port.empty()) {
-        const std::vector<fs::path> ports = glove::serial_ports();
+        const std::vector<fs::path> ports = hand::serial_ports();
         if (ports.size() != 1)
             return fail(ErrorCode::no_device,
                         ports.empty() ? "there is no serial port that a glove could be on"
@@ -71,12 +71,12 @@ Result<Reader> open(GloveOptions& options) {
                                       : "name the glove's with --port, such as " + ports.front().string());
         options.port = ports.front().string();
     }
-    Reader reader{glove::Driver::start(options.port)};
+    Reader reader{hand::GloveDriver::start(options.port)};
     for (const double from = now(); now() - from < patience; std::this_thread::sleep_for(look_again)) {
         if (reader.next() != nullptr) return reader;
         if (!reader.driver.report().open && now() - from > port_patience) break;
     }
-    const glove::Report& report = reader.driver.report();
+    const hand::GloveReport& report = reader.driver.report();
     return fail(ErrorCode::no_device,
                 report.trouble[0] != '\0' ? std::string(report.trouble.data())
                                           : options.port + " gives nothing that a glove would",
@@ -87,78 +87,69 @@ Result<std::string> keep(const GloveOptions& options, content::GloveCalibration 
     calibration.trainee = options.trainee;
     calibration.date = today();
     calibration.hand_length = 1e-3 * options.hand_length_mm;
-    const Result<fs::path> folder = kept_in(options);
-    if (!folder) return fail(folder.error());
+    BOLT_TRY_ASSIGN(const auto folder, kept_in(options));
     std::error_code failed;
-    fs::create_directories(*folder, failed);  // what goes wrong here goes wrong when the file is written
-    const fs::path path = content::glove_calibration_path(*folder, options.trainee, calibration.hand);
-    if (const Status saved = content::save_glove_calibration(path, calibration); !saved)
-        return fail(saved.error());
+    fs::create_directories(folder, failed);  // what goes wrong here goes wrong when the file is written
+    const fs::path path = content::glove_calibration_path(folder, options.trainee, calibration.hand);
+    BOLT_TRY(content::save_glove_calibration(path, calibration));
     return "Kept in " + path.string() + "\n";
 }
 
-Result<glove::Calibrated> ask_for_postures(Reader& reader) {
-    glove::CalibrationSession session;
-    std::optional<glove::Posture> asked;
-    glove::Trouble told = glove::Trouble::none;
-    while (session.phase != glove::Phase::done && session.phase != glove::Phase::failed) {
-        if (asked != session.asked) {
-            asked = session.asked;
+Result<hand::CalibrationResult> ask_for_postures(Reader& reader) {
+    hand::CalibrationSession session;
+    std::optional<hand::Posture> asked;
+    hand::CalibrationTrouble told = hand::CalibrationTrouble::none;
+    while (session.phase != hand::CalibrationPhase::done && session.phase != hand::CalibrationPhase::failed) {
+        if (asked != session.requested) {
+            asked = session.requested;
             const std::string text =
-                fmt::format("{}/{}  {}\n", static_cast<int>(*asked) + 1, glove::poses, glove::prompt(*asked));
-            if (Status said = say(text); !said) return fail(said.error());
+                fmt::format("{}/{}  {}\n", static_cast<int>(*asked) + 1, hand::posture_count, hand::prompt(*asked));
+            BOLT_TRY(print(text));
         }
         if (told != session.trouble) {
             told = session.trouble;
-            if (told != glove::Trouble::none)
-                if (Status said = say(fmt::format("     {}\n", glove::words(told))); !said)
-                    return fail(said.error());
+            if (told != hand::CalibrationTrouble::none) BOLT_TRY(print(fmt::format("     {}\n", hand::message_for(told))));
         }
         std::this_thread::sleep_for(look_again);
-        const glove::Sample* sample = reader.next();
-        go_on(session, sample == nullptr ? nullptr : &sample->frame, now());
+        const hand::GloveSample* sample = reader.next();
+        update(session, sample == nullptr ? nullptr : &sample->frame, now());
     }
-    if (!session.result) return fail(ErrorCode::failed, glove::words(session.trouble), "calibrate again");
+    if (!session.result) return fail(ErrorCode::failed, hand::message_for(session.trouble), "a new calibration");
     return std::move(*session.result);
 }
 
 Status calibrate(GloveOptions options) {
-    Result<Reader> reader = open(options);
-    if (!reader) return fail(reader.error());
-    const glove::Identity identity = reader->driver.report().identity;
+    BOLT_TRY_ASSIGN(auto reader, open(options));
+    const hand::GloveIdentity identity = reader.driver.report().identity;
     if (Status said =
-            say(fmt::format("A {} glove of {} sensors. Hold each posture still until the next.\n",
-                            identity.hand == glove::Hand::left ? "left" : "right", identity.sensors));
+            print(fmt::format("A {} glove of {} sensors. Hold each posture still until the next.\n",
+                            identity.hand == hand::Side::left ? "left" : "right", identity.sensors));
         !said)
         return said;
-    const Result<glove::Calibrated> made = ask_for_postures(*reader);
-    if (!made) return fail(made.error());
-    std::string text = fmt::format("Quality {:.2f} (1 is as good as gloves are)\n", made->figure);
-    for (const std::string& remark : made->remarks) text += "  " + remark + "\n";
-    if (Status said = say(text); !said) return said;
-    if (made->figure == 0.0)
-        return fail(ErrorCode::failed, "a sensor is of no use, nothing is kept", "calibrate again");
-    const Result<std::string> kept =
-        keep(options,
-             {{}, options.port, identity.hand, identity.sensors, {}, made->figure, 0.0, made->calibration});
-    return kept ? say(*kept) : fail(kept.error());
+    BOLT_TRY_ASSIGN(const auto made, ask_for_postures(reader));
+    std::string text = fmt::format("Quality {:.2f} (1 is as good as gloves are)\n", made.score);
+    for (const std::string& remark : made.remarks) text += "  " + remark + "\n";
+    BOLT_TRY(print(text));
+    if (made.score == 0.0)
+        return fail(ErrorCode::failed, "a sensor is of no use, nothing is kept", "a new calibration");
+    const Result<std::string> kept = keep(
+        options, {{}, options.port, identity.hand, identity.sensors, {}, made.score, 0.0, made.calibration});
+    return kept ? print(*kept) : fail(kept.error());
 }
 
 Status take_over(const GloveOptions& options) {
-    const Result<std::string> text = read_file(options.file, std::size_t{1} << 20U, ErrorCode::bad_content);
-    if (!text) return fail(text.error());
-    const Result<glove::Calibration> calibration = glove::parse_cal(*text, options.file);
-    if (!calibration) return fail(calibration.error());
+    BOLT_TRY_ASSIGN(const auto text, read_file(options.file, std::size_t{1} << 20U, ErrorCode::bad_content));
+    BOLT_TRY_ASSIGN(const auto calibration, hand::parse_cal(text, options.file));
     const Result<std::string> kept =
         keep(options, {{},
                        {},
-                       options.hand == "left" ? glove::Hand::left : glove::Hand::right,
+                       options.hand == "left" ? hand::Side::left : hand::Side::right,
                        options.sensors,
                        {},
                        0.0,
                        0.0,
-                       *calibration});
-    return kept ? say(*kept) : fail(kept.error());
+                       calibration});
+    return kept ? print(*kept) : fail(kept.error());
 }
 
 // The hand, a line a tenth of a second: degrees of thumb and fingers.
@@ -174,28 +165,26 @@ std::string line_of(const hand::Angles& a) {
 }
 
 Status show(GloveOptions options) {
-    const Result<content::GloveCalibration> kept = content::load_glove_calibration(options.file);
-    if (!kept) return fail(kept.error());
-    Result<Reader> reader = open(options);
-    if (!reader) return fail(reader.error());
-    const glove::Identity identity = reader->driver.report().identity;
-    if (identity.hand != kept->hand || identity.sensors != kept->sensors)
+    BOLT_TRY_ASSIGN(const auto kept, content::load_glove_calibration(options.file));
+    BOLT_TRY_ASSIGN(auto reader, open(options));
+    const hand::GloveIdentity identity = reader.driver.report().identity;
+    if (identity.hand != kept.hand || identity.sensors != kept.sensors)
         return fail(ErrorCode::usage, "this calibration is of another glove",
                     fmt::format("one of a {} hand with {} sensors",
-                                identity.hand == glove::Hand::left ? "left" : "right", identity.sensors));
-    glove::Wearer wearer;
-    wearer.calibration = kept->calibration;
-    wearer.hand = hand::make_hand(glove::side_of(kept->hand), kept->hand_length);
-    glove::GlovedHand worn;
+                                identity.hand == hand::Side::left ? "left" : "right", identity.sensors));
+    hand::GloveWearer wearer;
+    wearer.calibration = kept.calibration;
+    wearer.hand = hand::make_hand(kept.hand, kept.hand_length);
+    hand::MeasuredHand worn;
     double told = 0.0;
     for (const double until = now() + options.seconds; now() < until;
          std::this_thread::sleep_for(look_again)) {
-        const glove::Sample* sample = reader->next();
+        const hand::GloveSample* sample = reader.next();
         if (sample == nullptr) continue;
-        take(worn, wearer, sample->frame, sample->time);
+        update(worn, wearer, sample->frame, sample->time);
         if (sample->time - told < 0.1) continue;
         told = sample->time;
-        if (Status said = say(line_of(worn.angles)); !said) return said;
+        BOLT_TRY(print(line_of(worn.angles)));
     }
     return {};
 }
@@ -209,7 +198,7 @@ void add_glove(CLI::App& app, int& exit_code) {
     const auto run = [&exit_code, options](CLI::App* sub, Status (*work)(GloveOptions)) {
         sub->callback([&exit_code, options, work] {
             const Status done = work(*options);
-            exit_code = done ? 0 : complain(done.error());
+            exit_code = done ? 0 : print_error(done.error());
         });
     };
     const auto whose = [&](CLI::App* sub) {

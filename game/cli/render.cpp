@@ -17,12 +17,12 @@
 #include "engine/base/nearest.hpp"
 #include "engine/render/picture.hpp"
 #include "game/cli/commands.hpp"
-#include "game/play/nut_views.hpp"
-#include "game/play/servo_setup.hpp"
-#include "game/play/touch_models.hpp"
+#include "game/session/contact_models.hpp"
+#include "game/session/nut_views.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/label_places.hpp"
 #include "game/view/marks.hpp"
-#include "game/view/painter.hpp"
 #include "game/view/picture_file.hpp"
 #include "game/view/size.hpp"
 #include "game/view/stage.hpp"
@@ -82,7 +82,7 @@ Result<const assets::Animation*> find_animation(const assets::Model& model, cons
 
 struct FrameTime {
     double milliseconds = 0.0;
-    std::vector<gpu::Timing> passes;
+    std::vector<gpu::PassTiming> passes;
 };
 
 std::string timings_json(const std::string& device, const render::Statistics& statistics,
@@ -92,7 +92,7 @@ std::string timings_json(const std::string& device, const render::Statistics& st
     std::vector<double> sorted;
     for (const FrameTime& time : times) {
         nlohmann::ordered_json passes = nlohmann::ordered_json::object();
-        for (const gpu::Timing& pass : time.passes)  // several views have a pass each
+        for (const gpu::PassTiming& pass : time.passes)  // several views have a pass each
             passes[pass.name] = passes.value(pass.name, 0.0) + pass.milliseconds;
         json["frames"].push_back({{"ms", time.milliseconds}, {"gpu_ms", passes}});
         sorted.push_back(time.milliseconds);
@@ -103,7 +103,7 @@ std::string timings_json(const std::string& device, const render::Statistics& st
 }
 
 // The eye of a view, `aside` metres to the right of where it is.
-render::Eye eye_of(const RenderOptions& options, const view::Viewpoint& view, const render::Box& box,
+render::Eye eye_of(const RenderOptions& options, const view::Viewpoint& view, const render::BoundingBox& box,
                    float aspect, float aside = 0.0F) {
     const float fov = view.fov > 0.0F ? view.fov : static_cast<float>(to_radians(options.fov_deg));
     const render::Perspective lens = view::lens(box, view.eye, view.target, fov, aspect);
@@ -132,31 +132,28 @@ void name_joints(const view::Subject& subject, render::Scene& scene) {
 
 // What the options say of the animation becomes the model's rest.
 Status pose(assets::Model& model, const RenderOptions& options) {
-    Result<const assets::Animation*> animation = find_animation(model, options);
-    if (!animation) return fail(animation.error());
-    assets::Pose pose = assets::rest_pose(model);
-    assets::apply(**animation, static_cast<float>(options.at_s), pose);
+    BOLT_TRY_ASSIGN(auto animation, find_animation(model, options));
+    assets::ModelPose pose = assets::rest_pose(model);
+    assets::apply(*animation, static_cast<float>(options.at_s), pose);
     assets::set_rest(model, pose);
     return {};
 }
 
 // From where: the named views, or the one that the options describe.
 Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, const view::Subject& subject,
-                                                const render::Box& box, float aspect) {
+                                                const render::BoundingBox& box, float aspect) {
     std::vector<view::Viewpoint> views;
     for (const std::string& name : options.views) {
-        Result<view::Viewpoint> view = view::named_view(subject, name);
-        if (!view) return fail(view.error());
-        views.push_back(*view);
+        BOLT_TRY_ASSIGN(auto view, view::named_view(subject, name));
+        views.push_back(view);
     }
     if (!views.empty()) return views;
     view::Viewpoint view = view::framed(box, static_cast<float>(to_radians(options.fov_deg)), aspect);
     for (const auto& [text, point, name] :
          {std::tuple{&options.target, &view.target, "--target"}, {&options.eye, &view.eye, "--eye"}}) {
         if (text->empty()) continue;
-        Result<glm::vec3> given = parse_point(*text, name);
-        if (!given) return fail(given.error());
-        *point = *given;
+        BOLT_TRY_ASSIGN(auto given, parse_point(*text, name));
+        *point = given;
     }
     return std::vector{view};
 }
@@ -176,12 +173,11 @@ Result<std::string> view_of_joint(const std::string& what, const std::string& id
         return fail(ErrorCode::usage, fmt::format("{} has no joint \"{}\"", what, id),
                     near.empty() ? "the id of one of its joints" : near);
     }
-    const servo::Setup setup = play::make_setup(assembly, assembly.law, {}, 1, 1e-3);
-    Result<std::optional<servo::Touch>> touch = play::load_touch(assembly, setup);
-    if (!touch) return fail(touch.error());
-    const auto best = *touch
-                          ? play::best_view(play::views_of_nut(
-                                assembly, **touch, static_cast<std::size_t>(joint - assembly.joints.begin())))
+    const servo::Setup setup = session::make_setup(assembly, assembly.law, {}, 1, 1e-3);
+    BOLT_TRY_ASSIGN(auto touch, session::load_tool_contact(assembly, setup));
+    const auto best = touch
+                          ? session::best_view(session::views_of_nut(
+                                assembly, *touch, static_cast<std::size_t>(joint - assembly.joints.begin())))
                           : std::nullopt;
     if (!best)
         return fail(ErrorCode::bad_content, fmt::format("no view of {} shows the nut of joint {}", what, id),
@@ -190,28 +186,22 @@ Result<std::string> view_of_joint(const std::string& what, const std::string& id
 }
 
 Status render_all(RenderOptions options) {
-    const Result<VkExtent2D> extent = view::parse_size(options.size);
-    if (!extent) return fail(extent.error());
+    BOLT_TRY_ASSIGN(const auto extent, view::parse_size(options.size));
     view::LoadedSubject subject = view::load_subject(options.what);
     if (!subject.ok()) return fail(subject.errors.front());
     if (options.labels && subject.subject.bare)
         return fail(ErrorCode::usage, "a bare model has no joints that could be named", "an assembly");
-    if (!options.animation.empty())
-        if (Status posed = pose(subject.subject.model, options); !posed) return posed;
+    if (!options.animation.empty()) BOLT_TRY(pose(subject.subject.model, options));
     if (!options.joint.empty()) {
         if (subject.subject.bare)
             return fail(ErrorCode::usage, "a bare model has no joint to look at", "an assembly");
-        Result<std::string> view = view_of_joint(options.what, options.joint);
-        if (!view) return fail(view.error());
-        options.views = {std::move(*view)};
+        BOLT_TRY_ASSIGN(auto view, view_of_joint(options.what, options.joint));
+        options.views = {std::move(view)};
     }
     std::vector<std::string> named = options.views;
     if (!options.inset.empty()) named.push_back(options.inset);
-    for (const std::string& name : named)
-        if (Result<view::Viewpoint> known = view::named_view(subject.subject, name); !known)
-            return fail(known.error());
-    const Result<shading::RadianceImage> radiance = view::load_light(options.light);
-    if (!radiance) return fail(radiance.error());
+    for (const std::string& name : named) BOLT_TRY(view::named_view(subject.subject, name));
+    BOLT_TRY_ASSIGN(const auto radiance, view::load_light(options.light));
 
     gpu::InstanceOptions instance_options;
     instance_options.validation = options.validate;
@@ -219,64 +209,56 @@ Status render_all(RenderOptions options) {
     if (!instance) return fail(instance.error());
     render::RendererOptions renderer_options;
     renderer_options.level_error_px = static_cast<float>(options.level_error_px);
-    Result<view::Painter> painter = view::make_painter(*instance, {options.gpu}, renderer_options);
-    if (!painter) return fail(painter.error());
-    gpu::Device& device = *painter->device;
-    Result<render::EnvironmentLight> light = render::upload_environment(device, *radiance);
-    if (!light) return fail(light.error());
-    const auto stage =
-        view::set_stage(device, subject.subject, *light, {!options.no_key, options.level_error_px > 0.0});
-    if (!stage) return fail(stage.error());
-    if (Status marked = view::mark(**stage, subject.subject, options.marks); !marked) return marked;
+    BOLT_TRY_ASSIGN(auto painter, view::make_painter(*instance, {options.gpu}, renderer_options));
+    gpu::Device& device = *painter.device;
+    BOLT_TRY_ASSIGN(auto light, render::upload_environment(device, radiance));
+    BOLT_TRY_ASSIGN(const auto stage, view::set_stage(device, subject.subject, light,
+                                                      {!options.no_key, options.level_error_px > 0.0}));
+    BOLT_TRY(view::mark(*stage, subject.subject, options.marks));
 
-    const float aspect = static_cast<float>(extent->width) / static_cast<float>(extent->height);
-    const auto views = viewpoints(options, subject.subject, (*stage)->box, aspect);
-    if (!views) return fail(views.error());
-    if (options.labels) name_joints(subject.subject, (*stage)->scene);
-    const std::vector<render::Label> labels = (*stage)->scene.labels;
+    const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+    BOLT_TRY_ASSIGN(const auto views, viewpoints(options, subject.subject, (stage)->box, aspect));
+    if (options.labels) name_joints(subject.subject, (stage)->scene);
+    const std::vector<render::Label> labels = (stage)->scene.labels;
     std::optional<text::Fonts> fonts;
     if (!labels.empty()) {
-        Result<text::Fonts> loaded = text::load_fonts();
-        if (!loaded) return fail(loaded.error());
-        fonts = std::move(*loaded);
+        BOLT_TRY_ASSIGN(auto loaded, text::load_fonts());
+        fonts = std::move(loaded);
     }
     std::vector<render::Inset> insets;
     if (!options.inset.empty()) {
-        const Result<view::Viewpoint> view = view::named_view(subject.subject, options.inset);
-        if (!view) return fail(view.error());
-        insets.push_back(
-            {eye_of(options, *view, (*stage)->box, aspect), render::lower_right(*extent, 0.28F)});
+        BOLT_TRY_ASSIGN(const auto view, view::named_view(subject.subject, options.inset));
+        insets.push_back({eye_of(options, view, (stage)->box, aspect), render::inset_rectangle(extent, 0.28F)});
     }
-    for (const view::Viewpoint& view : *views) {
+    for (const view::Viewpoint& view : views) {
         if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");
         std::vector<render::Eye> eyes;
         for (const float aside : view::eyes_aside(options.stereo))
-            eyes.push_back(eye_of(options, view, (*stage)->box, aspect, aside));
-        (*stage)->scene.labels = labels;
+            eyes.push_back(eye_of(options, view, (stage)->box, aspect, aside));
+        (stage)->scene.labels = labels;
         if (fonts)
-            view::move_apart(*fonts, (*stage)->scene.labels, eyes.front(), {extent->width, extent->height});
+            view::move_apart(*fonts, (stage)->scene.labels, eyes.front(), {extent.width, extent.height});
         std::vector<render::Picture> pictures;
         std::vector<FrameTime> times;
         for (int frame = 0; frame < options.frames; ++frame) {
             const auto start = std::chrono::steady_clock::now();
-            Result<std::vector<render::Picture>> taken = render::take_pictures(
-                device, *painter->frames, *painter->renderer, (*stage)->scene, eyes, *extent, insets);
-            if (!taken) return fail(taken.error());
-            pictures = std::move(*taken);
+            BOLT_TRY_ASSIGN(auto taken, render::take_pictures(device, *painter.frames, *painter.renderer,
+                                                              (stage)->scene, eyes, extent, insets));
+            pictures = std::move(taken);
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-            times.push_back({spent.count(), painter->frames->timings()});
+            times.push_back({spent.count(), painter.frames->timings()});
         }
         if (Status kept =
-                view::write_picture(view::side_by_side(pictures), file_of(options, view, views->size()));
+                view::write_picture(view::side_by_side(pictures), file_of(options, view, views.size()));
             !kept)
             return kept;
         if (!options.timings.empty())
             if (Status kept = write_file(options.timings,
-                                         timings_json(device.name(), painter->renderer->statistics(), times));
+                                         timings_json(device.name(), painter.renderer->statistics(), times));
                 !kept)
                 return kept;
     }
-    (void)painter->renderer->save_pipelines();  // without them the next start is slower, no more
+    (void)painter.renderer->save_pipelines();  // without them the next start is slower, no more
     if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
     return {};
 }
@@ -323,7 +305,7 @@ void add_render(CLI::App& app, int& exit_code) {
     command->add_option("--png", options->png, "The picture; with several views NAME-VIEW.png");
     command->callback([options, &exit_code] {
         const Status done = render_all(*options);
-        exit_code = done ? 0 : complain(done.error());
+        exit_code = done ? 0 : print_error(done.error());
     });
 }
 

@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "engine/base/console.hpp"
-#include "engine/base/feed.hpp"
 #include "engine/base/process.hpp"
 #include "game/cli/commands.hpp"
 #include "game/film/film.hpp"
@@ -46,32 +45,32 @@ void name_beside(const std::filesystem::path& film, const std::string& wav, Scra
 }
 
 // H.264 where FFmpeg has it, what every player reads.
-Result<Feed> start_ffmpeg(const ReplayOptions& options, const std::string& film, VkExtent2D size) {
-    return Feed::start({"ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba", "-s",
-                        fmt::format("{}x{}", size.width, size.height), "-r", std::to_string(options.rate),
-                        "-i", "-", "-pix_fmt", "yuv420p", "-movflags", "+faststart", film});
+Result<ChildStdin> start_ffmpeg(const ReplayOptions& options, const std::string& film, VkExtent2D size) {
+    return ChildStdin::start({"ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba",
+                              "-s", fmt::format("{}x{}", size.width, size.height), "-r",
+                              std::to_string(options.rate), "-i", "-", "-pix_fmt", "yuv420p", "-movflags",
+                              "+faststart", film});
 }
 
 // Pictures and sound to a film, the sound as its kind of file has it: AAC in MP4, nothing in a GIF.
 Status put_together(const std::string& pictures, const std::string& sound, const std::string& film) {
-    const Result<Finished> done =
-        run_program({"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-i", pictures, "-i", sound, "-c:v",
-                     "copy", "-movflags", "+faststart", film},
-                    Hear::output_and_errors);
-    if (!done) return fail(done.error());
-    if (done->exit_code != 0)
-        return fail(ErrorCode::failed, fmt::format("ffmpeg could not write {}: {}", film, done->said));
+    BOLT_TRY_ASSIGN(const auto done,
+                    run_program({"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-i", pictures, "-i",
+                                 sound, "-c:v", "copy", "-movflags", "+faststart", film},
+                                Capture::output_and_errors));
+    if (done.exit_code != 0)
+        return fail(ErrorCode::failed, fmt::format("ffmpeg could not write {}: {}", film, done.output));
     return {};
 }
 
 // What is drawn of the session while it is played again.
 class Camera {
   public:
-    Camera(const ReplayOptions& options, film::Film& film, std::optional<Feed> feed)
+    Camera(const ReplayOptions& options, film::Film& film, std::optional<ChildStdin> feed)
         : options_(options), film_(film), feed_(std::move(feed)) {}
 
     // Whether to go on.
-    bool see(const play::Moment& moment) {
+    bool see(const session::Moment& moment) {
         if (wrong_) return false;
         const bool one = options_.at >= 0.0;
         const double period = one ? 0.05 : 1.0 / options_.rate;
@@ -96,8 +95,7 @@ class Camera {
         if (wrong_) return fail(*wrong_);
         if (drawn_ == 0) return fail(ErrorCode::usage, "the session ends before there is anything to draw");
         if (feed_ && feed_->finish() != 0) return fail(ErrorCode::failed, "ffmpeg could not write the film");
-        if (!options_.png.empty())
-            if (Status kept = view::write_picture(last_, options_.png); !kept) return kept;
+        if (!options_.png.empty()) BOLT_TRY(view::write_picture(last_, options_.png));
         return film_.no_messages();
     }
     [[nodiscard]] int drawn() const { return drawn_; }
@@ -110,7 +108,7 @@ class Camera {
     }
     const ReplayOptions& options_;
     film::Film& film_;
-    std::optional<Feed> feed_;
+    std::optional<ChildStdin> feed_;
     render::Picture last_;
     std::optional<Error> wrong_;
     int drawn_ = 0;
@@ -122,9 +120,9 @@ class Microphone {
     Microphone(const ReplayOptions& options, sound::Soundtrack track)
         : until_(options.until), track_(std::move(track)) {}
 
-    bool hear(const play::Moment& moment) {
+    bool hear(const session::Moment& moment, const sound::Audible& world) {
         if (moment.time > until_ || !kept_) return false;
-        kept_ = track_.hear(moment.setup, moment.output, sound::cues_of(moment.lesson.events), moment.time);
+        kept_ = track_.hear(moment.setup, world, sound::cues_of(moment.lesson.events), moment.time);
         return kept_.has_value();
     }
     Status finish() { return kept_ ? track_.finish() : kept_; }
@@ -136,7 +134,7 @@ class Microphone {
     Status kept_;
 };
 
-Status say_what_was(const record::Reader& session, const play::Replayed& replayed) {
+Status say_what_was(const session::Reader& session, const session::Replayed& replayed) {
     const double dt = session.header().dt;
     if (replayed.wrong > 0)
         return fail(
@@ -145,45 +143,46 @@ Status say_what_was(const record::Reader& session, const play::Replayed& replaye
                         session.file(), replayed.wrong, replayed.ticks,
                         static_cast<double>(replayed.first_wrong) * dt),
             "the program and the content that it was recorded with");
-    return say(fmt::format("{}: {} ticks ({:.1f} s), all as they were recorded\n", session.file(),
-                           replayed.ticks, static_cast<double>(replayed.ticks) * dt));
+    return print(fmt::format("{}: {} ticks ({:.1f} s), all as they were recorded\n", session.file(),
+                             replayed.ticks, static_cast<double>(replayed.ticks) * dt));
 }
 
-// Whoever follows the replay.
+// What watches the replay. The tick is written into the world first; film and sound then read it there.
 struct Crew {
     std::unique_ptr<film::Film> film;
+    world::World without_pictures;  // the world of a replay without a film
     std::optional<Camera> camera;
     std::optional<Microphone> microphone;
 
-    bool follow(const play::Moment& moment) {
-        const bool seen = camera && camera->see(moment), heard = microphone && microphone->hear(moment);
+    bool follow(const session::Moment& moment) {
+        const world::WriteHaptics world = film ? world::WriteHaptics(film->world()) : without_pictures;
+        world::write_snapshot(world, {moment.state, moment.input, moment.output});
+        const bool seen = camera && camera->see(moment),
+                   heard = microphone && microphone->hear(moment, world);
         if ((camera && camera->failed()) || (microphone && microphone->failed())) return false;
         return seen || heard || (!camera && !microphone);
     }
     Status finish() {
-        if (microphone)
-            if (Status kept = microphone->finish(); !kept) return kept;
+        if (microphone) BOLT_TRY(microphone->finish());
         return camera ? camera->finish() : Status();
     }
 };
 
-Status take_camera(const ReplayOptions& options, const play::Prepared& at, hand::Side hand,
+Status take_camera(const ReplayOptions& options, const session::Prepared& at, hand::Side hand,
                    const std::string& film, Crew& crew) {
-    const Result<VkExtent2D> size = view::parse_size(options.size);
-    if (!size) return fail(size.error());
+    BOLT_TRY_ASSIGN(const auto size, view::parse_size(options.size));
     const std::filesystem::path folder = words::words_folder();
     const std::string language =
         options.language.empty() ? words::language_of_desktop(words::languages(folder)) : options.language;
     const words::Loaded loaded = words::load_words(folder, language);
     if (!loaded.ok()) return fail(loaded.errors.front());
-    Result<std::unique_ptr<film::Film>> made = film::Film::create(
-        at, {hand, loaded.words, options.view, *size, options.gpu, options.stereo, options.validate});
-    if (!made) return fail(made.error());
-    crew.film = std::move(*made);
-    std::optional<Feed> feed;
+    BOLT_TRY_ASSIGN(auto made, film::Film::create(at, {hand, loaded.words, options.view, size, options.gpu,
+                                                       options.stereo, options.validate}));
+    crew.film = std::move(made);
+    std::optional<ChildStdin> feed;
     if (!options.video.empty()) {
-        const VkExtent2D whole{size->width * (options.stereo ? 2U : 1U), size->height};
-        Result<Feed> started = start_ffmpeg(options, film, whole);
+        const VkExtent2D whole{size.width * (options.stereo ? 2U : 1U), size.height};
+        Result<ChildStdin> started = start_ffmpeg(options, film, whole);
         if (!started)
             return fail(ErrorCode::failed, started.error().what,
                         "FFmpeg (Debian: ffmpeg), which writes the film; --png and --wav need none");
@@ -193,31 +192,29 @@ Status take_camera(const ReplayOptions& options, const play::Prepared& at, hand:
     return {};
 }
 
-Status take_microphone(const ReplayOptions& options, const play::Prepared& at,
+Status take_microphone(const ReplayOptions& options, const session::Prepared& at,
                        const std::filesystem::path& wav, Crew& crew) {
-    Result<sound::Soundtrack> track = sound::Soundtrack::create(
-        wav, at.setup, sound::materials(at.assembly, at.obstacle_names), options.from);
-    if (!track) return fail(track.error());
-    crew.microphone.emplace(options, std::move(*track));
+    BOLT_TRY_ASSIGN(auto track,
+                    sound::Soundtrack::create(wav, at.setup, sound::materials(at.assembly, at.obstacle_names),
+                                              options.from));
+    crew.microphone.emplace(options, std::move(track));
     return {};
 }
 
 Status say_what_is_there(const ReplayOptions& options, const Crew& crew) {
     if (!options.video.empty())
-        if (Status said = say(fmt::format("{}: {} pictures{}\n", options.video, crew.camera->drawn(),
-                                          options.silent ? "" : ", with sound"));
+        if (Status said = print(fmt::format("{}: {} pictures{}\n", options.video, crew.camera->drawn(),
+                                            options.silent ? "" : ", with sound"));
             !said)
             return said;
-    return options.wav.empty() ? Status() : say(fmt::format("{}\n", options.wav));
+    return options.wav.empty() ? Status() : print(fmt::format("{}\n", options.wav));
 }
 
 Status run_replay(ReplayOptions options) {
     (void)std::signal(SIGPIPE, SIG_IGN);  // an FFmpeg that ends is an error that we report
-    Result<record::Reader> session = record::Reader::open(options.session);
-    if (!session) return fail(session.error());
-    Result<play::Prepared> at = play::prepare_again(*session);
-    if (!at) return fail(at.error());
-    const double length = static_cast<double>(session->tick_count()) * session->header().dt;
+    BOLT_TRY_ASSIGN(auto session, session::Reader::open(options.session));
+    BOLT_TRY_ASSIGN(auto at, session::prepare_again(session));
+    const double length = static_cast<double>(session.tick_count()) * session.header().dt;
     if (!options.png.empty()) options.at = options.at < 0.0 ? length : std::min(options.at, length);
     const bool sounds = !options.wav.empty() || (!options.video.empty() && !options.silent);
     const bool both = sounds && !options.video.empty() && !options.silent;
@@ -225,21 +222,20 @@ Status run_replay(ReplayOptions options) {
     if (both) name_beside(options.video, options.wav, scratch);
     const std::string pictures = both ? scratch.pictures.string() : options.video;
     const std::string wav = options.wav.empty() ? scratch.sound.string() : options.wav;
-    const hand::Side hand = session->header().hand == "left" ? hand::Side::left : hand::Side::right;
+    const hand::Side hand = session.header().hand == "left" ? hand::Side::left : hand::Side::right;
     Crew crew;
+    world::add_haptics(crew.without_pictures, at.state);
 
     if (!options.png.empty() || !options.video.empty())
-        if (Status taken = take_camera(options, *at, hand, pictures, crew); !taken) return taken;
-    if (sounds)
-        if (Status taken = take_microphone(options, *at, wav, crew); !taken) return taken;
-    const Result<play::Replayed> replayed = play::replay(
-        *session, std::move(*at), [&](const play::Moment& moment) { return crew.follow(moment); });
-    if (!replayed) return fail(replayed.error());
-    if (Status done = crew.finish(); !done) return done;
-    if (both)
-        if (Status done = put_together(pictures, wav, options.video); !done) return done;
-    if (Status said = say_what_is_there(options, crew); !said) return said;
-    return say_what_was(*session, *replayed);
+        BOLT_TRY(take_camera(options, at, hand, pictures, crew));
+    if (sounds) BOLT_TRY(take_microphone(options, at, wav, crew));
+    BOLT_TRY_ASSIGN(const auto replayed,
+                    session::replay(session, std::move(at),
+                                    [&](const session::Moment& moment) { return crew.follow(moment); }));
+    BOLT_TRY(crew.finish());
+    if (both) BOLT_TRY(put_together(pictures, wav, options.video));
+    BOLT_TRY(say_what_is_there(options, crew));
+    return say_what_was(session, replayed);
 }
 
 }  // namespace
@@ -275,7 +271,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         const Status done = cut && options->video.empty() && options->wav.empty()
                                 ? fail(ErrorCode::usage, "--from and --until are of a --video or a --wav")
                                 : run_replay(*options);
-        exit_code = done ? 0 : complain(done.error());
+        exit_code = done ? 0 : print_error(done.error());
     });
 }
 

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "content/format/load.hpp"
-#include "game/play/servo_setup.hpp"
-#include "game/play/touch_models.hpp"
+#include "game/session/contact_models.hpp"
+#include "game/session/servo_setup.hpp"
 #include "haptics/servo/thread.hpp"
 
 namespace bolt::cli {
@@ -18,7 +18,7 @@ namespace {
 // A hand that puts the wrench on the first nut once a second, eight degrees off, so that it stands on top,
 // and lifts it again: obstacles, god-object, guiding and output stage are all at work.
 servo::Input working(const servo::Setup& setup, const servo::State& state) {
-    const servo::NutPlace& nut = setup.nuts.front();
+    const servo::NutGeometry& nut = setup.nuts.front();
     const double time = static_cast<double>(state.tick) * setup.dt;
     const Vec3 at = servo::nut_centre(nut, 0.0) + nut.axis * (0.014 + 0.012 * std::cos(2.0 * pi * time));
     // Away from the casing: out over the flange's edge.
@@ -35,7 +35,7 @@ servo::Input working(const servo::Setup& setup, const servo::State& state) {
     return input;
 }
 
-std::string describe(const servo::Granted& granted) {
+std::string describe(const servo::ThreadPrivileges& granted) {
     std::string text;
     if (granted.priority > 0) text += fmt::format("  real-time priority {} (SCHED_FIFO)\n", granted.priority);
     if (granted.memory_locked) text += "  memory is locked\n";
@@ -49,35 +49,33 @@ Result<std::string> examine_servo(double seconds, const std::string& assembly) {
     const content::Loaded loaded = content::load_assembly(assembly);
     if (!loaded.ok()) return fail(loaded.errors.front());
     std::string text;
-    std::optional<servo::Touch> touch;  // made once: it takes seconds
+    std::optional<servo::ToolContact> touch;  // made once: it takes seconds
     for (const double rate : {1000.0, 4000.0}) {
         const servo::Setup setup =
-            play::make_setup(loaded.assembly, loaded.assembly.law, force::OutputLimits{}, 0, 1.0 / rate);
+            session::make_setup(loaded.assembly, loaded.assembly.law, force::OutputLimits{}, 0, 1.0 / rate);
         servo::State state = servo::initial_state(setup);
         if (!touch) {
-            Result<std::optional<servo::Touch>> made = play::load_touch(loaded.assembly, setup);
-            if (!made) return fail(made.error());
-            touch = std::move(*made);
+            BOLT_TRY_ASSIGN(auto made, session::load_tool_contact(loaded.assembly, setup));
+            touch = std::move(made);
         }
         if (touch) servo::set_coupling(setup, *touch);
-        state.touch = std::move(touch);
+        state.tool_contact = std::move(touch);
         servo::tick(setup, state, working(setup, state));  // the first one proves everything anew
         servo::ThreadOptions options;
         options.rate = rate;
-        Result<servo::Thread> thread = servo::Thread::start(options, [&](const servo::Beat&) {
-            servo::tick(setup, state, working(setup, state));
-            return true;
-        });
-        if (!thread) return fail(thread.error());
+        BOLT_TRY_ASSIGN(auto thread, servo::Thread::start(options, [&](const servo::Deadline&) {
+                            servo::tick(setup, state, working(setup, state));
+                            return true;
+                        }));
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-        thread->stop();
-        if (text.empty()) text = describe(thread->granted());
-        touch = std::move(state.touch);
-        const servo::Verdict verdict = servo::judge_host(thread->timing(), rate);
+        thread.stop();
+        if (text.empty()) text = describe(thread.privileges());
+        touch = std::move(state.tool_contact);
+        const servo::HostAssessment assessment = servo::assess_host(thread.timing(), rate);
         text += fmt::format("  at {:.0f} ticks a second this machine is {}\n", rate,
-                            verdict.good ? "good enough" : "NOT good enough");
-        for (const std::string& reason : verdict.reasons) text += "    " + reason + "\n";
-        text += servo::describe(thread->timing());
+                            assessment.adequate ? "good enough" : "NOT good enough");
+        for (const std::string& reason : assessment.reasons) text += "    " + reason + "\n";
+        text += servo::describe(thread.timing());
     }
     return text;
 }

@@ -10,62 +10,62 @@
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
-#include "game/record/export_csv.hpp"
-#include "game/record/session.hpp"
 #include "game/report/report.hpp"
+#include "game/session/export_csv.hpp"
+#include "game/session/session_file.hpp"
 
 namespace bolt::cli {
 
 namespace {
 
 int run_report(const std::vector<std::string>& files, const std::string& html, bool overview) {
-    std::vector<record::Reader> readers;
+    std::vector<session::Reader> readers;
     for (const std::string& file : files) {
-        if (Status apart = keep_apart(file, html); !apart) return complain(apart.error());
-        Result<record::Reader> reader = record::Reader::open(file);
-        if (!reader) return complain(reader.error());
+        if (Status apart = require_different_files(file, html); !apart) return print_error(apart.error());
+        Result<session::Reader> reader = session::Reader::open(file);
+        if (!reader) return print_error(reader.error());
         if (!reader->complete())
             (void)std::fputs(
                 fmt::format("{}: this session was cut short; the report shows what was kept\n", file).c_str(),
                 stderr);
         readers.push_back(std::move(*reader));
     }
-    std::vector<const record::Reader*> sessions;
+    std::vector<const session::Reader*> sessions;
     sessions.reserve(readers.size());
-    for (const record::Reader& reader : readers) sessions.push_back(&reader);
+    for (const session::Reader& reader : readers) sessions.push_back(&reader);
     Result<std::string> page =
         report::make_report(sessions, overview ? report::Extent::overview : report::Extent::everything);
-    if (!page) return complain(page.error());
-    if (Status kept = write_file(html, *page); !kept) return complain(kept.error());
-    const Status said = say(html + "\n");
-    return said ? 0 : complain(said.error());
+    if (!page) return print_error(page.error());
+    if (Status kept = write_file(html, *page); !kept) return print_error(kept.error());
+    const Status said = print(html + "\n");
+    return said ? 0 : print_error(said.error());
 }
 
 int run_export(const std::string& file, const std::string& csv, std::uint64_t every) {
-    if (Status apart = keep_apart(file, csv); !apart) return complain(apart.error());
-    Result<record::Reader> reader = record::Reader::open(file);
-    if (!reader) return complain(reader.error());
+    if (Status apart = require_different_files(file, csv); !apart) return print_error(apart.error());
+    Result<session::Reader> reader = session::Reader::open(file);
+    if (!reader) return print_error(reader.error());
     (void)std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error that we report
-    record::CsvOptions options;
+    session::CsvOptions options;
     options.every_n = every;
     if (csv == "-") {
-        const Status kept = record::export_csv(*reader, stdout, options);
-        return kept ? 0 : complain(kept.error());
+        const Status kept = session::export_csv(*reader, stdout, options);
+        return kept ? 0 : print_error(kept.error());
     }
     std::FILE* out = std::fopen(csv.c_str(), "wb");
     Error error;
     error.file = csv;
     if (out == nullptr) {
         error.what = std::string("cannot be written: ") + std::strerror(errno);
-        return complain(error);
+        return print_error(error);
     }
     options.out_name = csv;
-    const Status kept = record::export_csv(*reader, out, options);
+    const Status kept = session::export_csv(*reader, out, options);
     const bool closed = std::fclose(out) == 0;
-    if (!kept) return complain(kept.error());
+    if (!kept) return print_error(kept.error());
     if (!closed) {
         error.what = std::string("cannot be written: ") + std::strerror(errno);
-        return complain(error);
+        return print_error(error);
     }
     return 0;
 }

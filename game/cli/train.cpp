@@ -12,16 +12,18 @@
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
 #include "game/cli/interruption.hpp"
-#include "game/play/summary.hpp"
-#include "game/play/train.hpp"
+#include "game/lesson/plan.hpp"
 #include "game/report/report.hpp"
-#include "game/scene/view_help.hpp"
+#include "game/session/contact_models.hpp"
+#include "game/session/summary.hpp"
 #include "game/station/choice.hpp"
+#include "game/trainees/train.hpp"
 #include "game/trainer/window.hpp"
 #include "game/view/result_pictures.hpp"
 #include "game/view/size.hpp"
-#include "haptics/glove/adapter.hpp"
-#include "haptics/glove/serial_line.hpp"
+#include "game/view/view_help.hpp"
+#include "haptics/hand/glove_adapter.hpp"
+#include "haptics/hand/serial_port.hpp"
 
 namespace bolt::cli {
 
@@ -52,7 +54,7 @@ class ProgressLine {
   public:
     explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
-    bool show(const content::Assembly& assembly, const play::Progress& progress) {
+    bool show(const content::Assembly& assembly, const trainees::Progress& progress) {
         if (quiet_) return !interrupted();
         if (progress.event != nullptr) note(assembly, progress);
         if (terminal_)
@@ -67,7 +69,7 @@ class ProgressLine {
     }
 
   private:
-    void note(const content::Assembly& assembly, const play::Progress& progress) {
+    void note(const content::Assembly& assembly, const trainees::Progress& progress) {
         const lesson::Event& event = *progress.event;
         if (event.kind == "pass_begin") {
             pass_ = event.text;
@@ -108,21 +110,22 @@ Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
         with.devices = options.devices;
     with.rig = options.rig;
     if (options.glove == "auto") {
-        const auto ports = glove::serial_ports();
+        const auto ports = hand::serial_ports();
         if (!ports.empty()) with.glove = ports.front();
     } else if (options.glove != "none") {
         with.glove = options.glove;
     }
     // Before a window opens: what is not there will not be there then.
-    const auto chosen = station::choose(device::list(true), with.devices);
+    const auto chosen = station_setup::choose(device::list_devices(true), with.devices);
     if (!chosen) return fail(chosen.error());
     if (!with.glove.empty())
-        if (Status may = glove::may_use(with.glove); !may) return fail(may.error());
+        if (Status may = hand::check_port_access(with.glove); !may) return fail(may.error());
     return with;
 }
 
-Result<play::TrainOptions> play_options(const TrainArguments& options, const content::Assembly& assembly) {
-    play::TrainOptions play;
+Result<trainees::TrainOptions> play_options(const TrainArguments& options,
+                                            const content::Assembly& assembly) {
+    trainees::TrainOptions play;
     play.course.mode = options.mode == "guided"     ? lesson::Mode::guided
                        : options.mode == "practice" ? lesson::Mode::practice
                                                     : lesson::Mode::assessment;
@@ -131,42 +134,44 @@ Result<play::TrainOptions> play_options(const TrainArguments& options, const con
                       : options.law == "published" ? joint::Law::published
                                                    : joint::Law::mechanistic;
     play.course.seed = options.seed;
-    play.course.obstacles = options.no_obstacles ? play::Obstacles::none
-                            : options.obstacles  ? play::Obstacles::required
-                                                 : play::Obstacles::if_any;
+    play.course.obstacles = options.no_obstacles ? session::Obstacles::none
+                            : options.obstacles  ? session::Obstacles::required
+                                                 : session::Obstacles::if_any;
     play.course.guide = !options.no_guide;
-    if (options.view_help) play.view_help = scene::view_help();
-    Result<operators::Profile> trainee = operators::find_profile(options.trainee);
+    if (options.view_help) play.view_help = view::view_help();
+    Result<trainees::Profile> trainee = trainees::find_profile(options.trainee);
     if (!trainee) return fail(trainee.error());
     play.trainee = *trainee;
     play.course.operator_name = play.trainee.name;
+    play.course.trainee = options.name;
     return play;
 }
 
 Status write_report(const std::filesystem::path& session, const std::filesystem::path& page) {
-    Result<record::Reader> reader = record::Reader::open(session);
+    Result<session::Reader> reader = session::Reader::open(session);
     if (!reader) return fail(reader.error());
-    const record::Reader* sessions[] = {&*reader};
+    const session::Reader* sessions[] = {&*reader};
     Result<std::string> html = report::make_report(sessions);
     if (!html) return fail(html.error());
     return write_file(page, *html);
 }
 
 // Everything that a lesson leaves beside its session.
-Status leave(const content::Assembly& assembly, const play::CourseOptions& course, const play::Played& played,
-             const std::filesystem::path& out, bool pictures) {
-    if (Status kept = write_file(out / "summary.json", play::summary_json(assembly, course, played)); !kept)
+Status leave(const content::Assembly& assembly, const session::CourseOptions& course,
+             const session::Played& played, const std::filesystem::path& out, bool pictures) {
+    if (Status kept = write_file(out / "summary.json", session::summary_json(assembly, course, played));
+        !kept)
         return kept;
     const std::filesystem::path session = out / "session.boltwright";
     if (Status kept = write_report(session, out / "report.html"); !kept) return kept;
-    std::string closing = play::summary_table(assembly, played.result);
+    std::string closing = session::summary_table(assembly, played.result);
     closing += fmt::format("{}, {}, {}\n", session.string(), (out / "summary.json").string(),
                            (out / "report.html").string());
-    if (Status said = say(closing); !said) return said;
+    if (Status said = print(closing); !said) return said;
     // What cannot be drawn takes nothing from what was recorded.
     if (pictures && !interrupted())
         if (Status drawn = view::draw_result(assembly, played.result, out, {1280, 720}); !drawn)
-            (void)complain(drawn.error());
+            (void)print_error(drawn.error());
     return {};
 }
 
@@ -189,9 +194,9 @@ void remove_stale(const std::filesystem::path& out) {
 }
 
 int run_headless(const TrainArguments& options, const content::Assembly& assembly,
-                 const play::TrainOptions& play) {
+                 const trainees::TrainOptions& play) {
     const std::filesystem::path out(options.out);
-    if (Status room = make_room(out); !room) return complain(room.error());
+    if (Status room = make_room(out); !room) return print_error(room.error());
     if (!options.quiet)
         (void)std::fputs(
             fmt::format("{} ({}), law {}, {}, trainee {}, seed {}\n", assembly.name, assembly.variant,
@@ -201,20 +206,22 @@ int run_headless(const TrainArguments& options, const content::Assembly& assembl
     remove_stale(out);
     catch_interruption();
     ProgressLine line(options.quiet);
-    const Result<play::Played> played =
-        play::train(assembly, play, out / "session.boltwright",
-                    [&](const play::Progress& progress) { return line.show(assembly, progress); });
+    const Result<session::Played> played =
+        trainees::train(assembly, play, out / "session.boltwright",
+                        [&](const trainees::Progress& progress) { return line.show(assembly, progress); });
     line.end();
-    if (!played) return complain(played.error());
+    if (!played) return print_error(played.error());
     if (!options.quiet && !played->obstacles && !options.no_obstacles)
-        (void)std::fputs("Nothing could be bumped into: the assembly names no contact model.\n", stderr);
+        if (const auto missing = session::missing_contact_model(assembly))
+            (void)std::fputs(
+                fmt::format("The wrench goes through everything: {}\n", missing->message()).c_str(), stderr);
     if (Status left = leave(assembly, play.course, *played, out, !options.no_pictures); !left)
-        return complain(left.error());
+        return print_error(left.error());
     return interrupted() || !played->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
 }
 
 // In a window, with whatever the hand has.
-Status run_window(const TrainArguments& options, const play::TrainOptions& play,
+Status run_window(const TrainArguments& options, const trainees::TrainOptions& play,
                   const trainer::Equipment& with, platform::Desktop& desktop) {
     const std::filesystem::path out(options.out);
     if (Status room = make_room(out); !room) return room;
@@ -231,8 +238,8 @@ Status run_window(const TrainArguments& options, const play::TrainOptions& play,
     // Without a home nothing is kept, and a lesson is one all the same.
     if (const auto data = content::data_folder()) app_options.settings_folder = *data / "settings";
     app_options.begins = [out] { remove_stale(out); };
-    app_options.ended = [&](const content::Assembly& assembly, const play::CourseOptions& course,
-                            const play::Played& played) {
+    app_options.ended = [&](const content::Assembly& assembly, const session::CourseOptions& course,
+                            const session::Played& played) {
         return leave(assembly, course, played, out, false);
     };
     if (!options.quiet)
@@ -259,21 +266,22 @@ Status run_window(const TrainArguments& options, const play::TrainOptions& play,
 
 int run_train(const TrainArguments& options) {
     const Result<trainer::Equipment> with = equipment_of(options);
-    if (!with) return complain(with.error());
+    if (!with) return print_error(with.error());
     if (options.headless && (!with->glove.empty() || !with->devices.empty())) {
         Error error;
         error.code = ErrorCode::usage;
         error.what = "a simulated trainee has no use for devices";
         error.expected = "--headless without --device ID and --glove PORT";
-        return complain(error);
+        return print_error(error);
     }
 
     content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
-    if (!loaded.ok()) return complain(loaded.errors);
+    if (!loaded.ok()) return print_error(loaded.errors);
     if (Status chosen = content::choose_tool(loaded.assembly, options.tool); !chosen)
-        return complain(chosen.error());
-    Result<play::TrainOptions> play = play_options(options, loaded.assembly);
-    if (!play) return complain(play.error());
+        return print_error(chosen.error());
+    Result<trainees::TrainOptions> play = play_options(options, loaded.assembly);
+    if (!play) return print_error(play.error());
+    loaded.assembly = lesson::under_law(std::move(loaded.assembly), play->course.law);
     if (options.headless) return run_headless(options, loaded.assembly, *play);
     Result<platform::Desktop> desktop = platform::Desktop::open();
     if (!desktop) {
@@ -282,7 +290,7 @@ int run_train(const TrainArguments& options) {
         return run_headless(options, loaded.assembly, *play);
     }
     const Status done = run_window(options, *play, *with, *desktop);
-    return done ? 0 : complain(done.error());
+    return done ? 0 : print_error(done.error());
 }
 
 }  // namespace

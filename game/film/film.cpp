@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "game/scene/effort.hpp"
 #include "game/scene/labels.hpp"
 #include "game/scene/resting_place.hpp"
-#include "game/scene/strain.hpp"
 #include "game/view/stereo.hpp"
+#include "game/world/haptics.hpp"
 
 namespace bolt::film {
 
@@ -13,9 +14,10 @@ namespace {
 
 constexpr float level_error = 0.5F;  // px
 
-std::optional<std::size_t> at_work(const play::Moment& moment) {
-    if (moment.output.joint >= 0) return static_cast<std::size_t>(moment.output.joint);
-    const lesson::Step* due = moment.lesson.due();
+std::optional<std::size_t> at_work(const scene::World& world, const lesson::Lesson& lesson) {
+    if (const std::int16_t held = world.only<world::ToolContact>().joint; held >= 0)
+        return static_cast<std::size_t>(held);
+    const lesson::Step* due = lesson.due();
     return due != nullptr ? std::optional(due->joint) : std::nullopt;
 }
 
@@ -32,7 +34,7 @@ struct Film::OnGpu {
 
 Film::~Film() = default;
 
-Result<std::unique_ptr<Film>> Film::create(const play::Prepared& at, const FilmOptions& options) {
+Result<std::unique_ptr<Film>> Film::create(const session::Prepared& at, const FilmOptions& options) {
     std::unique_ptr<Film> film(new Film);
     film->options_ = options;
     film->assembly_ = at.assembly;
@@ -61,13 +63,17 @@ Result<std::unique_ptr<Film>> Film::create(const play::Prepared& at, const FilmO
     Result<std::unique_ptr<scene::GpuShelf>> up = scene::upload(*on.painter.device, *shelf);
     if (!up) return fail(up.error());
     on.shelf = std::move(*up);
-    Result<scene::Workplace> place = scene::make_workplace(*shelf, *on.shelf, at.assembly, at.setup);
+    scene::World world;
+    world::add_haptics(world, at.state);
+    Result<scene::Workplace> place =
+        scene::make_workplace(std::move(world), *shelf, *on.shelf, at.assembly, at.setup);
     if (!place) return fail(place.error());
     film->place_ = std::move(*place);
     film->scene_ = scene::lit(film->place_, on.shelf->light);
-    film->postures_ = scene::make_postures(at.state.touch ? &at.state.touch->wrench : nullptr,
-                                           at.setup.wrench.handle_length, options.hand);
-    film->rest_ = scene::resting_place(film->place_.machine, at.assembly.wrench.head_thickness, options.hand);
+    film->postures_ = scene::make_postures(at.state.tool_contact ? &at.state.tool_contact->wrench : nullptr,
+                                           at.setup.wrench.handle_length, options.hand, scene::widest_nut(at.setup));
+    film->place_.world.only<world::Hand>().rest =
+        scene::resting_place(film->place_.machine, at.assembly.wrench.head_thickness, options.hand);
     if (options.view.empty() && shelf->machine.views.empty())
         first =
             view::framed(film->place_.machine, view::usual_fov,
@@ -77,42 +83,41 @@ Result<std::unique_ptr<Film>> Film::create(const play::Prepared& at, const FilmO
 }
 
 // When another joint has its turn the camera goes there.
-void Film::follow(const play::Moment& moment) {
-    const auto joint = at_work(moment);
+void Film::follow(const session::Moment& moment) {
+    const auto joint = at_work(place_.world, moment.lesson);
     if (!options_.view.empty() || !joint || followed_ == joint) return;
-    const scene::ViewOf of{
-        moment.setup, moment.state.touch ? &*moment.state.touch : nullptr, *joint,
-        servo::nut_centre(moment.setup.nuts[*joint], moment.state.joints[*joint].nut.angle), std::nullopt};
-    camera_.go(scene::find_view(of, sight_, camera_.goal));
+    const view::ViewOf of{moment.setup, moment.state.tool_contact ? &*moment.state.tool_contact : nullptr, *joint,
+                          world::nut_centre(place_.world, moment.setup, *joint), std::nullopt};
+    camera_.go(view::find_view(of, sight_, camera_.goal));
     followed_ = joint;
 }
 
-Result<render::Picture> Film::draw(const play::Moment& moment, double seconds) {
-    const bool wrench = moment.input.grip == servo::Grip::wrench;
+Result<render::Picture> Film::draw(const session::Moment& moment, double seconds) {
+    const world::Hand& hand = place_.world.only<world::Hand>();
     scene::Held held;
-    held.tool = moment.output.tool;
-    held.wrench = wrench;
-    held.rest = rest_;
-    held.pinches = moment.input.grip == servo::Grip::fingers;
+    held.tool = place_.world.only<world::Tool>().pose;
+    held.wrench = hand.wrench;
+    held.rest = hand.rest;
+    held.pinches = hand.pinches;
     const Vec3 shoulder = scene::shoulder_at(place_.machine, {options_.hand, std::nullopt});
     held.fingers = scene::towards(held.tool, shoulder, 0.0);
     held.grip = scene::natural_grip(postures_, held.tool, Vec3(0, 1, 0), shoulder);
-    held.strain = std::abs(scene::effort(moment.output, moment.setup, wrench));
+    held.strain = std::abs(scene::effort(moment.setup, place_.world));
     held.seconds = seconds;
-    scene::place_nuts(place_.world, moment.setup, moment.state.joints);
+    held.solids = moment.state.tool_contact ? &moment.state.tool_contact->world : nullptr;
+    scene::place_nuts(place_.world, moment.setup);
     scene::place_tool(place_.world, held);
     scene::place_hand(place_.world, postures_, held);
     scene_.cut_away.strength = 0.0F;
-    if (const auto joint = at_work(moment); joint && moment.output.joint >= 0)
-        scene::keep_in_sight(place_.world, scene_, moment.setup, moment.state, *joint);
+    if (const std::int16_t held_joint = place_.world.only<world::ToolContact>().joint; held_joint >= 0)
+        scene::keep_in_sight(place_.world, scene_, moment.setup, static_cast<std::size_t>(held_joint));
     follow(moment);
     (void)camera_.advance(seconds);
     scene::thin_near_arms(place_.world, Vec3(view::viewpoint_of(camera_.shown).eye));
     scene::present(place_.world, scene_);
 
     scene_.labels.clear();
-    if (const auto label = scene::work_label(options_.words, moment.lesson, moment.setup, moment.state,
-                                             moment.output, wrench))
+    if (const auto label = scene::work_label(options_.words, moment.lesson, moment.setup, place_.world))
         scene_.labels.push_back(*label);
     const float aspect = static_cast<float>(options_.size.width) / static_cast<float>(options_.size.height);
     std::vector<render::Eye> eyes;

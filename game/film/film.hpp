@@ -4,11 +4,11 @@
 #include "engine/render/picture.hpp"
 
 #include "content/words/words.hpp"
-#include "game/play/replay.hpp"
-#include "game/scene/find_view.hpp"
 #include "game/scene/systems.hpp"
+#include "game/session/replay.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/orbit.hpp"
-#include "game/view/painter.hpp"
+#include "game/view/view_search.hpp"
 
 namespace bolt::film {
 
@@ -26,13 +26,17 @@ struct FilmOptions {
 class Film {
   public:
     // Errors: no GPU, a model that cannot be drawn, a view that the assembly has not.
-    static Result<std::unique_ptr<Film>> create(const play::Prepared& at, const FilmOptions& options);
+    static Result<std::unique_ptr<Film>> create(const session::Prepared& at, const FilmOptions& options);
     Film(const Film&) = delete;
     Film& operator=(const Film&) = delete;
     ~Film();
 
-    // `seconds`: since the picture before; the camera glides, and fingers bend, meanwhile.
-    Result<render::Picture> draw(const play::Moment& moment, double seconds);
+    // The world of the replay: whoever replays writes every tick into it (world::write_snapshot).
+    [[nodiscard]] scene::World& world() { return place_.world; }
+
+    // Draws the world as it is. `seconds`: since the picture before; the camera glides, and fingers bend,
+    // meanwhile.
+    Result<render::Picture> draw(const session::Moment& moment, double seconds);
 
     // What the validation layers said, if they were asked for.
     [[nodiscard]] Status no_messages() const;
@@ -40,7 +44,7 @@ class Film {
   private:
     struct OnGpu;
     Film() = default;
-    void follow(const play::Moment& moment);
+    void follow(const session::Moment& moment);
 
     FilmOptions options_;
     content::Assembly assembly_;
@@ -49,9 +53,8 @@ class Film {
     scene::Postures postures_;
     render::Scene scene_;
     view::Glide camera_;
-    operators::Sight sight_;
+    motion::Sight sight_;
     std::optional<std::size_t> followed_;
-    Pose rest_;
 };
 
 }  // namespace bolt::film

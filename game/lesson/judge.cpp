@@ -39,14 +39,14 @@ JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::St
         result.torque_verdict = result.torque > 0.0 ? Verdict::ok : Verdict::none;
         result.overall = result.torque_verdict;
     } else {
-        // Whenever it was: what the nut was turned with counts, also out of its step; a joint that was never
-        // brought to its target in full is judged by what it has seen.
+        // The turning torque counts, also out of its step. A joint that never had a full tightening step is
+        // judged by its peak torque.
         result.torque = std::max(result.torque, track.turned_torque);
         if (result.torque == 0.0) result.torque = track.peak_torque;
         result.torque_verdict = within(result.torque, spec.torque);
         if (spec.has_angle) result.angle_verdict = within(result.angle, spec.angle);
         result.overall = worst(result.torque_verdict, result.angle_verdict);
-        // A nut that is off its seat again holds nothing, whatever it was tightened with.
+        // A nut off its seat clamps nothing, whatever its torque was.
         if (state.joints[joint].stage == joint::Stage::navigation) result.overall = Verdict::low;
     }
     if (result.condition != joint::Condition::sound) result.overall = Verdict::high;

@@ -71,8 +71,8 @@ void work_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& sta
     JointTrack& track = lesson.joints[joint];
     const std::string& id = track.result.id;
     const bool done = track.done_in_pass == due.pass;
-    // Who spins a nut down notices that it is there by gripping it once more. Fingers turn no nut on its
-    // seat.
+    // A trainee who spins a nut down checks with another grip that it is seated. Fingers cannot turn a seated
+    // nut.
     if (lesson.grip == servo::Grip::fingers &&
         (done || state.joints[joint].stage != joint::Stage::navigation))
         return;
@@ -88,7 +88,7 @@ void work_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& sta
 }
 
 void take(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state) {
-    // Fingers that spin a nut grip it again and again: that is one visit.
+    // Spinning a nut needs repeated grips; they are one visit.
     const bool again = grip == servo::Grip::fingers && lesson.grip == grip && lesson.left == joint &&
                        state.tick - lesson.released_at < regrip_ticks;
     lesson.held = joint;
@@ -114,7 +114,7 @@ void release(Lesson& lesson, const servo::State& state) {
     if (due != nullptr && due->joint == joint && reached(lesson, state.joints)) end_step(lesson, state);
 }
 
-// First work of a visit: is it this joint's turn?
+// Called at the first work of a visit: checks that this joint is due.
 void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
     lesson.joints[joint].worked = true;
     const Step* due = lesson.due();
@@ -130,9 +130,9 @@ void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
     work_out_of_turn(lesson, joint, state);
 }
 
-// What the nut was turned with, whichever step it was, less what breakaway added: also where a hand turns it
-// by fits and starts, and it breaks away anew each time (`breakaway`: mechanistic.hpp, r; of what only
-// friction takes, so a little too much comes off). Taken off its seat, a nut begins anew.
+// Updates the turning torque, in any step, without the share of breakaway. A nut that is turned in small
+// starts breaks away each time. `breakaway` (r in mechanistic.hpp) applies to the friction part only, so this
+// subtracts slightly too much. A nut that leaves its seat resets it.
 void note_turning(Lesson& lesson, std::size_t index, const joint::JointState& joint, double work) {
     JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
@@ -146,7 +146,8 @@ void note_turning(Lesson& lesson, std::size_t index, const joint::JointState& jo
         track.turned_torque = std::max(track.turned_torque, work / breakaway);
 }
 
-// Once until the nut is off its seat again. Breakaway turns nothing, and is not too much.
+// Reports excess torque once until the nut leaves its seat. Breakaway does not turn the nut and does not
+// count.
 void note_overdone(Lesson& lesson, std::size_t joint, std::uint64_t tick) {
     JointTrack& track = lesson.joints[joint];
     const double most = spec_of(lesson, joint).torque.high;
@@ -157,7 +158,7 @@ void note_overdone(Lesson& lesson, std::size_t joint, std::uint64_t tick) {
             fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, most));
 }
 
-// Once a visit. Who slackens what was too tight knows why.
+// Reported once a visit, and not after excess torque, which is corrected that way.
 void note_wrong_way(Lesson& lesson, std::size_t joint, const servo::State& state) {
     JointTrack& track = lesson.joints[joint];
     const joint::JointState& now = state.joints[joint];
@@ -212,7 +213,7 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     }
 }
 
-// An assessment is handed in by letting go of the last joint for a while.
+// An assessment ends when the last joint has been released for some time.
 void hand_in(Lesson& lesson, const servo::State& state) {
     if (lesson.mode != Mode::assessment || lesson.held >= 0 || lesson.current + 1 != lesson.steps.size())
         return;
@@ -240,15 +241,15 @@ double setting(const Lesson& lesson) {
     return step->kind == StepKind::tighten || step->kind == StepKind::recheck ? step->torque : 0.0;
 }
 
-bool reached(const Lesson& lesson, std::span<const joint::JointState> joints) {
-    const Step* step = lesson.due();
-    if (step == nullptr) return false;
+namespace {
+
+bool reached(const Lesson& lesson, const Step& due, double angle, joint::Stage stage) {
+    const Step* step = &due;
     const JointTrack& track = lesson.joints[step->joint];
-    const joint::JointState& joint = joints[step->joint];
-    const double turned = joint.nut.angle - track.begin_angle;
+    const double turned = angle - track.begin_angle;
     switch (step->kind) {
         case StepKind::run_down:
-            return joint.stage != joint::Stage::navigation;
+            return stage != joint::Stage::navigation;
         case StepKind::tighten:
             if (track.peak_torque < window(lesson, *step).low) return false;
             return !into_yield(lesson, *step) || track.yielded || track.clicked ||
@@ -256,9 +257,23 @@ bool reached(const Lesson& lesson, std::span<const joint::JointState> joints) {
         case StepKind::recheck:
             return turned > moved || track.peak_torque >= window(lesson, *step).low;
         case StepKind::loosen:
-            return joint.stage == joint::Stage::navigation;
+            return stage == joint::Stage::navigation;
     }
     return false;
+}
+
+}  // namespace
+
+bool reached(const Lesson& lesson, std::span<const joint::JointState> joints) {
+    const Step* due = lesson.due();
+    return due != nullptr && reached(lesson, *due, joints[due->joint].nut.angle, joints[due->joint].stage);
+}
+
+bool reached(const Lesson& lesson, const ecs::Access<const world::Joint>& joints) {
+    const Step* due = lesson.due();
+    if (due == nullptr) return false;
+    const world::Joint& joint = world::joint_at(joints, due->joint);
+    return reached(lesson, *due, joint.angle, joint.stage);
 }
 
 Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
@@ -290,7 +305,7 @@ void observe(Lesson& lesson, const servo::State& state, const servo::Output& out
                             lesson.joints[joint].result.id, 1e3 * output.rounded));
     }
     hand_in(lesson, state);
-    // A broken bolt is never tight: its step cannot be done, and the lesson goes on to the next.
+    // The step of a broken bolt cannot be done; the lesson continues with the next one.
     const Step* due = lesson.due();
     if (due != nullptr && lesson.held < 0 &&
         lesson.joints[due->joint].result.condition != joint::Condition::sound)

@@ -1,17 +1,14 @@
-// The lesson as a small state machine beside the servo: it watches ticks, knows which step is due, and
-// judges.
+// The lesson: a state machine that observes servo ticks, tracks the due step, and judges the result.
 //
-// A step is due until it is done. The hand may come and go (an open-end wrench comes off for every stroke); a
-// step is done when the hand has let go of a nut on which it reached what the step asks for:
+// A step is due until it is done. The hand may leave the nut in between (an open-end wrench comes off for
+// each stroke). A step is done when the hand releases a nut that meets the step's condition:
 //   run down    the fingers have turned the nut onto its seat
-//   tighten     the torque reached the low edge of the step's window; in full and by strategy `yield` also
-//   the joint
-//               yielded (or the torque is past its window: more of it would not help; or a torque wrench
-//               clicked)
-//   re-check    the wrench moved the nut on, or reached the window without moving it
+//   tighten     the torque reached the low edge of the step's window. A full step with strategy `yield` also
+//               needs the joint to yield, the torque to exceed its window, or the torque wrench to click
+//   re-check    the wrench turned the nut further, or reached the window without turning it
 //   loosen      the nut is free of clamp force
-// In assessment a joint that is left for the next one counts as done as it was left; in the other modes the
-// step stays.
+// In assessment, starting on the next joint ends the step in whatever state it is; in other modes the step
+// stays due.
 #pragma once
 
 #include <optional>
@@ -21,12 +18,13 @@
 #include "content/format/assembly.hpp"
 #include "game/lesson/plan.hpp"
 #include "game/lesson/result.hpp"
+#include "game/world/haptics.hpp"
 #include "haptics/servo/setup.hpp"
 #include "haptics/servo/tick.hpp"
 
 namespace bolt::lesson {
 
-// What the lesson remembers of a joint between ticks.
+// State of a joint that the lesson keeps between ticks.
 struct JointTrack {
     JointResult result;
     bool snug = false;           // the snug torque has been reached
@@ -69,28 +67,29 @@ struct Lesson {
 // `assembly` must outlive the lesson.
 Lesson begin(const content::Assembly& assembly, Mode mode, Task task);
 
-// What the torque of a step is to be: the joint's window, scaled to the pass's share.
+// The torque window of a step: the joint's window, scaled by the fraction of the pass.
 content::Window window(const Lesson& lesson, const Step& step);
 
-// Whether the step goes on until the bolt begins to yield.
+// Whether the step needs the bolt to yield.
 bool into_yield(const Lesson& lesson, const Step& step);
 
-// What a torque wrench is set to for the due step, N·m; 0: the tool is none, or there is nothing to set.
+// Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.
 double setting(const Lesson& lesson);
 
-// Whether the due step is done as soon as the hand lets go.
+// Whether the due step will be done when the hand releases the nut.
 bool reached(const Lesson& lesson, std::span<const joint::JointState> joints);
+bool reached(const Lesson& lesson, const ecs::Access<const world::Joint>& joints);
 
-// After each tick.
+// Call after each tick.
 void observe(Lesson& lesson, const servo::State& state, const servo::Output& output);
 
-// Makes the step before the due one due again, `steps` of them; 0: begins the due one anew. What was noted of
-// the joints is as it was when that step began, and `state` is to be so too: whoever calls this has put the
-// joints back. Mistakes stay counted. A nut in the hand is let go of. False, and nothing changes: in
-// assessment, and where there is no such step.
+// Goes back by `steps` steps; 0 restarts the due step. Restores the joint tracks of that step's start; the
+// caller has already restored the joints in `state`. Mistakes stay counted, and a held nut is released.
+// False, without a change, in assessment or if there is no such step.
 bool back(Lesson& lesson, const servo::State& state, std::size_t steps);
 
-// The state of one joint's result now, with verdicts; and of the whole, with the score and its reasons.
+// judge_joint(): the current result of one joint. judge(): that of the lesson, with score and reasons. `dt`:
+// s.
 JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::State& state);
 LessonResult judge(const Lesson& lesson, const servo::State& state, double dt);
 

@@ -1,4 +1,4 @@
-// A lesson as a list of steps, made from the assembly's passes.
+// Plans a lesson: a list of steps, made from the assembly's passes.
 #pragma once
 
 #include <cstdint>
@@ -33,17 +33,19 @@ struct Step {
     int pass = 0;
 };
 
-// An assembly's specifications are those of its mechanistic joints. Under the published law every joint ends
-// at the same T_max by turning the last quarter, so targets above 98 % of it come down to that, and no angle
-// is judged.
+// The assembly with `law` in force, its specifications adapted to it. The specifications of joint types hold
+// under the mechanistic law. Under the published law every joint ends at the same T_max, whatever its
+// fastener is: the assembly's own published targets replace them; without any, targets above 98 % of T_max
+// are lowered to that. No angle is judged, and the target clamp force follows from the target torque.
+// Applying a law twice changes nothing more.
 content::Assembly under_law(content::Assembly assembly, joint::Law law);
 
 // Tightening: the assembly's passes in order. Loosening: every joint once, in the reverse of the last pass's
 // order.
 std::vector<Step> make_plan(const content::Assembly& assembly, Task task);
 
-// Whether a step is work for fingers: a nut that is run down, unless it drags too much for them.
-// `finger_torque`: N·m that they can put on it.
+// Whether fingers do the step: running down a nut whose drag is small against `finger_torque`, the torque
+// that fingers can apply, N·m.
 bool by_fingers(const content::Assembly& assembly, const Step& step, double finger_torque);
 
 }  // namespace bolt::lesson

@@ -1,4 +1,4 @@
-// How a joint and a lesson were done. Plain data: judged by game/lesson, kept by game/record, shown by
+// Results of joints and lessons as plain data: judged by game/lesson, stored by game/session, shown by
 // game/report.
 #pragma once
 
@@ -34,7 +34,7 @@ struct JointResult {
     int order_errors = 0;  // visits out of turn
 };
 
-// What points were taken for. A session that is read again has the text alone.
+// The reason for a deduction. A session file stores its text only.
 enum class Fault : std::uint8_t {
     none,
     damaged,
@@ -47,7 +47,7 @@ enum class Fault : std::uint8_t {
     unfinished
 };
 
-// A point taken from or given to the score, with its reason in words.
+// A deduction from the score, or a remark without points, with its reason as text.
 struct ScoreReason {
     double points = 0.0;
     std::string text;
@@ -65,7 +65,7 @@ struct LessonResult {
     std::vector<ScoreReason> reasons;
 };
 
-// What a mistake was, for who says it in another language. Sessions keep the text alone.
+// The kind of a mistake, for texts in any language. A session file stores the English text only.
 enum class Cause : std::uint8_t {
     none,
     out_of_turn,
@@ -78,7 +78,7 @@ enum class Cause : std::uint8_t {
     broken
 };
 
-// Something that happened, for reports and replay. Kinds: step_begin, step_end, engage, release, stage,
+// An event of a lesson, for reports and replay. Kinds: step_begin, step_end, engage, release, stage,
 // mistake, pass_begin, back, click, note.
 struct Event {
     std::uint64_t tick = 0;

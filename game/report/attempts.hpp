@@ -5,28 +5,35 @@
 #include <string>
 #include <vector>
 
-#include "game/report/session_data.hpp"
+#include "game/analysis/session_data.hpp"
 
 namespace bolt::report {
 
 // What the overview keeps of a session, so that the rest can be let go.
 struct Attempt {
-    std::string assembly, title, operator_name, task, variant, law, mode;
+    std::string assembly, title, task, variant, law, mode;
+    std::string trainee;  // as trainee_text says it; with the kind it tells trainees apart
+    session::OperatorKind operator_kind = session::OperatorKind::unrecorded;
     std::uint64_t seed = 0;
     bool complete = true, finished = false;
     double score = 0.0;
     double duration = 0.0;  // s
-    Summary summary;
+    analysis::Summary summary;
 
     // Of what was felt; NaN where it is not known.
-    bool guided = false, view_help = false, obstacles = false, simulated = true;
+    bool guided = false, view_help = false, obstacles = false;
     double to_nut = 0.0, near_nut = 0.0;  // s with the wrench, medians over the steps
     double seen = 0.0;                    // 0…1 of the time near the nuts with them in sight
     double bumps = 0.0, bump_time = 0.0;  // count, s
     // Of the force in a millisecond, as shares of the device's greatest; the latter the 99th percentile.
     double greatest_change = 0.0, usual_change = 0.0;
 };
-Attempt attempt_of(const SessionData& session);
+
+// "Ada", "novice (simulated)", "Ada (simulated novice)", "person without a name"; for a session that does not
+// record who held the tool "novice (person or simulated: not recorded)".
+std::string trainee_text(const session::Header& header);
+
+Attempt attempt_of(const analysis::SessionData& session);
 
 // Attempts at the same thing: assembly, task, variant and law. Indices, rising, in the order of the first of
 // each.

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <map>
 
-#include "game/report/html.hpp"
-#include "game/report/quartiles.hpp"
-#include "game/report/text.hpp"
+#include "game/analysis/quartiles.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/text.hpp"
 
 namespace bolt::report {
 
@@ -23,10 +23,10 @@ void put(std::string& out, fmt::format_string<Values...> format, Values&&... val
 std::string times(std::uint64_t n) { return n == 1 ? "once" : fmt::format("{} times", n); }
 
 std::string share_of(double change, double greatest) {
-    return greatest > 0.0 ? fmt::format(" ({}\u00a0%)", number(100.0 * change / greatest, 1)) : "";
+    return greatest > 0.0 ? fmt::format(" ({}\u00a0%)", plot::number(100.0 * change / greatest, 1)) : "";
 }
 
-std::string evenness_mark(const Feel& f) {
+std::string evenness_mark(const analysis::Feel& f) {
     if (f.force.above > 0)
         return fmt::format("<span class=\"v vh\">▲ jerked {}</span> ", times(f.force.above));
     if (f.force.at_limit > 0)
@@ -34,8 +34,8 @@ std::string evenness_mark(const Feel& f) {
     return "<span class=\"v vo\">✓ even</span> ";
 }
 
-void put_evenness(std::string& out, const SessionData& s) {
-    const Feel& f = s.feel;
+void put_evenness(std::string& out, const analysis::SessionData& s) {
+    const analysis::Feel& f = s.feel;
     const double greatest = f.device ? f.device->force : 0.0;
     if (f.force.ticks == 0) {
         out += "<p>No force was put out.</p>\n";
@@ -44,48 +44,48 @@ void put_evenness(std::string& out, const SessionData& s) {
     put(out,
         "<p>{}From one millisecond to the next the force on the hand changed by {}\u00a0N{} at most, in "
         "99\u00a0% of the time by less than {}\u00a0N{}.",
-        greatest > 0.0 ? evenness_mark(f) : "", number(f.force.greatest, 2),
-        share_of(f.force.greatest, greatest), number(f.force.p99, 3), share_of(f.force.p99, greatest));
+        greatest > 0.0 ? evenness_mark(f) : "", plot::number(f.force.greatest, 2),
+        share_of(f.force.greatest, greatest), plot::number(f.force.p99, 3), share_of(f.force.p99, greatest));
     if (greatest > 0.0)
         put(out,
             " Percentages are of the {}\u00a0N that the device can give; more than 10\u00a0% in a "
             "millisecond is felt as a jerk.",
-            number(greatest, 0));
+            plot::number(greatest, 0));
     if (f.force.at_limit > 0)
         put(out,
             " It changed {} as fast as the output stage lets it ({}\u00a0N in a millisecond): there it would "
             "have been more.",
-            times(f.force.at_limit), number(f.device->force_rate * 1e-3, 1));
-    constexpr const char* names[doings] = {"when the output was held off",
-                                           "letting go of a nut",
-                                           "taking hold of a nut",
-                                           "on a nut",
-                                           "against something",
-                                           "in the air"};
+            times(f.force.at_limit), plot::number(f.device->force_rate * 1e-3, 1));
+    constexpr const char* names[analysis::doings] = {"when the output was held off",
+                                                     "letting go of a nut",
+                                                     "taking hold of a nut",
+                                                     "on a nut",
+                                                     "against something",
+                                                     "in the air"};
     std::string where;
-    for (std::size_t i = 0; i < doings; ++i)
+    for (std::size_t i = 0; i < analysis::doings; ++i)
         if (f.at_limit[i] > 0)
             where += fmt::format("{}{} {}", where.empty() ? "" : ", ", f.at_limit[i], names[i]);
     if (!where.empty()) put(out, " Of these: {}.", where);
-    put(out, " The torque changed by {}\u00a0N·m{} at most.</p>\n", number(f.torque.greatest, 3),
+    put(out, " The torque changed by {}\u00a0N·m{} at most.</p>\n", plot::number(f.torque.greatest, 3),
         share_of(f.torque.greatest, f.device ? f.device->torque : 0.0));
 
     out +=
         "<div class=\"scroll\"><table><thead><tr><th class=\"n\">at</th><th class=\"n\">change in<br/>1 ms, "
         "N</th><th class=\"n\">share</th><th>what was going on</th></tr></thead><tbody>\n";
-    for (const Moment& m : f.moments)
+    for (const analysis::Moment& m : f.moments)
         put(out,
             "<tr><td class=\"n\">{} s</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
             "class=\"w\">{}</td></tr>\n",
-            number(m.time, 3), number(m.change, 2),
-            greatest > 0.0 ? number(100.0 * m.change / greatest, 1) + " %" : "–",
-            escape(happening(m, s.joints, s.header.obstacle_names)));
+            plot::number(m.time, 3), plot::number(m.change, 2),
+            greatest > 0.0 ? plot::number(100.0 * m.change / greatest, 1) + " %" : "–",
+            plot::escape(analysis::happening(m, s.joints, s.header.obstacle_names)));
     out += "</tbody></table></div>\n";
     out += "<p class=\"note\">The largest changes, those within 50\u00a0ms of a larger one left out.</p>\n";
 }
 
-void put_bumps(std::string& out, const SessionData& s) {
-    const Feel& f = s.feel;
+void put_bumps(std::string& out, const analysis::SessionData& s) {
+    const analysis::Feel& f = s.feel;
     out += "<h3>Bumps</h3>\n";
     if (!f.recorded) {
         out += "<p>This session is of an older format, which does not say what the wrench touched.</p>\n";
@@ -99,9 +99,9 @@ void put_bumps(std::string& out, const SessionData& s) {
         std::uint64_t count = 0;
         double seconds = 0.0, longest = 0.0, hardest = 0.0;
     };
-    std::map<std::int32_t, With> with;
+    std::map<collision::ObstacleId, With> with;
     With all;
-    for (const Bump& b : f.bumps)
+    for (const analysis::Bump& b : f.bumps)
         for (With* w : {&with[b.obstacle], &all}) {
             ++w->count;
             w->seconds += b.length;
@@ -112,12 +112,12 @@ void put_bumps(std::string& out, const SessionData& s) {
         out += "<p>None: on its ways the wrench met nothing but the nuts that it went to.</p>\n";
         return;
     }
-    std::vector<std::pair<std::int32_t, With>> rows(with.begin(), with.end());
+    std::vector<std::pair<collision::ObstacleId, With>> rows(with.begin(), with.end());
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.second.count > b.second.count; });
     put(out,
         "<p>The wrench bumped into something {} on its ways, {}\u00a0s in all, with {}\u00a0N at most.</p>\n",
-        times(all.count), number(all.seconds, 1), number(all.hardest, 1));
+        times(all.count), plot::number(all.seconds, 1), plot::number(all.hardest, 1));
     out +=
         "<div class=\"scroll\"><table><thead><tr><th>with</th><th class=\"n\">bumps</th><th class=\"n\">in "
         "all, s</th><th class=\"n\">longest, s</th><th class=\"n\">hardest, N</th></tr></thead><tbody>\n";
@@ -125,8 +125,8 @@ void put_bumps(std::string& out, const SessionData& s) {
         put(out,
             "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
             "<td class=\"n\">{}</td></tr>\n",
-            escape(obstacle_text(obstacle, s.header.obstacle_names)), w.count, number(w.seconds, 2),
-            number(w.longest, 2), number(w.hardest, 1));
+            plot::escape(analysis::obstacle_text(obstacle, s.header.obstacle_names)), w.count,
+            plot::number(w.seconds, 2), plot::number(w.longest, 2), plot::number(w.hardest, 1));
     out += "</tbody></table></div>\n";
     out +=
         "<p class=\"note\">Touches less than 0.1\u00a0s apart are one bump. What the wrench does to the nut "
@@ -134,8 +134,8 @@ void put_bumps(std::string& out, const SessionData& s) {
         "it is going to or has just left is none, nor is what began with a nut in its jaw.</p>\n";
 }
 
-void put_arrivals(std::string& out, const SessionData& s) {
-    const Feel& f = s.feel;
+void put_arrivals(std::string& out, const analysis::SessionData& s) {
+    const analysis::Feel& f = s.feel;
     if (f.arrivals.empty()) return;
     out +=
         "<h3>Time to get onto the nut</h3>\n<div class=\"scroll\"><table><thead><tr><th>joint</th>"
@@ -146,7 +146,7 @@ void put_arrivals(std::string& out, const SessionData& s) {
     const auto row = [&](const std::string& name, int joint) {
         std::vector<double> wrench, near, hand;
         double seen = 0.0, looked = 0.0;
-        for (const Arrival& a : f.arrivals) {
+        for (const analysis::Arrival& a : f.arrivals) {
             if (joint >= 0 && a.joint != joint) continue;
             (a.wrench ? wrench : hand).push_back(a.waited);
             if (a.wrench) near.push_back(a.placing);
@@ -155,14 +155,17 @@ void put_arrivals(std::string& out, const SessionData& s) {
             looked += a.placing;
         }
         if (wrench.empty() && hand.empty()) return;
-        const double slowest = wrench.empty() ? Moment::nan : *std::max_element(wrench.begin(), wrench.end());
+        const double slowest =
+            wrench.empty() ? analysis::Moment::nan : *std::max_element(wrench.begin(), wrench.end());
         put(out,
             "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
             "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-            joint < 0 ? " class=\"sum\"" : "", escape(name), wrench.size(),
-            number(quartiles(wrench).median, 2), number(slowest, 2), number(quartiles(near).median, 2),
-            looked > 0.0 ? number(100.0 * seen / looked, 0) + " %" : number(Moment::nan, 0),
-            number(quartiles(hand).median, 2));
+            joint < 0 ? " class=\"sum\"" : "", plot::escape(name), wrench.size(),
+            plot::number(analysis::quartiles(wrench).median, 2), plot::number(slowest, 2),
+            plot::number(analysis::quartiles(near).median, 2),
+            looked > 0.0 ? plot::number(100.0 * seen / looked, 0) + " %"
+                         : plot::number(analysis::Moment::nan, 0),
+            plot::number(analysis::quartiles(hand).median, 2));
     };
     for (std::size_t j = 0; j < s.joints.size(); ++j) row(s.joints[j].id, static_cast<int>(j));
     row("all", -1);
@@ -174,20 +177,20 @@ void put_arrivals(std::string& out, const SessionData& s) {
         f.guided ? "A guiding force led the hand." : "No force led the hand.");
 }
 
-void put_servo(std::string& out, const SessionData& s) {
-    const Feel& f = s.feel;
+void put_servo(std::string& out, const analysis::SessionData& s) {
+    const analysis::Feel& f = s.feel;
     std::string faults;
     for (std::size_t i = 1; i < f.faults.size(); ++i)
         if (f.faults[i] > 0.0)
             faults += fmt::format("{}{}: {}\u00a0s", faults.empty() ? "" : "; ",
-                                  force::name(static_cast<force::Fault>(i)), number(f.faults[i], 2));
+                                  force::name(static_cast<force::Fault>(i)), plot::number(f.faults[i], 2));
     if (!f.recorded) return;
     out += "<h3>Output stage and servo</h3>\n";
     put(out, "<p>{} {}</p>\n",
         faults.empty() ? "The output was never held off."
-                       : "The output was held off: " + escape(faults) + ".",
-        f.timing ? "The servo ran on a thread: " + escape(f.servo) + "."
-                 : "Wake-up, compute and period: none, the servo ran in " + escape(f.servo) + ".");
+                       : "The output was held off: " + plot::escape(faults) + ".",
+        f.timing ? "The servo ran on a thread: " + plot::escape(f.servo) + "."
+                 : "Wake-up, compute and period: none, the servo ran in " + plot::escape(f.servo) + ".");
     if (!f.timing) return;
     out +=
         "<div class=\"scroll\"><table><thead><tr><th>µs</th><th class=\"n\">median</th><th class=\"n\">99 "
@@ -197,8 +200,9 @@ void put_servo(std::string& out, const SessionData& s) {
         put(out,
             "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
             "class=\"n\">{}</td></tr>\n",
-            name, number(1e6 * servo::quantile(h, 0.5), 1), number(1e6 * servo::quantile(h, 0.99), 1),
-            number(1e6 * servo::quantile(h, 0.999), 1), number(1e-3 * static_cast<double>(h.greatest), 1));
+            name, plot::number(1e6 * servo::quantile(h, 0.5), 1),
+            plot::number(1e6 * servo::quantile(h, 0.99), 1), plot::number(1e6 * servo::quantile(h, 0.999), 1),
+            plot::number(1e-3 * static_cast<double>(h.greatest), 1));
     };
     row("wake-up", f.timing->wake_up);
     row("compute", f.timing->compute);
@@ -209,8 +213,8 @@ void put_servo(std::string& out, const SessionData& s) {
 
 }  // namespace
 
-std::string feel_section(const SessionData& session) {
-    const Feel& f = session.feel;
+std::string feel_section(const analysis::SessionData& session) {
+    const analysis::Feel& f = session.feel;
     if (f.force.ticks == 0 && f.arrivals.empty()) return {};
     std::string out = "<h2>What the hand felt</h2>\n";
     put_evenness(out, session);

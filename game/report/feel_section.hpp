@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "game/report/session_data.hpp"
+#include "game/analysis/session_data.hpp"
 
 namespace bolt::report {
 
 // HTML; nothing for a session without ticks.
-std::string feel_section(const SessionData& session);
+std::string feel_section(const analysis::SessionData& session);
 
 }  // namespace bolt::report

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <tuple>
 
-#include "game/report/html.hpp"
-#include "game/report/quartiles.hpp"
-#include "game/report/svg.hpp"
-#include "game/report/text.hpp"
+#include "game/analysis/quartiles.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/svg.hpp"
+#include "game/plot/text.hpp"
 
 namespace bolt::report {
 
@@ -81,20 +81,20 @@ std::vector<double> values_of(const Group& group, const Measure& measure) {
 
 // Dots that would cover each other stand on top of each other, within the row; how many they are is said
 // where there is no room for that.
-void draw_row(Svg& svg, const std::vector<double>& values, const Scale& x, double left, double middle,
-              std::string_view dot) {
+void draw_row(plot::Svg& svg, const std::vector<double>& values, const plot::Scale& x, double left,
+              double middle, std::string_view dot) {
     constexpr double radius = 2.6, room = 11.0;
-    const Quartiles q = quartiles(values);
+    const analysis::Quartiles q = analysis::quartiles(values);
     if (q.n == 0) return;
     svg.rect({left + x(q.low), middle - room, x(q.high) - x(q.low), 2.0 * room}, "bf", 2.0);
     svg.line({left + x(q.median), middle - room - 2.0}, {left + x(q.median), middle + room + 2.0}, "me1");
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
-    std::vector<Point> drawn;
+    std::vector<plot::Point> drawn;
     for (const double value : sorted) {
-        Point p{left + x(value), middle};
+        plot::Point p{left + x(value), middle};
         for (int step = 1; step < 9; ++step) {
-            const bool covered = std::any_of(drawn.begin(), drawn.end(), [&](const Point& d) {
+            const bool covered = std::any_of(drawn.begin(), drawn.end(), [&](const plot::Point& d) {
                 return std::hypot(d.x - p.x, d.y - p.y) < 2.0 * radius;
             });
             if (!covered) break;
@@ -119,47 +119,51 @@ std::string strip_plot(const Group& with, const Group& without, const Measure& m
     const double high =
         std::max(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
     constexpr double width = 460.0, height = 112.0, left = 82.0, right = 22.0;
-    const Ticks ticks = covering_ticks(0.0, high > 0.0 ? high : 1.0, 5);
-    const Scale x{ticks.range, width - left - right, false};
-    Svg svg(width, height, fmt::format("{}, {}, {}", measure.name, measure.unit, factor.title));
+    const plot::Ticks ticks = plot::covering_ticks(0.0, high > 0.0 ? high : 1.0, 5);
+    const plot::Scale x{ticks.range, width - left - right, false};
+    plot::Svg svg(width, height, fmt::format("{}, {}, {}", measure.name, measure.unit, factor.title));
     for (const double at : ticks.at) {
         svg.line({left + x(at), 4.0}, {left + x(at), 80.0}, "gr");
-        svg.text({left + x(at), 93.0}, "tk mid", number(at, ticks.decimals));
+        svg.text({left + x(at), 93.0}, "tk mid", plot::number(at, ticks.decimals));
     }
     svg.text({left - 8.0, 26.0}, "lb end", factor.with);
     svg.text({left - 8.0, 64.0}, "lb end", factor.without);
     draw_row(svg, a, x, left, 22.0, "mpeak");
     draw_row(svg, b, x, left, 60.0, "mclamp");
     svg.text({left + 0.5 * x.length, 106.0}, "sm mid", measure.unit);
-    return figure(fmt::format("<h3>{}</h3>", measure.name), svg.finish(), "");
+    return plot::figure(fmt::format("<h3>{}</h3>", measure.name), svg.finish(), "");
 }
 
-std::string quartile_text(const Quartiles& q, int decimals) {
-    return fmt::format("{} <span class=\"of\">({} to {})</span>", number(q.median, decimals),
-                       number(q.low, decimals), number(q.high, decimals));
+std::string quartile_text(const analysis::Quartiles& q, int decimals) {
+    return fmt::format("{} <span class=\"of\">({} to {})</span>", plot::number(q.median, decimals),
+                       plot::number(q.low, decimals), plot::number(q.high, decimals));
 }
 
 std::string part(const Group& with, const Group& without, const Factor& factor) {
     const Attempt& first = *with.front();
+    const bool simulated = first.operator_kind == session::OperatorKind::simulated;
     std::string out;
-    put(out, "<h2>With and without {}: {}, {}{}</h2>\n", factor.heading, escape(first.title),
-        escape(first.operator_name), first.obstacles ? "" : ", without obstacles");
+    put(out, "<h2>With and without {}: {}, {}{}</h2>\n", factor.heading, plot::escape(first.title),
+        plot::escape(first.trainee), first.obstacles ? "" : ", without obstacles");
     const auto finished = [](const Group& group) {
         return std::count_if(group.begin(), group.end(), [](const Attempt* a) { return a->finished; });
     };
     put(out, "<p>{}n = {} {} and {} {}; finished: {} and {}.{}</p>\n",
-        first.simulated
+        simulated
             ? "<strong>These trainees are simulated:</strong> this shows what the program does to a model of "
               "a hand, not what it does to people. "
+        : first.operator_kind == session::OperatorKind::unrecorded
+            ? "These sessions do not record whether a person or a simulated trainee held the tool. "
             : "",
         with.size(), factor.with, without.size(), factor.without, finished(with), finished(without),
-        first.simulated ? factor.model : "");
+        simulated ? factor.model : "");
     put(out,
         "<div class=\"scroll\"><table><thead><tr><th>median (quartiles)</th><th class=\"n\">{}</th><th "
         "class=\"n\">{}</th></tr></thead><tbody>\n",
         factor.with, factor.without);
     for (const Measure& m : measures) {
-        const Quartiles a = quartiles(values_of(with, m)), b = quartiles(values_of(without, m));
+        const analysis::Quartiles a = analysis::quartiles(values_of(with, m)),
+                                  b = analysis::quartiles(values_of(without, m));
         if (a.n + b.n == 0) continue;
         put(out, "<tr><td class=\"w\">{}, {}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
             m.name, m.unit, quartile_text(a, m.decimals), quartile_text(b, m.decimals));
@@ -173,8 +177,8 @@ std::string part(const Group& with, const Group& without, const Factor& factor) 
 
 std::string study(std::span<const Attempt> attempts, const Factor& factor, bool Attempt::*alike_in) {
     const auto key = [&](const Attempt& a) {
-        return std::tie(a.assembly, a.title, a.task, a.variant, a.law, a.mode, a.operator_name, a.obstacles,
-                        a.*alike_in);
+        return std::tie(a.assembly, a.title, a.task, a.variant, a.law, a.mode, a.trainee, a.operator_kind,
+                        a.obstacles, a.*alike_in);
     };
     std::string out;
     Group seen;

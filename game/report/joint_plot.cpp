@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "engine/base/math.hpp"
-#include "game/report/decimate.hpp"
-#include "game/report/order.hpp"
-#include "game/report/text.hpp"
+#include "game/analysis/order.hpp"
+#include "game/plot/decimate.hpp"
+#include "game/plot/text.hpp"
 
 namespace bolt::report {
 
@@ -29,19 +29,22 @@ std::string_view pass_style(int passes_after) {
     return pass_styles[static_cast<std::size_t>(std::clamp(2 - passes_after, 0, 2))];
 }
 
-bool is_loosening(const SessionData& session) { return session.direction() == joint::Direction::loosen; }
+bool is_loosening(const analysis::SessionData& session) {
+    return session.direction() == joint::Direction::loosen;
+}
 
 // Degrees from the view's zero, growing in the direction of work.
 double drawn_angle(const JointView& view, double nut_angle, bool loosening) {
     return to_degrees(loosening ? view.zero - nut_angle : nut_angle - view.zero);
 }
 
-using Value = double (*)(const CurvePoint&);
+using Value = double (*)(const analysis::CurvePoint&);
 
-std::vector<Point> line_of(const Visit& visit, const JointView& view, bool loosening, Value value) {
-    std::vector<Point> points;
+std::vector<plot::Point> line_of(const analysis::Visit& visit, const JointView& view, bool loosening,
+                                 Value value) {
+    std::vector<plot::Point> points;
     for (std::size_t i = 0; i < visit.points.size(); ++i) {
-        const CurvePoint& p = visit.points[i];
+        const analysis::CurvePoint& p = visit.points[i];
         if (i > 0 && p.stroke != visit.points[i - 1].stroke) points.push_back({nan, nan});
         points.push_back({drawn_angle(view, p.angle, loosening), value(p)});
     }
@@ -51,15 +54,16 @@ std::vector<Point> line_of(const Visit& visit, const JointView& view, bool loose
 // Loading and unloading the wrench while the nut stands still is part of the record, but not what is looked
 // at: the line is parted into what turned the nut and the rest, each with gaps where the other is.
 struct Parted {
-    std::vector<Point> turning, resting;
+    std::vector<plot::Point> turning, resting;
 };
 
-Parted parted(const std::vector<Point>& line) {
+Parted parted(const std::vector<plot::Point>& line) {
     constexpr double still = 0.05;       // degrees within which the nut counts as standing
     constexpr double noticeable = 0.03;  // of the highest torque: a smaller change is the nut creeping on
     double highest = 0.0;
-    for (const Point& p : line) highest = std::isfinite(p.y) ? std::max(highest, std::abs(p.y)) : highest;
-    const auto append = [&](std::vector<Point>& part, std::size_t from, std::size_t to) {
+    for (const plot::Point& p : line)
+        highest = std::isfinite(p.y) ? std::max(highest, std::abs(p.y)) : highest;
+    const auto append = [&](std::vector<plot::Point>& part, std::size_t from, std::size_t to) {
         const bool goes_on = !part.empty() && part.back().x == line[from].x && part.back().y == line[from].y;
         if (!goes_on && !part.empty()) part.push_back({nan, nan});
         part.insert(part.end(), line.begin() + static_cast<std::ptrdiff_t>(from + (goes_on ? 1 : 0)),
@@ -67,7 +71,7 @@ Parted parted(const std::vector<Point>& line) {
     };
     Parted parts;
     for (std::size_t i = 0; i + 1 < line.size();) {
-        Range torque{line[i].y, line[i].y};
+        plot::Range torque{line[i].y, line[i].y};
         std::size_t end = i;
         while (end + 1 < line.size() && std::abs(line[end + 1].x - line[i].x) <= still) {
             ++end;
@@ -81,8 +85,8 @@ Parted parted(const std::vector<Point>& line) {
     return parts;
 }
 
-double torque_of(const CurvePoint& p) { return p.torque; }
-double clamp_kN(const CurvePoint& p) { return p.clamp * 1e-3; }
+double torque_of(const analysis::CurvePoint& p) { return p.torque; }
+double clamp_kN(const analysis::CurvePoint& p) { return p.clamp * 1e-3; }
 
 bool is_in_view(const JointView& view, double nut_angle, bool loosening) {
     const double at = drawn_angle(view, nut_angle, loosening);
@@ -90,12 +94,12 @@ bool is_in_view(const JointView& view, double nut_angle, bool loosening) {
 }
 
 // Highest and lowest of what is drawn of one joint.
-Range extent(const SessionData& session, std::size_t joint, Value value) {
+plot::Range extent(const analysis::SessionData& session, std::size_t joint, Value value) {
     const bool loosening = is_loosening(session);
     const JointView view = joint_view(session, joint);
-    Range range{0.0, 0.0};
-    for (const Visit& visit : session.curves[joint].visits) {
-        for (const CurvePoint& p : visit.points) {
+    plot::Range range{0.0, 0.0};
+    for (const analysis::Visit& visit : session.curves[joint].visits) {
+        for (const analysis::CurvePoint& p : visit.points) {
             if (!is_in_view(view, p.angle, loosening)) continue;
             range.low = std::min(range.low, value(p));
             range.high = std::max(range.high, value(p));
@@ -105,27 +109,27 @@ Range extent(const SessionData& session, std::size_t joint, Value value) {
 }
 
 // Loosened joints are compared with each other, as nothing else is asked of them: they share their axes.
-Range shared_extent(const SessionData& session, std::size_t joint, Value value) {
+plot::Range shared_extent(const analysis::SessionData& session, std::size_t joint, Value value) {
     if (!is_loosening(session)) return extent(session, joint, value);
-    Range range{0.0, 0.0};
+    plot::Range range{0.0, 0.0};
     for (std::size_t j = 0; j < session.curves.size(); ++j) {
-        const Range one = extent(session, j, value);
+        const plot::Range one = extent(session, j, value);
         range = {std::min(range.low, one.low), std::max(range.high, one.high)};
     }
     return range;
 }
 
-Axis value_axis(Range range, std::string label) {
+plot::Axis value_axis(plot::Range range, std::string label) {
     // Noise around zero (the weight of the nut) does not ask for a tick below it.
     if (range.low > -0.03 * range.high) range.low = 0.0;
     if (range.high < -0.03 * range.low) range.high = 0.0;
     const double room = 0.04 * range.span();
     const double low = range.low < 0.0 ? range.low - room : 0.0,
                  high = range.high > 0.0 ? range.high + room : 0.0;
-    return {covering_ticks(low, high, 5), std::move(label)};
+    return {plot::covering_ticks(low, high, 5), std::move(label)};
 }
 
-void add_targets(Plot& plot, const content::Specification& spec) {
+void add_targets(plot::Plot& plot, const content::Specification& spec) {
     plot.bands.push_back({{spec.torque.low, spec.torque.high}, "win", "", true});
     plot.rules.push_back({spec.torque.target, "tgt", "", true});
     if (!spec.has_angle) return;
@@ -134,7 +138,7 @@ void add_targets(Plot& plot, const content::Specification& spec) {
 }
 
 // The last pass that tightens: a re-check after it is drawn like it.
-int last_pass_of(const SessionData& session) {
+int last_pass_of(const analysis::SessionData& session) {
     if (is_loosening(session)) return 0;
     const std::vector<content::Pass>& passes = session.assembly.passes;
     const auto last = std::find_if(passes.rbegin(), passes.rend(), [](const content::Pass& p) {
@@ -143,10 +147,11 @@ int last_pass_of(const SessionData& session) {
     return std::max(0, static_cast<int>(passes.rend() - last) - 1);
 }
 
-void add_visits(Plot& plot, const JointCurve& curve, const JointView& view, bool loosening, int last_pass) {
-    for (const Visit& visit : curve.visits)
+void add_visits(plot::Plot& plot, const analysis::JointCurve& curve, const JointView& view, bool loosening,
+                int last_pass) {
+    for (const analysis::Visit& visit : curve.visits)
         if (visit.worked) plot.lines.push_back({line_of(visit, view, loosening, clamp_kN), "ln cl", true});
-    for (const Visit& visit : curve.visits) {
+    for (const analysis::Visit& visit : curve.visits) {
         if (!visit.worked) continue;
         Parted parts = parted(line_of(visit, view, loosening, torque_of));
         plot.lines.push_back({std::move(parts.resting), "ln rest", false});
@@ -154,24 +159,24 @@ void add_visits(Plot& plot, const JointCurve& curve, const JointView& view, bool
     }
 }
 
-const content::Pass* pass_of(const SessionData& session, const Visit& visit) {
+const content::Pass* pass_of(const analysis::SessionData& session, const analysis::Visit& visit) {
     const auto pass = static_cast<std::size_t>(visit.pass);
     const bool told = !session.pass_texts.empty() && pass < session.assembly.passes.size();
     return told && !is_loosening(session) ? &session.assembly.passes[pass] : nullptr;
 }
 
-bool is_recheck(const SessionData& session, const Visit& visit) {
+bool is_recheck(const analysis::SessionData& session, const analysis::Visit& visit) {
     const content::Pass* pass = pass_of(session, visit);
     return pass != nullptr && pass->kind == content::StepKind::recheck;
 }
 
-bool turned_on(const Visit& visit) {
+bool turned_on(const analysis::Visit& visit) {
     return std::abs(visit.release.angle - visit.begin_angle) > to_radians(2.0);
 }
 
 // As game/lesson judges it: the last pass to the full target, and re-checks that turned the nut on. One that
 // only saw it begin to move shows its breakaway, which is not what it was tightened with.
-bool is_judged(const SessionData& session, const Visit& visit) {
+bool is_judged(const analysis::SessionData& session, const analysis::Visit& visit) {
     const content::Pass* pass = pass_of(session, visit);
     if (pass == nullptr) return true;
     if (pass->kind == content::StepKind::recheck) return turned_on(visit);
@@ -184,24 +189,25 @@ bool is_judged(const SessionData& session, const Visit& visit) {
 }
 
 // Where the curve shows the torque of the joint's result: a sample of it, else the last way through it.
-std::optional<CurvePoint> judged_point(const SessionData& session, std::size_t joint, bool any_visit) {
+std::optional<analysis::CurvePoint> judged_point(const analysis::SessionData& session, std::size_t joint,
+                                                 bool any_visit) {
     const double torque = session.joints[joint].torque;
     if (!(torque > 0.0)) return std::nullopt;
     double least = 0.02 + 1e-4 * torque;  // N·m by which it may differ: the samples are single precision
-    std::optional<CurvePoint> sample, passed;
-    const auto look = [&](const CurvePoint& p) {
+    std::optional<analysis::CurvePoint> sample, passed;
+    const auto look = [&](const analysis::CurvePoint& p) {
         const double off = std::abs(std::abs(p.torque) - torque);
         if (off > least) return;
         least = off;
         sample = p;
     };
-    for (const Visit& visit : session.curves[joint].visits) {
+    for (const analysis::Visit& visit : session.curves[joint].visits) {
         if (!visit.worked || !(any_visit || is_judged(session, visit))) continue;
         look(visit.peak);
         for (std::size_t i = 0; i < visit.points.size(); ++i) {
             look(visit.points[i]);
             if (i == 0) continue;
-            const CurvePoint &a = visit.points[i - 1], &b = visit.points[i];
+            const analysis::CurvePoint &a = visit.points[i - 1], &b = visit.points[i];
             const double from = std::abs(a.torque) - torque, to = std::abs(b.torque) - torque;
             if (a.stroke != b.stroke || a.angle == b.angle || from * to > 0.0 || from == to) continue;
             passed = a;
@@ -212,82 +218,87 @@ std::optional<CurvePoint> judged_point(const SessionData& session, std::size_t j
     return sample ? sample : passed;
 }
 
-void add_judged(Plot& plot, const SessionData& session, std::size_t joint, const JointView& view) {
+void add_judged(plot::Plot& plot, const analysis::SessionData& session, std::size_t joint,
+                const JointView& view) {
     const bool loosening = is_loosening(session);
-    std::optional<CurvePoint> judged = judged_point(session, joint, false);
+    std::optional<analysis::CurvePoint> judged = judged_point(session, joint, false);
     // A joint that was never brought to its target in full is judged by what it has seen so far.
     if (!judged) judged = judged_point(session, joint, true);
     if (!judged || !is_in_view(view, judged->angle, loosening)) return;
     const double torque = std::copysign(session.joints[joint].torque, judged->torque);  // as the table has it
     plot.marks.push_back({{drawn_angle(view, judged->angle, loosening), torque},
-                          Shape::dot,
+                          plot::Shape::dot,
                           "mpeak",
-                          number(torque, 1),
+                          plot::number(torque, 1),
                           false,
                           false});
 }
 
-void add_releases(Plot& plot, const SessionData& session, const JointCurve& curve, const JointView& view) {
+void add_releases(plot::Plot& plot, const analysis::SessionData& session, const analysis::JointCurve& curve,
+                  const JointView& view) {
     const bool loosening = is_loosening(session);
-    for (const Visit& visit : curve.visits) {
+    for (const analysis::Visit& visit : curve.visits) {
         const double at = visit.release.angle;
         if (!visit.worked || !is_in_view(view, at, loosening)) continue;
         const content::Pass* pass = pass_of(session, visit);
         const bool named =
             pass != nullptr && pass->kind == content::StepKind::tighten && pass->fraction < 1.0;
         plot.marks.push_back({{drawn_angle(view, at, loosening), clamp_kN(visit.release)},
-                              Shape::square,
+                              plot::Shape::square,
                               "mclamp",
-                              named ? pass_label(*pass) : "",
+                              named ? analysis::pass_label(*pass) : "",
                               true,
                               true});
     }
 }
 
 // Highest torque of re-checks where it is not what is judged: the nut did not turn on, or not with it.
-void add_breakaway(Plot& plot, const SessionData& session, std::size_t joint, const JointView& view) {
-    const Visit* highest = nullptr;
-    for (const Visit& visit : session.curves[joint].visits) {
+void add_breakaway(plot::Plot& plot, const analysis::SessionData& session, std::size_t joint,
+                   const JointView& view) {
+    const analysis::Visit* highest = nullptr;
+    for (const analysis::Visit& visit : session.curves[joint].visits) {
         if (!visit.worked || !is_recheck(session, visit)) continue;
         if (turned_on(visit) && visit.peak.torque <= session.joints[joint].torque + 0.05) continue;
         if (highest == nullptr || visit.peak.torque > highest->peak.torque) highest = &visit;
     }
     if (highest == nullptr || !is_in_view(view, highest->peak.angle, false)) return;
     plot.marks.push_back({{drawn_angle(view, highest->peak.angle, false), torque_of(highest->peak)},
-                          Shape::ring,
+                          plot::Shape::ring,
                           "mbreak",
-                          fmt::format("breakaway {}", number(torque_of(highest->peak), 1)),
+                          fmt::format("breakaway {}", plot::number(torque_of(highest->peak), 1)),
                           false,
                           true});
 }
 
 // The whole run, small, under the target window where the curve leaves room.
-void draw_inset(Svg& svg, const Plot& plot, const JointCurve& curve, const JointView& view, double below,
-                bool loosening) {
-    const Box area = plot_area(plot);
-    const Scale torque{plot.y.ticks.range, area.height, true};
-    const Box box{area.x + 8.0, area.y + std::min(torque(below) + 12.0, 0.5 * area.height), 96.0, 34.0};
-    const Scale x{{curve.start_angle, curve.end_angle}, box.width, false};
-    const Scale y{plot.y.ticks.range, box.height - 2.0, true};
+void draw_inset(plot::Svg& svg, const plot::Plot& plot, const analysis::JointCurve& curve,
+                const JointView& view, double below, bool loosening) {
+    const plot::Box area = plot::plot_area(plot);
+    const plot::Scale torque{plot.y.ticks.range, area.height, true};
+    const plot::Box box{area.x + 8.0, area.y + std::min(torque(below) + 12.0, 0.5 * area.height), 96.0, 34.0};
+    const plot::Scale x{{curve.start_angle, curve.end_angle}, box.width, false};
+    const plot::Scale y{plot.y.ticks.range, box.height - 2.0, true};
     svg.rect(box, "inset");
     svg.enter(box);
-    for (const Visit& visit : curve.visits) {
-        std::vector<Point> points = line_of(visit, view, loosening, torque_of);
-        for (Point& p : points) p = {x(view.zero + to_radians(p.x)), y(p.y)};
-        svg.path(decimate(points, 1.0), "ln in");
+    for (const analysis::Visit& visit : curve.visits) {
+        std::vector<plot::Point> points = line_of(visit, view, loosening, torque_of);
+        for (plot::Point& p : points) p = {x(view.zero + to_radians(p.x)), y(p.y)};
+        svg.path(plot::decimate(points, 1.0), "ln in");
     }
     svg.leave();
     const double turns = (curve.end_angle - curve.start_angle) / (2.0 * pi);
-    svg.text({box.x, box.y + box.height + 12.0}, "sm", fmt::format("whole run, {} turns", number(turns, 1)));
+    svg.text({box.x, box.y + box.height + 12.0}, "sm",
+             fmt::format("whole run, {} turns", plot::number(turns, 1)));
 }
 
 }  // namespace
 
-JointView joint_view(const SessionData& session, std::size_t joint) {
-    const JointCurve& curve = session.curves[joint];
+JointView joint_view(const analysis::SessionData& session, std::size_t joint) {
+    const analysis::JointCurve& curve = session.curves[joint];
     const bool loosening = is_loosening(session);
-    const auto contact = std::find_if(curve.stages.begin(), curve.stages.end(),
-                                      [](const StageSpan& s) { return s.stage != joint::Stage::navigation; });
+    const auto contact =
+        std::find_if(curve.stages.begin(), curve.stages.end(),
+                     [](const analysis::StageSpan& s) { return s.stage != joint::Stage::navigation; });
     const bool met = contact != curve.stages.end();
     JointView view;
     view.zero = loosening || !met ? curve.start_angle : contact->from;
@@ -304,9 +315,9 @@ JointView joint_view(const SessionData& session, std::size_t joint) {
         from = std::max({start, touch - std::max(lead_in, 0.12 * (end - touch)), end - longest});
     }
     if (loosening) {  // once the nut is free nothing more happens, however far it is turned
-        const auto free = std::find_if(curve.stages.begin(), curve.stages.end(), [](const StageSpan& s) {
-            return s.stage == joint::Stage::navigation;
-        });
+        const auto free =
+            std::find_if(curve.stages.begin(), curve.stages.end(),
+                         [](const analysis::StageSpan& s) { return s.stage == joint::Stage::navigation; });
         const double loose = free == curve.stages.end() ? end : drawn_angle(view, free->from, loosening);
         view.cut_after = end - loose > longest_free;
         if (view.cut_after) end = loose + longest_free;
@@ -317,28 +328,28 @@ JointView joint_view(const SessionData& session, std::size_t joint) {
     return view;
 }
 
-Plot joint_plot(const SessionData& session, std::size_t joint) {
-    const JointCurve& curve = session.curves[joint];
+plot::Plot joint_plot(const analysis::SessionData& session, std::size_t joint) {
+    const analysis::JointCurve& curve = session.curves[joint];
     const content::Specification& spec = session.assembly.joints[joint].spec;
     const bool loosening = is_loosening(session);
     const JointView view = joint_view(session, joint);
 
-    Plot plot;
+    plot::Plot plot;
     plot.title = fmt::format("{}: torque and clamp force over the nut angle", session.joints[joint].id);
-    plot.x = {degree_ticks(view.shown, 7), ""};
+    plot.x = {plot::degree_ticks(view.shown, 7), ""};
     plot.x.ticks.range = view.shown;
     plot.x.label = loosening ? "angle turned back, °" : fmt::format("nut angle from {}, °", view.zero_name);
-    if (view.cut) plot.x.label += fmt::format(" (drawn from {}°)", number(view.shown.low, 0));
-    if (view.cut_after) plot.x.label += fmt::format(" (drawn to {}°)", number(view.shown.high, 0));
-    Range torque = shared_extent(session, joint, torque_of);
+    if (view.cut) plot.x.label += fmt::format(" (drawn from {}°)", plot::number(view.shown.low, 0));
+    if (view.cut_after) plot.x.label += fmt::format(" (drawn to {}°)", plot::number(view.shown.high, 0));
+    plot::Range torque = shared_extent(session, joint, torque_of);
     if (!loosening) torque.high = std::max(torque.high, spec.torque.high);
     plot.y = value_axis(torque, "torque, N·m");
-    Range clamp = shared_extent(session, joint, clamp_kN);
-    if (!loosening) clamp.high = std::max(clamp.high, target_clamp(session.assembly, joint) * 1e-3);
+    plot::Range clamp = shared_extent(session, joint, clamp_kN);
+    if (!loosening) clamp.high = std::max(clamp.high, analysis::target_clamp(session.assembly, joint) * 1e-3);
     clamp.high *= 1.3;  // the forces follow the torque: apart they can be told from each other
     plot.y2 = value_axis(clamp, "clamp, kN");
 
-    for (const StageSpan& span : curve.stages) {
+    for (const analysis::StageSpan& span : curve.stages) {
         const auto stage = static_cast<std::size_t>(span.stage);
         const double from = drawn_angle(view, span.from, loosening),
                      to = drawn_angle(view, span.to, loosening);
@@ -355,21 +366,22 @@ Plot joint_plot(const SessionData& session, std::size_t joint) {
     return plot;
 }
 
-std::string joint_figure(const SessionData& session, std::size_t joint) {
-    const Plot plot = joint_plot(session, joint);
-    Svg svg(plot.width, plot.height, plot.title);
-    draw_into(svg, plot);
+std::string joint_figure(const analysis::SessionData& session, std::size_t joint) {
+    const plot::Plot plot = joint_plot(session, joint);
+    plot::Svg svg(plot.width, plot.height, plot.title);
+    plot::draw_into(svg, plot);
     const JointView view = joint_view(session, joint);
     const double below = session.assembly.joints[joint].spec.torque.low;
     if (view.cut) draw_inset(svg, plot, session.curves[joint], view, below, is_loosening(session));
     return svg.finish();
 }
 
-std::string run_down_text(const RunDown& run) {
+std::string run_down_text(const analysis::RunDown& run) {
     if (run.angle < to_radians(15.0)) return {};
-    const std::string low = number(run.torque_low, 2), high = number(run.torque_high, 2);
-    return fmt::format("Run-down of {} turns in {}, wrench torque {} N·m.", number(run.angle / (2.0 * pi), 1),
-                       duration_text(run.time), low == high ? high : low + "…" + high);
+    const std::string low = plot::number(run.torque_low, 2), high = plot::number(run.torque_high, 2);
+    return fmt::format("Run-down of {} turns in {}, wrench torque {} N·m.",
+                       plot::number(run.angle / (2.0 * pi), 1), plot::duration_text(run.time),
+                       low == high ? high : low + "…" + high);
 }
 
 }  // namespace bolt::report

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/base/result.hpp"
-#include "game/record/session.hpp"
-#include "game/report/session_data.hpp"
+#include "game/analysis/session_data.hpp"
+#include "game/session/session_file.hpp"
 
 namespace bolt::report {
 
@@ -16,10 +16,10 @@ namespace bolt::report {
 enum class Extent : std::uint8_t { everything, overview };
 
 // Sessions in the order given; at least one. Holds one session's curves at a time.
-Result<std::string> make_report(std::span<const record::Reader* const> sessions,
+Result<std::string> make_report(std::span<const session::Reader* const> sessions,
                                 Extent extent = Extent::everything);
 
 // The same from data that was read already.
-std::string make_report(std::span<const SessionData> sessions);
+std::string make_report(std::span<const analysis::SessionData> sessions);
 
 }  // namespace bolt::report

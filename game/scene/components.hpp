@@ -5,8 +5,9 @@
 #include <glm/mat4x4.hpp>
 #include <memory>
 
-#include "engine/ecs/registry.hpp"
 #include "engine/render/scene.hpp"
+#include "game/scene/hand_clearance.hpp"
+#include "game/world/components.hpp"
 #include "haptics/hand/skeleton.hpp"
 
 namespace bolt::scene {
@@ -45,8 +46,11 @@ struct Fingers {
     hand::Skeleton shown;  // in the frame of the tool
     std::vector<glm::mat4> inverse_bind;
     std::shared_ptr<const render::Deformation> deformation;
-    float strain = 0.0F;    // 0 … 1: its skin pales
-    float too_near = 0.0F;  // 0 … 1: its arm is so near to the eye that it fills the picture
+    float strain = 0.0F;          // 0 … 1: its skin pales
+    float too_near = 0.0F;        // 0 … 1: its arm is so near to the eye that it fills the picture
+    hand::Skeleton posture = {};  // what `shown` departs from, to stay out of solids
+    std::shared_ptr<const std::vector<SkinPoint>> skin = nullptr;
+    HandClearance clearance = {};
 };
 
 // A line around it, through whatever hides it.
@@ -73,7 +77,8 @@ struct CanFade {
     bool fades = true;
 };
 
+// The work and its pictures in one registry.
 using World =
-    ecs::Registry<Placement, Drawn, Nut, OfJoint, OnTool, Fingers, Outlined, Ghost, Pointer, CanFade>;
+    world::WorldWith<Placement, Drawn, Nut, OfJoint, OnTool, Fingers, Outlined, Ghost, Pointer, CanFade>;
 
 }  // namespace bolt::scene

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "game/hints/terms.hpp"
+#include "game/lesson/terms.hpp"
 
 namespace bolt::scene {
 
@@ -31,14 +31,14 @@ std::optional<double> counted_from(const lesson::Lesson& lesson, std::size_t joi
     return due != nullptr && due->joint == joint ? std::optional(track.begin_angle) : std::nullopt;
 }
 
-std::string figures(const words::Words& words, const lesson::Lesson& lesson, const servo::Output& output,
+std::string figures(const words::Words& words, const lesson::Lesson& lesson, const world::Joint& joint,
                     bool wrench) {
     if (!wrench)
-        return words::say(words, "hud.turns", {{"turns", words::Number{output.nut_angle / (2.0 * pi), 1}}});
-    std::string said = words::say(words, words::Number{std::abs(output.wrench_torque), 0}) + " N·m   ";
-    const auto from = counted_from(lesson, static_cast<std::size_t>(output.joint));
-    if (from) said += fmt::format("{:+.0f}°   ", to_degrees(output.nut_angle - *from));
-    return said + words[hints::term(output.stage)];
+        return words::say(words, "hud.turns", {{"turns", words::Number{joint.angle / (2.0 * pi), 1}}});
+    std::string said = words::say(words, words::Number{std::abs(joint.torque), 0}) + " N·m   ";
+    const auto from = counted_from(lesson, joint.index);
+    if (from) said += fmt::format("{:+.0f}°   ", to_degrees(joint.angle - *from));
+    return said + words[lesson::term(joint.stage)];
 }
 
 }  // namespace
@@ -55,22 +55,22 @@ render::Label plate(std::string text, const Vec3& at, float height) {
     return label;
 }
 
-Vec3 above_nut(const servo::Setup& setup, const servo::State& state, std::size_t joint) {
-    const servo::NutPlace& nut = setup.nuts[joint];
-    return servo::nut_centre(nut, state.joints[joint].nut.angle) + 0.03 * nut.axis;
+Vec3 above_nut(const servo::Setup& setup, const ecs::Access<const world::Joint>& joints, std::size_t joint) {
+    return world::nut_centre(joints, setup, joint) + 0.03 * setup.nuts[joint].axis;
 }
 
 std::optional<render::Label> work_label(const words::Words& words, const lesson::Lesson& lesson,
-                                        const servo::Setup& setup, const servo::State& state,
-                                        const servo::Output& output, bool wrench,
+                                        const servo::Setup& setup, const WorkAccess& world,
                                         const view::Palette& palette) {
-    if (output.joint < 0) return std::nullopt;
-    const auto joint = static_cast<std::size_t>(output.joint);
+    const std::int16_t engaged = world.only<world::ToolContact>().joint;
+    if (engaged < 0) return std::nullopt;
+    const auto joint = static_cast<std::size_t>(engaged);
+    const world::Joint& now = world::joint_at(world, joint);
+    const bool wrench = world.only<world::Hand>().wrench;
     const lesson::Step* due = lesson.due();
-    const double torque = std::abs(output.wrench_torque);
+    const double torque = std::abs(now.torque);
     const bool fits = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
-    render::Label label =
-        plate(figures(words, lesson, output, wrench), above_nut(setup, state, joint), 22.0F);
+    render::Label label = plate(figures(words, lesson, now, wrench), above_nut(setup, world, joint), 22.0F);
     if (wrench && lesson.mode != lesson::Mode::assessment)
         show_standing(label, fits ? lesson::window(lesson, *due) : lesson.assembly->joints[joint].spec.torque,
                       torque, lesson.joints[joint].turned_torque, palette);
@@ -79,10 +79,12 @@ std::optional<render::Label> work_label(const words::Words& words, const lesson:
 }
 
 render::Label clamp_label(const words::Words& words, const content::Assembly& assembly,
-                          const servo::Setup& setup, const servo::State& state, std::size_t joint) {
-    const std::string force = words::say(words, words::Number{state.joints[joint].clamp / 1e3, 1});
+                          const servo::Setup& setup, const ecs::Access<const world::Joint>& joints,
+                          std::size_t joint) {
+    const double clamp = world::joint_at(joints, joint).clamp;
+    const std::string force = words::say(words, words::Number{clamp / 1e3, 1});
     render::Label label = plate(fmt::format("{} {} kN", assembly.joints[joint].design.id, force),
-                                above_nut(setup, state, joint), 15.0F);
+                                above_nut(setup, joints, joint), 15.0F);
     label.moved_px = {0.0F, 8.0F};
     return label;
 }

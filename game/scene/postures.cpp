@@ -1,12 +1,16 @@
 #include "game/scene/postures.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bolt::scene {
 
 namespace {
 
 constexpr double deg = pi / 180.0;
+constexpr double glove = 2.5e-3;  // m, of the drawn hand beyond the pads
+constexpr double pad_lift =
+    3e-3;  // m, of the pads above the middle of a nut: their lower edge clears its seat
 constexpr double strained_wrist = 11.0 * deg;
 
 // Fingers bent by a share of a fist's, the thumb opposed. Chosen by eye.
@@ -19,12 +23,41 @@ hand::Angles closed(double share) {
     return a;
 }
 
-hand::Angles pinched() {
-    hand::Angles a = closed(0.45);
-    a.fingers[0] = {48.0 * deg, 42.0 * deg, 18.0 * deg, 0.0};
-    a.fingers[1] = {52.0 * deg, 48.0 * deg, 22.0 * deg, 0.0};
-    a.thumb = {58.0 * deg, 32.0 * deg, 22.0 * deg, 20.0 * deg};
+// Thumb against index and middle finger, with the other two stretched over what lies beside the nut.
+hand::Angles pinched(double thumb_abduction) {
+    hand::Angles a = closed(0.25);
+    a.fingers[0] = {62.0 * deg, 32.0 * deg, 14.0 * deg, 0.0};
+    a.fingers[1] = {64.0 * deg, 34.0 * deg, 16.0 * deg, 0.0};
+    a.thumb = {80.0 * deg, thumb_abduction, 4.0 * deg, 8.0 * deg};
     return a;
+}
+
+// The vector from the pad of the thumb to that of the index finger, in the frame of the wrist.
+Vec3 between_pads(const hand::Hand& hand, const hand::Angles& angles) {
+    const hand::Skeleton joints = hand::joints(hand, angles, Pose{});
+    return hand::pad(hand, joints, 1) - hand::pad(hand, joints, 0);
+}
+
+// The pinch whose pads just touch the corners of a nut that is `width` (m) across flats: the nut turns
+// between them.
+hand::Angles pinched_on(const hand::Hand& hand, double width) {
+    const double wanted = 2.0 / std::sqrt(3.0) * width + 2.0 * (hand::pad_radius + glove);
+    double narrow = 5.0 * deg, wide = 65.0 * deg;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (narrow + wide);
+        (glm::length(between_pads(hand, pinched(middle))) < wanted ? narrow : wide) = middle;
+    }
+    return pinched(0.5 * (narrow + wide));
+}
+
+// Of a right wrist: the line between the pads lies across the nut's axis and towards −x, the back of the hand
+// is up (+z).
+Quat over_nut(const Vec3& between_pads) {
+    const Vec3 line = glm::normalize(between_pads);
+    const Vec3 back = glm::normalize(Vec3(0, 1, 0) - line.y * line);
+    const glm::dmat3 own(line, back, glm::cross(line, back));
+    const glm::dmat3 wanted(Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 1, 0));
+    return glm::normalize(glm::quat_cast(wanted * glm::transpose(own)));
 }
 
 // A left hand is a right one in a mirror across the tool, in its plane y = 0, and its own frame is mirrored
@@ -36,8 +69,7 @@ Pose on_side(const Pose& of_right, hand::Side side) {
 }
 
 // Fingertips that press are bent back, and the joints before them bend for it.
-hand::Angles pinched_hard() {
-    hand::Angles a = pinched();
+hand::Angles pinched_hard(hand::Angles a) {
     for (std::size_t i = 0; i < 2; ++i) {
         a.fingers[i].pip += 16.0 * deg;
         a.fingers[i].dip -= 24.0 * deg;
@@ -69,12 +101,15 @@ Pose wrist_on_handle(double grip_at) {
 
 }  // namespace
 
-Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::Side side) {
+Postures make_postures(const collision::ToolShape* wrench, double grip_at, hand::Side side,
+                       double nut_width) {
     const hand::Hand hand = hand::make_hand(side);
     Postures postures;
+    postures.grip_at = grip_at;
     const Pose on_handle = on_side(wrist_on_handle(grip_at), side);
     const auto closed_on = [&](const Pose& wrist) {
-        return wrench != nullptr ? grip::close_on(*wrench, hand, closed(1.0), wrist).shown : closed(0.75);
+        return wrench != nullptr ? hand::close_fingers(*wrench, hand, closed(1.0), wrist).angles
+                                 : closed(0.75);
     };
     for (std::size_t i = 0; i < postures.on_handle.size(); ++i) {
         // Over to the other face, and about the handle's middle to the other end.
@@ -92,15 +127,17 @@ Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::S
         postures.strained[i] = hand::joints(hand, closed_on(hard), hard);
     }
 
-    // The pads meet at the tool's origin, the fingers come from above and from the handle's side.
+    // The pads are on either side of the tool's origin, the forearm is on the handle's side.
+    const hand::Hand right = hand::make_hand(hand::Side::right);
+    const hand::Angles pinch = pinched_on(right, nut_width);
+    const Quat over = on_side({Vec3(0.0), over_nut(between_pads(right, pinch))}, side).orientation;
     const auto meeting = [&](const hand::Angles& bent, double lift) {
         const hand::Skeleton flat = hand::joints(hand, bent, Pose{});
         const Vec3 middle = 0.5 * (hand::pad(hand, flat, 0) + hand::pad(hand, flat, 1));
-        const Quat lean = on_side({Vec3(0.0), glm::angleAxis(58.0 * deg, Vec3(0, 1, 0))}, side).orientation;
-        return hand::joints(hand, bent, Pose{Vec3(0.0, 0.0, lift) - lean * middle, lean});
+        return hand::joints(hand, bent, Pose{Vec3(0.0, 0.0, lift) - over * middle, over});
     };
-    postures.on_nut = meeting(pinched(), 0.0);
-    postures.on_nut_strained = meeting(pinched_hard(), 0.0);
+    postures.on_nut = meeting(pinch, pad_lift);
+    postures.on_nut_strained = meeting(pinched_hard(pinch), pad_lift);
     postures.open = meeting(closed(0.25), 0.02);
     return postures;
 }

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "haptics/grip/closing.hpp"
+#include "haptics/hand/finger_closure.hpp"
 
 namespace bolt::scene {
 
@@ -17,6 +17,7 @@ struct Postures {
     // wrist rolled over it with the fingers after; fingertips bent back on the nut.
     std::array<hand::Skeleton, 4> at_ease, strained;
     hand::Skeleton on_nut_strained;
+    double grip_at = 0.0;  // m, from the jaw's middle along the handle
 };
 
 // On the handle held that way, with so much of the force that there is (0 … 1); likewise on a nut.
@@ -31,8 +32,9 @@ std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3&
 Pose towards(const Pose& tool, const Vec3& shoulder, double twisted);
 
 // `grip_at`: m from the jaw's middle along the handle. The fingers close on the wrench as far as it lets
-// them.
-Postures make_postures(const contact::ToolShape* wrench, double grip_at, hand::Side side = hand::Side::right);
+// them, and on a nut that is `nut_width` (m) across flats.
+Postures make_postures(const collision::ToolShape* wrench, double grip_at,
+                       hand::Side side = hand::Side::right, double nut_width = 0.024);
 
 // Between two of them.
 hand::Skeleton between(const hand::Skeleton& a, const hand::Skeleton& b, double share);

@@ -21,7 +21,7 @@ inline constexpr double shoulders_below_eyes = 0.2;  // m, about what DIN 33402-
 
 // Where a wrench lies: before the machine, its handle along x to the side of the hand that takes it, its
 // jaw's normal up.
-inline Pose resting_place(const render::Box& machine, double head_thickness,
+inline Pose resting_place(const render::BoundingBox& machine, double head_thickness,
                           hand::Side side = hand::Side::right) {
     const Vec3 low(machine.low), high(machine.high);
     const Quat round = glm::angleAxis(side == hand::Side::left ? pi : 0.0, Vec3(0, 1, 0));
@@ -30,13 +30,13 @@ inline Pose resting_place(const render::Box& machine, double head_thickness,
 }
 
 // m, of the eyes of somebody who sits.
-inline std::optional<double> eye_level(const render::Box& machine, const Worker& worker) {
+inline std::optional<double> eye_level(const render::BoundingBox& machine, const Worker& worker) {
     if (!worker.seated_eyes) return std::nullopt;
     return static_cast<double>(machine.low.y) - floor_below_plate + *worker.seated_eyes;
 }
 
 // The shoulder of the hand that works.
-inline Vec3 shoulder_at(const render::Box& machine, const Worker& worker = {}) {
+inline Vec3 shoulder_at(const render::BoundingBox& machine, const Worker& worker = {}) {
     const Vec3 low(machine.low), high(machine.high);
     Vec3 at = high + Vec3(0.35, 0.3, 0.4);
     if (worker.side == hand::Side::left) at.x = low.x - 0.35;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "game/world/haptics.hpp"
+
 namespace bolt::scene {
 
 namespace {
@@ -12,6 +14,7 @@ constexpr float ghost_opacity = 0.4F, most_pale = 0.4F;
 constexpr double around_work = 0.9, around_waiting = 3.0;  // of a nut's width, around its middle, kept free
 constexpr double forearm = 0.25, nearest_arm = 0.12, clear_arm = 0.24;  // m: of it; thinned, and not at all
 constexpr float most_thinned = 0.85F;
+constexpr double fades_from = 4e-3, fades_to = 12e-3;  // m that the hand is deep in something solid
 constexpr glm::vec3 pale{0.95F, 0.80F, 0.74F};
 constexpr glm::vec4 ghost_tint{0.2F, 0.75F, 1.0F, 0.7F};
 
@@ -29,10 +32,25 @@ double furthest(const hand::Skeleton& a, const hand::Skeleton& b) {
 
 std::shared_ptr<const render::Deformation> bend(const Fingers& fingers, const hand::Skeleton& to) {
     render::Deformation deformation;
-    for (std::size_t i = 0; i < fingers.inverse_bind.size() && i < hand::joint_count; ++i)
-        deformation.joints.push_back(glm::mat4(matrix({to.position[i], to.rotation[i]})) *
-                                     fingers.inverse_bind[i]);
+    for (std::size_t i = 0; i < fingers.inverse_bind.size() && i < hand::joint_count; ++i) {
+        glm::dmat4 joint = matrix({to.position[i], to.rotation[i]});
+        if (i == hand::wrist) joint = glm::scale(joint, Vec3(1.0, 1.0, fingers.clearance.cuff));
+        deformation.joints.push_back(glm::mat4(joint) * fingers.inverse_bind[i]);
+    }
     return std::make_shared<const render::Deformation>(std::move(deformation));
+}
+
+// The posture, departed from as far as the solids demand. A gloved hand is drawn as it is measured.
+hand::Skeleton clear_of_solids(Fingers& fingers, const Postures& postures, const Held& held, const Pose& at) {
+    if (held.gloved != nullptr || held.solids == nullptr || !fingers.skin) {
+        fingers.clearance = {};
+        return fingers.posture;
+    }
+    const HandTask task = held.wrench ? HandTask::on_handle : HandTask::at_nut;
+    const Vec3 pivot(held.wrench ? postures.grip_at : 0.0, 0.0, 0.0);
+    advance(fingers.clearance, {held.solids, at, task, pivot, *fingers.skin, fingers.inverse_bind},
+            fingers.posture, held.seconds);
+    return departed(fingers.posture, fingers.clearance.shown, task, pivot);
 }
 
 void outline(World& world, ecs::Entity entity, const glm::vec4& color) {
@@ -44,9 +62,15 @@ void outline(World& world, ecs::Entity entity, const glm::vec4& color) {
 
 }  // namespace
 
-void place_nuts(World& world, const servo::Setup& setup, std::span<const joint::JointState> joints) {
+double widest_nut(const servo::Setup& setup) {
+    double widest = 0.0;
+    for (const auto& nut : setup.nuts) widest = std::max(widest, nut.across_flats);
+    return widest;
+}
+
+void place_nuts(World& world, const servo::Setup& setup) {
     world.view<const Nut, Placement>().each([&](const Nut& nut, Placement& placement) {
-        const Pose pose = servo::nut_pose(setup.nuts[nut.joint], joints[nut.joint].nut.angle);
+        const Pose pose = servo::nut_pose(setup.nuts[nut.joint], world::joint_at(world, nut.joint).angle);
         placement.world = glm::mat4(matrix(pose) * nut.own_from_mesh);
     });
 }
@@ -73,11 +97,13 @@ void place_hand(World& world, const Postures& postures, const Held& held) {
         placement.world = glm::mat4(matrix(at));
         fingers.strain = static_cast<float>(held.strain);
         const bool first = !fingers.deformation;
-        const double far = first ? 1.0 : furthest(fingers.shown, goal);
-        if (far == 0.0) return;
+        const double far = first ? 1.0 : furthest(fingers.posture, goal);
         const bool there = first || far < 2e-4 || held.gloved != nullptr;
-        const hand::Skeleton shown =
-            there ? goal : between(fingers.shown, goal, 1.0 - std::exp(-held.seconds / change));
+        fingers.posture =
+            there ? goal : between(fingers.posture, goal, 1.0 - std::exp(-held.seconds / change));
+        const double cuff = fingers.clearance.cuff;
+        const hand::Skeleton shown = clear_of_solids(fingers, postures, held, at);
+        if (!first && cuff == fingers.clearance.cuff && furthest(fingers.shown, shown) == 0.0) return;
         fingers.shown = shown;
         fingers.deformation = bend(fingers, shown);
     });
@@ -117,12 +143,12 @@ void outline_tool(World& world, const glm::vec4& color) {
         [&](ecs::Entity entity, const OnTool&) { outline(world, entity, color); });
 }
 
-void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup, const servo::State& state,
-                   std::size_t joint, Hides hides) {
-    const servo::NutPlace& nut = setup.nuts[joint];
+void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup, std::size_t joint,
+                   Hides hides) {
+    const servo::NutGeometry& nut = setup.nuts[joint];
     const bool all = hides == Hides::all;
     const double kept_free = all ? around_work : around_waiting;
-    scene.cut_away = {glm::vec3(servo::nut_centre(nut, state.joints[joint].nut.angle)),
+    scene.cut_away = {glm::vec3(world::nut_centre(world, setup, joint)),
                       static_cast<float>(kept_free * nut.across_flats), 1.0F};
     world.view<CanFade>().each([&](CanFade& can) { can.fades = all; });
     world.view<const OfJoint, CanFade>().each(
@@ -154,36 +180,41 @@ render::Scene lit(const Workplace& place, const render::EnvironmentLight& light)
     return scene;
 }
 
+void remove_pictures(World& world) {
+    world.view<const Drawn>().each([&](ecs::Entity entity, const Drawn&) { world.destroy(entity); });
+}
+
 void present(World& world, render::Scene& scene) {
     scene.objects.clear();
-    world.view<const Drawn, const Placement>().each(
-        [&](ecs::Entity entity, const Drawn& drawn, const Placement& placement) {
-            render::Object object;
-            object.model = drawn.model;
-            object.mesh = drawn.mesh;
-            object.node = drawn.node;
-            object.moves = drawn.moves;
-            object.world = placement.world;
-            if (const Fingers* fingers = world.find<Fingers>(entity)) {
-                object.deformation = fingers->deformation;
-                // Never quite none: what has none is drawn by other shaders, made in the middle of a pull.
-                object.tint = glm::vec4(pale, std::max(1e-3F, most_pale * fingers->strain));
-                object.opacity = 1.0F - most_thinned * fingers->too_near;
-            }
-            if (const Outlined* line = world.find<Outlined>(entity)) object.outline = line->color;
-            if (const CanFade* fade = world.find<CanFade>(entity)) object.cut = fade->fades;
-            if (const Ghost* ghost = world.find<Ghost>(entity)) {
-                if (!ghost->shown) return;
-                object.opacity *= ghost_opacity;
+    world.view<const Drawn, const Placement>().each([&](ecs::Entity entity, const Drawn& drawn,
+                                                        const Placement& placement) {
+        render::Object object;
+        object.model = drawn.model;
+        object.mesh = drawn.mesh;
+        object.node = drawn.node;
+        object.moves = drawn.moves;
+        object.world = placement.world;
+        if (const Fingers* fingers = world.find<Fingers>(entity)) {
+            object.deformation = fingers->deformation;
+            // Never quite none: what has none is drawn by other shaders, made in the middle of a pull.
+            object.tint = glm::vec4(pale, std::max(1e-3F, most_pale * fingers->strain));
+            const double intrudes = glm::smoothstep(fades_from, fades_to, fingers->clearance.depth);
+            object.opacity = 1.0F - most_thinned * std::max(fingers->too_near, static_cast<float>(intrudes));
+        }
+        if (const Outlined* line = world.find<Outlined>(entity)) object.outline = line->color;
+        if (const CanFade* fade = world.find<CanFade>(entity)) object.cut = fade->fades;
+        if (const Ghost* ghost = world.find<Ghost>(entity)) {
+            if (!ghost->shown) return;
+            object.opacity *= ghost_opacity;
 
-                object.tint = ghost_tint;
-            }
-            if (const Pointer* pointer = world.find<Pointer>(entity)) {
-                if (!pointer->shown) return;
-                object.tint = glm::vec4(glm::vec3(pointer->color), 1.0F);
-            }
-            scene.objects.push_back(object);
-        });
+            object.tint = ghost_tint;
+        }
+        if (const Pointer* pointer = world.find<Pointer>(entity)) {
+            if (!pointer->shown) return;
+            object.tint = glm::vec4(glm::vec3(pointer->color), 1.0F);
+        }
+        scene.objects.push_back(object);
+    });
 }
 
 }  // namespace bolt::scene

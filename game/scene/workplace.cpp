@@ -4,11 +4,13 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "game/play/hexagon_lie.hpp"
+#include "game/session/hexagon_lie.hpp"
 
 namespace bolt::scene {
 
 namespace {
+
+constexpr std::size_t clearance_points = 320;  // of the hand's skin, kept out of solids
 
 glm::dmat4 matrix(const Quat& turn) { return glm::mat4_cast(turn); }
 
@@ -31,12 +33,12 @@ std::vector<int> joints_of(const assets::Model& model, const content::Assembly& 
 }
 
 // From a nut's mesh to its own frame, read off its corners (play/hexagon_lie.hpp).
-glm::dmat4 own_from_mesh(const assets::Mesh& mesh, const glm::mat4& world, const servo::NutPlace& nut) {
+glm::dmat4 own_from_mesh(const assets::Mesh& mesh, const glm::mat4& world, const servo::NutGeometry& nut) {
     std::vector<glm::dvec3> points;
     for (const assets::Primitive& p : mesh.primitives)
         for (const glm::vec3& at : p.positions) points.emplace_back(glm::dmat4(world) * glm::dvec4(at, 1.0));
-    const play::HexagonLie lie = play::lie_of(nut, points);
-    const auto own = [&](const Vec3& p) { return play::to_own_frame(nut, lie, p); };
+    const session::HexagonLie lie = session::lie_of(nut, points);
+    const auto own = [&](const Vec3& p) { return session::to_own_frame(nut, lie, p); };
     const Vec3 origin = own(Vec3(0.0));
     glm::dmat4 from_assembly(1.0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -59,7 +61,7 @@ Status add_machine(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu,
                    const content::Assembly& assembly, const servo::Setup& setup) {
     const assets::Model& model = shelf.machine.model;
     render::Scene rest;
-    render::place(rest, model, on_gpu.machine);
+    render::add_model(rest, model, on_gpu.machine);
     place.machine = render::bounds(rest);
     const std::vector<int> joints = joints_of(model, assembly);
     std::vector<bool> has_nut(setup.nuts.size(), false);
@@ -92,14 +94,14 @@ void add_workshop(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) 
     place.workshop = glm::translate(glm::dmat4(1.0), Vec3(foot));
     if (shelf.workshop.meshes.empty()) return;
     render::Scene rest;
-    render::place(rest, shelf.workshop, on_gpu.workshop, glm::mat4(place.workshop));
+    render::add_model(rest, shelf.workshop, on_gpu.workshop, glm::mat4(place.workshop));
     for (const render::Object& object : rest.objects) add(place.world, object);
 }
 
 void add_wrench(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
     if (shelf.wrench.meshes.empty()) return;
     render::Scene rest;
-    render::place(rest, shelf.wrench, on_gpu.wrench);
+    render::add_model(rest, shelf.wrench, on_gpu.wrench);
     for (const render::Object& object : rest.objects) {
         const ecs::Entity entity = add(place.world, object);
         place.world.get<Drawn>(entity).moves = true;
@@ -113,13 +115,16 @@ void add_wrench(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
 
 void add_hand(Workplace& place, const Shelf& shelf, const GpuShelf& on_gpu) {
     if (shelf.hand.skins.empty()) return;
+    const auto skin =
+        std::make_shared<const std::vector<SkinPoint>>(spread_skin_points(shelf.hand, clearance_points));
     render::Scene rest;
-    render::place(rest, shelf.hand, on_gpu.hand);
+    render::add_model(rest, shelf.hand, on_gpu.hand);
     for (const render::Object& object : rest.objects) {
         const ecs::Entity entity = add(place.world, object);
         place.world.get<Drawn>(entity).moves = true;
         place.world.add<CanFade>(entity, true);
-        place.world.add<Fingers>(entity, hand::Skeleton{}, shelf.hand.skins.front().inverse_bind, nullptr);
+        place.world.add<Fingers>(entity, hand::Skeleton{}, shelf.hand.skins.front().inverse_bind, nullptr)
+            .skin = skin;
         const ecs::Entity ghost = add(place.world, object);
         place.world.get<Drawn>(ghost).moves = true;
         place.world.add<Fingers>(ghost, hand::Skeleton{}, shelf.hand.skins.front().inverse_bind, nullptr);
@@ -138,10 +143,11 @@ void add_arrows(Workplace& place, const GpuShelf& on_gpu) {
 
 }  // namespace
 
-Result<Workplace> make_workplace(const Shelf& shelf, const GpuShelf& on_gpu,
+Result<Workplace> make_workplace(World world, const Shelf& shelf, const GpuShelf& on_gpu,
                                  const content::Assembly& assembly, const servo::Setup& setup) {
     Workplace place;
-    if (Status s = add_machine(place, shelf, on_gpu, assembly, setup); !s) return fail(s.error());
+    place.world = std::move(world);
+    BOLT_TRY(add_machine(place, shelf, on_gpu, assembly, setup));
     add_workshop(place, shelf, on_gpu);
     add_wrench(place, shelf, on_gpu);
     add_hand(place, shelf, on_gpu);

@@ -15,10 +15,10 @@ void Feed::push(const Heard& heard) {
 void Feed::fill(std::span<float> samples) {
     Heard heard;
     const double lasts = static_cast<double>(samples.size()) / synth_.rate;  // s
-    for (auto over = static_cast<std::int64_t>(ticks_.waiting()) - std::lround(stale / dt_);
+    for (auto over = static_cast<std::int64_t>(ticks_.size()) - std::lround(stale / dt_);
          over > 0 && ticks_.pop(heard); --over)
         lost_.fetch_add(1, std::memory_order_relaxed);
-    const auto waiting = static_cast<double>(ticks_.waiting());
+    const auto waiting = static_cast<double>(ticks_.size());
     // As many as last as long as the samples do, or so many more that all would be gone in `behind`.
     owed_ += std::max(lasts / dt_, waiting * std::min(1.0, lasts / behind));
     const auto count = static_cast<std::size_t>(std::min(owed_, waiting));

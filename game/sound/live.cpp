@@ -13,12 +13,12 @@ Result<Live> Live::start(const servo::Setup& setup, std::vector<Met> still) {
 
 Result<Live> Live::start(const servo::Setup& setup, std::vector<Met> still, audio::OpenSink open) {
     auto feed = std::make_shared<Feed>(make_synth(setup, audio::rate), setup.dt);
-    auto speaker =
-        audio::Speaker::start([feed](std::span<float> samples) { feed->fill(samples); }, std::move(open));
-    if (!speaker) return fail(speaker.error());
+    BOLT_TRY_ASSIGN(
+        auto speaker,
+        audio::Speaker::start([feed](std::span<float> samples) { feed->fill(samples); }, std::move(open)));
     Ear ear;
     ear.still = std::move(still);
-    return Live(setup, std::move(ear), std::move(feed), std::move(*speaker));
+    return Live(setup, std::move(ear), std::move(feed), std::move(speaker));
 }
 
 }  // namespace bolt::sound

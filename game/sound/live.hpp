@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/audio/speaker.hpp"
-#include "game/sound/ear.hpp"
+#include "game/sound/event_detection.hpp"
 #include "game/sound/feed.hpp"
 
 namespace bolt::sound {
@@ -19,11 +19,11 @@ class Live {
     static Result<Live> start(const servo::Setup& setup, std::vector<Met> still);
     static Result<Live> start(const servo::Setup& setup, std::vector<Met> still, audio::OpenSink open);
 
-    void tick(const servo::Output& output, const Cues& cues) {
-        feed_->push(hear(ear_, *setup_, output, cues));
-    }
+    void tick(const Audible& world, const Cues& cues) { feed_->push(hear(ear_, *setup_, world, cues)); }
     void set_volume(double volume) { speaker_.set_volume(volume); }  // 0 … 1
-    std::optional<std::string> news() { return speaker_.news(); }    // a line to show, once for every change
+    std::optional<std::string> news() {
+        return speaker_.status_change();
+    }  // a line to show, once for every change
 
   private:
     Live(const servo::Setup& setup, Ear ear, std::shared_ptr<Feed> feed, audio::Speaker speaker);

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "content/format/assembly.hpp"
-#include "game/record/session.hpp"
-#include "game/sound/heard.hpp"
+#include "game/session/session_file.hpp"
+#include "game/sound/sound_cues.hpp"
 
 namespace bolt::sound {
 
 // Bolts and washers sound as nuts do: parts whose names begin with a joint's id, as `B1_washer` does. All
 // others are taken for castings.
-std::vector<Met> materials(const content::Assembly& assembly, std::span<const record::ObstacleName> names);
+std::vector<Met> materials(const content::Assembly& assembly, std::span<const session::ObstacleName> names);
 
 }  // namespace bolt::sound

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/audio/wav.hpp"
-#include "game/sound/ear.hpp"
+#include "game/sound/event_detection.hpp"
 #include "game/sound/track.hpp"
 
 namespace bolt::sound {
@@ -18,7 +18,7 @@ class Soundtrack {
                                      std::vector<Met> still, double from = 0.0);
 
     // The tick that ends at `time` (s).
-    Status hear(const servo::Setup& setup, const servo::Output& output, const Cues& cues, double time);
+    Status hear(const servo::Setup& setup, const Audible& world, const Cues& cues, double time);
 
     // Until here there is no file.
     Status finish() { return wav_.finish(); }

@@ -13,8 +13,8 @@
 #include <span>
 
 #include "engine/base/random.hpp"
-#include "game/sound/heard.hpp"
 #include "game/sound/resonators.hpp"
+#include "game/sound/sound_cues.hpp"
 #include "haptics/servo/setup.hpp"
 
 namespace bolt::sound {

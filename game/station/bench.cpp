@@ -2,25 +2,26 @@
 
 #include <utility>
 
-namespace bolt::station {
+namespace bolt::station_setup {
 
 namespace {
 
-class AtWork final : public Bench {
+class RunningStation final : public Bench {
   public:
-    AtWork(Station station, std::optional<device::Puck> puck)
+    RunningStation(station::Station station, std::optional<device::VirtualPuck> puck)
         : puck_(std::move(puck)), station_(std::move(station)) {}
 
-    void wish(const Wishes& wishes) override { station_.wish(wishes); }
-    void push(const device::Push& push) override {
-        if (puck_) puck_->put(push);
+    void set_controls(const station::StationControls& controls) override { station_.set_controls(controls); }
+    Status send(const station::StationCommand& command) override { return station_.send(command); }
+    void push(const device::PuckInput& push) override {
+        if (puck_) puck_->set_input(push);
     }
-    bool next(Ticked& tick) override { return station_.next(tick); }
-    const Ticked& newest() override { return station_.newest(); }
-    [[nodiscard]] std::uint64_t lost() const override { return station_.lost(); }
-    const ShownHand* hand() override { return station_.hand(); }
+    bool next_tick(station::TickRecord& tick) override { return station_.next_tick(tick); }
+    const station::TickRecord& latest_tick() override { return station_.latest_tick(); }
+    [[nodiscard]] std::uint64_t lost_ticks() const override { return station_.lost_ticks(); }
+    const station::DisplayedHand* hand() override { return station_.hand(); }
     std::vector<std::string> troubles() override { return station_.troubles(); }
-    [[nodiscard]] const Layout& layout() const override { return station_.layout(); }
+    [[nodiscard]] const station::Layout& layout() const override { return station_.layout(); }
     [[nodiscard]] const servo::Setup& setup() const override { return station_.setup(); }
     const servo::Timing* stop() override {
         station_.stop();
@@ -28,16 +29,16 @@ class AtWork final : public Bench {
     }
 
   private:
-    std::optional<device::Puck> puck_;
-    Station station_;
+    std::optional<device::VirtualPuck> puck_;
+    station::Station station_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Bench>> start_bench(Plan plan, std::optional<device::Puck> puck) {
-    Result<Station> station = Station::start(std::move(plan));
-    if (!station) return fail(station.error());
-    return std::make_unique<AtWork>(std::move(*station), std::move(puck));
+Result<std::unique_ptr<Bench>> start_bench(station::StationOptions options,
+                                           std::optional<device::VirtualPuck> puck) {
+    BOLT_TRY_ASSIGN(auto station, station::Station::start(std::move(options)));
+    return std::make_unique<RunningStation>(std::move(station), std::move(puck));
 }
 
-}  // namespace bolt::station
+}  // namespace bolt::station_setup

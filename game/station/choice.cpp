@@ -4,7 +4,7 @@
 
 #include "engine/base/nearest.hpp"
 
-namespace bolt::station {
+namespace bolt::station_setup {
 
 std::optional<Use> use_of(device::HidKind kind) {
     switch (kind) {
@@ -21,9 +21,9 @@ std::optional<Use> use_of(device::HidKind kind) {
 
 const char* words(Use use) { return use == Use::mover ? "moves the tool" : "turns the wrench on its bolt"; }
 
-Result<device::Listed> find(std::span<const device::Listed> there, const std::string& id) {
+Result<device::ListedDevice> find(std::span<const device::ListedDevice> there, const std::string& id) {
     std::vector<std::string> ids;
-    for (const device::Listed& l : there) {
+    for (const device::ListedDevice& l : there) {
         ids.push_back(l.id);
         if (l.id != id) continue;
         if (l.trouble) return fail(*l.trouble);
@@ -34,31 +34,30 @@ Result<device::Listed> find(std::span<const device::Listed> there, const std::st
                 near.empty() ? "one that `boltwright devices` lists" : fmt::format("did you mean {}?", near));
 }
 
-Result<Choice> choose(std::span<const device::Listed> there, std::span<const std::string> ids) {
+Result<Choice> choose(std::span<const device::ListedDevice> there, std::span<const std::string> ids) {
     Choice choice;
     for (const std::string& id : ids) {
-        const Result<device::Listed> found = find(there, id);
-        if (!found) return fail(found.error());
-        const std::optional<Use> use = use_of(found->kind);
+        BOLT_TRY_ASSIGN(const auto found, find(there, id));
+        const std::optional<Use> use = use_of(found.kind);
         if (!use)
-            return fail(ErrorCode::usage, fmt::format("{} ({}) is nothing to train with", id, found->name),
+            return fail(ErrorCode::usage, fmt::format("{} ({}) is nothing to train with", id, found.name),
                         "a SpaceMouse, an OpenFFBoard or a wheel with force feedback");
-        std::optional<device::Listed>& place = *use == Use::mover ? choice.mover : choice.wheel;
+        std::optional<device::ListedDevice>& place = *use == Use::mover ? choice.mover : choice.wheel;
         if (place)
             return fail(ErrorCode::usage,
                         fmt::format("both {} and {} are one that {}", place->id, id, words(*use)),
                         "one of them");
-        place = *found;
+        place = found;
     }
     return choice;
 }
 
-Choice choose_any(std::span<const device::Listed> there) {
+Choice choose_any(std::span<const device::ListedDevice> there) {
     Choice choice;
-    for (const device::Listed& l : there) {
+    for (const device::ListedDevice& l : there) {
         const std::optional<Use> use = use_of(l.kind);
         if (!use || l.trouble) continue;
-        std::optional<device::Listed>& place = *use == Use::mover ? choice.mover : choice.wheel;
+        std::optional<device::ListedDevice>& place = *use == Use::mover ? choice.mover : choice.wheel;
         if (!place) place = l;
     }
     return choice;
@@ -71,4 +70,4 @@ std::vector<std::string> ids_of(const Choice& choice) {
     return ids;
 }
 
-}  // namespace bolt::station
+}  // namespace bolt::station_setup

@@ -1,4 +1,5 @@
-// Which of the devices that are there a station uses, and what for. Pure: device::list() says what is there.
+// Which of the devices that are there a station uses, and what for. Pure: device::list_devices() says what is
+// there.
 #pragma once
 
 #include <optional>
@@ -6,31 +7,32 @@
 #include <string>
 #include <vector>
 
-#include "haptics/device/list.hpp"
+#include "haptics/device/hid_devices.hpp"
 
-namespace bolt::station {
+namespace bolt::station_setup {
 
 enum class Use : std::uint8_t {
     mover,  // moves the tool
-    wheel,  // turns the wrench on its bolt, and feels it
+    wheel,  // turns the wrench on its bolt and renders its torque
 };
-// None: nothing that a station could use it for.
+// The role of such a device; none: a station cannot use it.
 std::optional<Use> use_of(device::HidKind kind);
 const char* words(Use use);
 
-// The one with this id. An error: there is none (with the nearest), or it cannot be used, and what mends
-// that.
-Result<device::Listed> find(std::span<const device::Listed> there, const std::string& id);
+// The device with this id. Fails if there is none, and then suggests the nearest id, or if it cannot be
+// opened, and then names the remedy.
+Result<device::ListedDevice> find(std::span<const device::ListedDevice> there, const std::string& id);
 
 struct Choice {
-    std::optional<device::Listed> mover, wheel;
+    std::optional<device::ListedDevice> mover, wheel;
 };
 
-// The devices with these ids, one for each use. An error as above, or two of a kind, or one of no use.
-Result<Choice> choose(std::span<const device::Listed> there, std::span<const std::string> ids);
+// The devices with these ids, at most one per role. Fails as find(), if two have the same role, or if one has
+// none.
+Result<Choice> choose(std::span<const device::ListedDevice> there, std::span<const std::string> ids);
 
-// The first of each kind that can be used.
-Choice choose_any(std::span<const device::Listed> there);
+// The first usable device of each role.
+Choice choose_any(std::span<const device::ListedDevice> there);
 std::vector<std::string> ids_of(const Choice& choice);
 
-}  // namespace bolt::station
+}  // namespace bolt::station_setup

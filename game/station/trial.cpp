@@ -6,24 +6,24 @@
 #include <algorithm>
 #include <bit>
 
+#include "haptics/device/describe.hpp"
 #include "haptics/device/timer.hpp"
-#include "haptics/device/words.hpp"
 
-namespace bolt::station {
+namespace bolt::station_setup {
 
 namespace {
 
-// s: a line's reports are up to 0.1 s old, and a lost device is said in several words.
-constexpr double moment = 0.3;
-constexpr double look_every = 0.02;   // s
-constexpr double told_itself = 0.25;  // s of silence: the device's line says so (device/keeper.hpp)
+// s. Device reports are up to 0.1 s old, and the loss of a device produces several messages in turn.
+constexpr double onset = 0.3;
+constexpr double poll_period = 0.02;  // s
+constexpr double told_itself = 0.25;  // s of silence after which the device supervisor reports it
 
 bool renders(const std::optional<device::Description>& d) {
-    return d && (renders_force(*d) || renders_torque(*d));
+    return d && (station::renders_force(*d) || station::renders_torque(*d));
 }
-bool renders(const Layout& layout) { return renders(layout.mover) || renders(layout.wheel); }
+bool renders(const station::Layout& layout) { return renders(layout.mover) || renders(layout.wheel); }
 
-std::string passed(double count, double seconds, double age, double silence) {
+std::string sample_summary(double count, double seconds, double age, double silence) {
     return fmt::format(
         "{:.0f} samples, {:.0f} a second; the newest {:.0f} ms old, the longest silence {:.0f} ms\n", count,
         seconds > 0.0 ? count / seconds : 0.0, 1e3 * age, 1e3 * silence);
@@ -32,30 +32,30 @@ std::string passed(double count, double seconds, double age, double silence) {
 std::string sent(const TriedDevice& tried) {
     const device::Description& d = tried.description;
     std::string text;
-    if (renders_force(d))
-        text += fmt::format("    {:.2f} N at most went out, of {:.3g} N that it takes\n", tried.traffic.force,
-                            d.limits.force);
-    if (renders_torque(d))
+    if (station::renders_force(d))
+        text += fmt::format("    {:.2f} N at most went out, of {:.3g} N that it takes\n",
+                            tried.stats.largest_force, d.limits.force);
+    if (station::renders_torque(d))
         text += fmt::format("    {:.2f} N·m at most went out, of {:.3g} N·m that it takes\n",
-                            tried.traffic.torque, d.limits.torque);
+                            tried.stats.largest_torque, d.limits.torque);
     return text.empty() ? "    renders no force\n" : text;
 }
 
 std::string report(const TriedDevice& tried, const char* use, double seconds) {
     std::string text = fmt::format("  {}: {}\n    ", tried.description.name, use);
-    text += passed(static_cast<double>(tried.traffic.samples), seconds, tried.traffic.silent,
-                   tried.traffic.longest_silence);
+    text += sample_summary(static_cast<double>(tried.stats.samples), seconds, tried.stats.silence,
+                           tried.stats.longest_silence);
     if (tried.malformed > 0) text += fmt::format("    {} of its reports make no sense\n", tried.malformed);
     return text + sent(tried);
 }
 
 std::string report(const TriedGlove& tried, double seconds) {
-    const glove::Identity& who = tried.report.identity;
+    const hand::GloveIdentity& who = tried.report.identity;
     std::string text = fmt::format("Glove on {}: ", tried.port.string());
-    if (tried.report.greetings == 0) return text + "it did not answer\n";
+    if (tried.report.handshakes == 0) return text + "it did not answer\n";
     text += fmt::format("CyberGlove, {} hand, {} sensors\n    ",
-                        who.hand == glove::Hand::left ? "left" : "right", who.sensors);
-    text += passed(tried.frames, seconds, tried.age, tried.report.longest_silence);
+                        who.hand == hand::Side::left ? "left" : "right", who.sensors);
+    text += sample_summary(tried.frames, seconds, tried.age, tried.report.longest_silence);
     if (tried.report.lost_bytes > 0)
         text += fmt::format("    {} bytes on its line made no sense\n", tried.report.lost_bytes);
     if (const std::string about = about_adapter(tried.port); !about.empty())
@@ -72,18 +72,19 @@ std::string report(const TriedGlove& tried, double seconds) {
                                 "on its handle\n");
 }
 
-std::string report(const servo::Granted& granted) {
+std::string report(const servo::ThreadPrivileges& privileges) {
     std::string text;
-    if (granted.priority > 0) text += fmt::format("  real-time priority {} (SCHED_FIFO)\n", granted.priority);
-    if (granted.memory_locked) text += "  memory is locked\n";
-    for (const std::string& refused : granted.refused) text += "  " + refused + "\n";
+    if (privileges.priority > 0)
+        text += fmt::format("  real-time priority {} (SCHED_FIFO)\n", privileges.priority);
+    if (privileges.memory_locked) text += "  memory is locked\n";
+    for (const std::string& refused : privileges.refused) text += "  " + refused + "\n";
     return text;
 }
 
 std::optional<TriedDevice> tried(const std::optional<device::Description>& description,
-                                 const Traffic& traffic, const device::Report* report) {
+                                 const station::LinkStats& stats, const device::DeviceReport* report) {
     if (!description || report == nullptr) return std::nullopt;
-    return TriedDevice{*description, traffic, report->malformed, report->losses};
+    return TriedDevice{*description, stats, report->malformed, report->losses};
 }
 
 }  // namespace
@@ -98,7 +99,7 @@ void note(std::vector<Episode>& episodes, std::span<const std::string> troubles,
     };
     if (std::any_of(troubles.begin(), troubles.end(), is_new))
         std::erase_if(episodes,
-                      [&](const Episode& e) { return !e.until && time - e.from < moment && !is_said(e); });
+                      [&](const Episode& e) { return !e.until && time - e.from < onset && !is_said(e); });
     for (Episode& e : episodes) {
         if (e.until || is_said(e)) continue;
         e.until = time;
@@ -111,21 +112,23 @@ void note(std::vector<Episode>& episodes, std::span<const std::string> troubles,
     }
 }
 
-Trial try_station(Station& station, const Planned& planned, double seconds, const std::function<bool()>& stop,
-                  Tell tell) {
+Trial try_station(station::Station& station, const Planned& planned, double seconds,
+                  const std::function<bool()>& stop, Tell tell) {
     const device::Timer timer = device::steady_timer();
     const double begun = timer.now();
     Trial trial;
-    Wishes wishes;
-    wishes.grip = servo::Grip::wrench;
-    // Where nothing pulls the servo is given something to do. What pulls does so while its button is held.
-    wishes.held = !renders(station.layout());
-    station.wish(wishes);
-    const double frames = station.gloved() == nullptr ? 0.0 : static_cast<double>(station.gloved()->frames);
+    station::StationControls controls;
+    controls.grip = servo::Grip::wrench;
+    // Without force output the dead-man switch is set, so that the servo has its normal load. With force
+    // output the user's button decides.
+    controls.dead_man = !renders(station.layout());
+    station.set_controls(controls);
+    const double frames =
+        station.glove_report() == nullptr ? 0.0 : static_cast<double>(station.glove_report()->frames);
     std::uint64_t enabled = 0;
     bool held = false;
-    const auto look = [&] {
-        for (Ticked tick; station.next(tick);) enabled += tick.input.enabled ? 1 : 0;
+    const auto poll = [&] {
+        for (station::TickRecord tick; station.next_tick(tick);) enabled += tick.input.enabled ? 1 : 0;
         const double time = timer.now() - begun;
         note(trial.episodes, station.troubles(), time, tell);
         if (station.hand() == nullptr || station.hand()->held == held) return;
@@ -133,11 +136,11 @@ Trial try_station(Station& station, const Planned& planned, double seconds, cons
         tell(time, held ? "the hand takes the wrench" : "the hand lets go of the wrench");
     };
     while (timer.now() - begun < seconds && !stop()) {
-        timer.wait(std::min(look_every, begun + seconds - timer.now()));
-        look();
+        timer.wait(std::min(poll_period, begun + seconds - timer.now()));
+        poll();
     }
     trial.seconds = timer.now() - begun;
-    if (const glove::Report* glove = station.gloved()) {
+    if (const hand::GloveReport* glove = station.glove_report()) {
         trial.glove = {planned.glove,
                        *glove,
                        static_cast<double>(glove->frames) - frames,
@@ -146,18 +149,18 @@ Trial try_station(Station& station, const Planned& planned, double seconds, cons
                        station.hand() != nullptr && station.hand()->held};
     }
     station.stop();
-    look();
+    poll();
     if (planned.choice.mover)
-        trial.mover = tried(station.layout().mover, station.passed().mover, station.mover());
-    trial.wheel = tried(station.layout().wheel, station.passed().wheel, station.wheel());
+        trial.mover = tried(station.layout().mover, station.link_stats().mover, station.mover_report());
+    trial.wheel = tried(station.layout().wheel, station.link_stats().wheel, station.wheel_report());
     trial.timing = station.servo().timing();
-    trial.granted = station.servo().granted();
+    trial.privileges = station.servo().privileges();
     trial.rate = 1.0 / station.setup().dt;
     trial.enabled = static_cast<double>(enabled) * station.setup().dt;
     return trial;
 }
 
-std::string introduce(Layout layout, const Choice& choice) {
+std::string introduce(station::Layout layout, const Choice& choice) {
     std::string text;
     if (!choice.mover) {
         layout.mover.reset();
@@ -165,10 +168,11 @@ std::string introduce(Layout layout, const Choice& choice) {
     }
     std::vector<std::string> with_button;
     bool forces = false;
-    const auto add = [&](const std::optional<device::Description>& d, Use use, const Buttons& buttons) {
+    const auto add = [&](const std::optional<device::Description>& d, Use use,
+                         const station::Buttons& buttons) {
         if (!d) return;
         text += fmt::format("  {}  {}: {}\n", d->id, d->name, words(use));
-        for (const std::string& line : device::words(*d)) text += fmt::format("    {}\n", line);
+        for (const std::string& line : device::summary_lines(*d)) text += fmt::format("    {}\n", line);
         forces = forces || renders(d);
         if (d->buttons > 0 && buttons.held != 0)
             with_button.push_back(
@@ -192,7 +196,7 @@ std::string report(const Trial& trial) {
                     ? fmt::format("  the button was held for {:.1f} s\n", trial.enabled)
                     : "  the button was never held, so the servo had less to do than it will\n";
     if (trial.glove) text += report(*trial.glove, trial.seconds);
-    text += fmt::format("Servo at {:.0f} ticks a second:\n", trial.rate) + report(trial.granted);
+    text += fmt::format("Servo at {:.0f} ticks a second:\n", trial.rate) + report(trial.privileges);
     return text + servo::describe(trial.timing);
 }
 
@@ -206,18 +210,18 @@ std::vector<std::string> against(const Trial& trial) {
     for (const auto* tried : {&trial.mover, &trial.wheel}) {
         if (!tried->has_value()) continue;
         const device::Description& d = (*tried)->description;
-        const double silence = (*tried)->traffic.longest_silence;
-        // Longer ones, and that it was gone, its line has said already; what may rest is not silent.
-        if (renders((*tried)->description) && !d.rests && silence > d.limits.silence &&
+        const double silence = (*tried)->stats.longest_silence;
+        // The supervisor has reported longer silences and losses; a device that may rest is never silent.
+        if (renders((*tried)->description) && !d.silent_at_rest && silence > d.limits.silence &&
             silence < told_itself && (*tried)->losses == 0)
             reasons.push_back(
                 fmt::format("{} was silent for {:.0f} ms; after {:.0f} ms its force is let go of", d.name,
                             1e3 * silence, 1e3 * d.limits.silence));
     }
-    const servo::Verdict host = servo::judge_host(trial.timing, trial.rate);
+    const servo::HostAssessment host = servo::assess_host(trial.timing, trial.rate);
     reasons.insert(reasons.end(), host.reasons.begin(),
-                   host.reasons.begin() + static_cast<std::ptrdiff_t>(host.against));
+                   host.reasons.begin() + static_cast<std::ptrdiff_t>(host.violations));
     return reasons;
 }
 
-}  // namespace bolt::station
+}  // namespace bolt::station_setup

@@ -1,39 +1,39 @@
-// A station that somebody tries: what its devices told and were sent, how the servo kept its time, what was
-// wrong and when, and whether that is good enough to train with.
+// A trial run of a station: statistics of its devices, the timing of its servo, the problems that occurred,
+// and the assessment whether it is fit for training.
 #pragma once
 
 #include "engine/base/function_ref.hpp"
 #include "game/station/plan.hpp"
 
-namespace bolt::station {
+namespace bolt::station_setup {
 
-// Something that was wrong for a while.
+// A problem and the time for which it lasted.
 struct Episode {
     std::string words;
     double from = 0.0;            // s
-    std::optional<double> until;  // none: it still is
+    std::optional<double> until;  // none: it persists
 };
 
-// Gets what happened, in words, and when (s).
+// Receives a message and its time, s.
 using Tell = FunctionRef<void(double time, const std::string& words)>;
 
-// What Station::troubles() says at this time; what has begun or ended is told. What is said in other
-// words a moment later was the beginning of that, and is forgotten.
+// Updates the episodes from Station::troubles() at `time`; calls `tell` when a problem begins or ends. A
+// problem that another message replaces within 0.3 s was the onset of that one and is dropped.
 void note(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time, Tell tell);
 
 struct TriedDevice {
     device::Description description;
-    Traffic traffic;
+    station::LinkStats stats;
     std::uint64_t malformed = 0, losses = 0;
 };
 
 struct TriedGlove {
     std::filesystem::path port;
-    glove::Report report;
-    double frames = 0.0;  // while it was tried
-    double age = 0.0;     // s, of the newest
+    hand::GloveReport report;
+    double frames = 0.0;  // during the trial
+    double age = 0.0;     // s since the latest frame
     std::optional<content::GloveCalibration> worn;
-    bool held = false;  // the hand has the wrench
+    bool held = false;  // the hand holds the wrench
 };
 
 struct Trial {
@@ -41,22 +41,22 @@ struct Trial {
     double rate = 1000.0;  // 1/s, of the servo
     std::optional<TriedDevice> mover, wheel;
     std::optional<TriedGlove> glove;
-    double enabled = 0.0;  // s that the dead-man was held
+    double enabled = 0.0;  // s with the dead-man switch held
     servo::Timing timing;
-    servo::Granted granted;
+    servo::ThreadPrivileges privileges;
     std::vector<Episode> episodes;
 };
 
-// Tries a station for `seconds`, or until `stop`; the station is stopped then. Told is what goes wrong, and
-// when a gloved hand takes the wrench and lets it go; a hand without a glove holds it.
-Trial try_station(Station& station, const Planned& planned, double seconds, const std::function<bool()>& stop,
-                  Tell tell);
+// Runs the trial for `seconds` or until `stop` returns true, then stops the station. `tell` receives
+// problems, and grasps and releases of a gloved hand. Without a glove the wrench counts as held.
+Trial try_station(station::Station& station, const Planned& planned, double seconds,
+                  const std::function<bool()>& stop, Tell tell);
 
-// For a terminal: which devices there are and what for, and how their forces are let out.
-std::string introduce(Layout layout, const Choice& choice);
+// For the terminal: the devices, their roles, and the button that enables their forces.
+std::string introduce(station::Layout layout, const Choice& choice);
 std::string report(const Trial& trial);
 
-// What speaks against training with it, worst first; empty: it is good enough.
+// The reasons against training with the station, worst first; empty: it is fit.
 std::vector<std::string> against(const Trial& trial);
 
-}  // namespace bolt::station
+}  // namespace bolt::station_setup

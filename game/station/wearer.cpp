@@ -6,27 +6,27 @@
 #include <array>
 
 #include "content/trainee/data_folder.hpp"
-#include "game/play/touch_models.hpp"
+#include "game/session/contact_models.hpp"
 #include "haptics/device/timer.hpp"
-#include "haptics/glove/adapter.hpp"
-#include "haptics/hand/closing.hpp"
+#include "haptics/hand/closed_hand.hpp"
+#include "haptics/hand/glove_adapter.hpp"
 
-namespace bolt::station {
+namespace bolt::station_setup {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int quick = 2;          // ms: what an adapter may gather
-constexpr double patience = 6.0;  // s: a glove is asked each question three times before it is given up
+constexpr int longest_latency_timer = 2;  // ms
+constexpr double patience = 6.0;          // s; the handshake sends each query three times before it gives up
 
-// Of a right hand of the usual size: a flat bar along x, as a wrench's handle is, lies so far below and ahead
-// of the wrist when fingers reach round it, and so far across.
+// For a right hand of average size: offset, m, and rotation of a flat bar along x, such as a handle, from the
+// wrist when the fingers enclose it.
 constexpr Vec3 handle_at(0.0, -0.028, -0.098);
 constexpr double across = to_radians(-17.5);
-constexpr std::array closed_so_far{0.7, 0.8, 0.9, 1.0};  // people do not clench
+constexpr std::array closed_so_far{0.7, 0.8, 0.9, 1.0};  // shares of a full closure; people do not clench
 
-// Where else it is tried, what is nearest first: a thin handle lies deeper in the fingers.
+// Offsets to try, m, nearest first: a thin handle lies deeper in the fingers.
 std::vector<Vec3> places() {
     std::vector<Vec3> all;
     for (int y = -3; y <= 3; ++y)
@@ -49,24 +49,24 @@ Pose wrist_at(const hand::Hand& hand, const Vec3& off, double along) {
     return Pose{Vec3(along, 0.0, 0.0), rotation({0.5 * pi, 0.0, 0.0})} * wrist;
 }
 
-const char* name(glove::Hand hand) { return hand == glove::Hand::left ? "left" : "right"; }
+const char* name(hand::Side hand) { return hand == hand::Side::left ? "left" : "right"; }
 
 }  // namespace
 
 Result<fs::path> calibrations_folder() {
-    const Result<fs::path> data = content::data_folder();
-    if (!data) return fail(data.error());
-    return *data / "gloves";
+    BOLT_TRY_ASSIGN(const auto data, content::data_folder());
+    return data / "gloves";
 }
 
-Result<glove::Identity> await_glove(glove::Driver& driver, const fs::path& port) {
+Result<hand::GloveIdentity> await_glove(hand::GloveDriver& driver, const fs::path& port) {
     const device::Timer timer = device::steady_timer();
     const double until = timer.now() + patience;
     while (driver.sample().number == 0) {
-        const glove::Report& report = driver.report();
+        const hand::GloveReport& report = driver.report();
         const bool told = report.trouble[0] != '\0';
-        // A port that cannot be opened or a line that is no glove's is said at once; silence is waited for.
-        if ((told && report.state == glove::State::refused) ||
+        // Fails at once if the port cannot be opened or another device answers; waits while there is no
+        // answer.
+        if ((told && report.state == hand::GloveState::rejected) ||
             (told && !report.open && report.openings == 0) || timer.now() > until)
             return fail(ErrorCode::no_device,
                         fmt::format("{}: {}", port.string(), told ? report.trouble.data() : "no answer"),
@@ -77,25 +77,24 @@ Result<glove::Identity> await_glove(glove::Driver& driver, const fs::path& port)
 }
 
 std::string about_adapter(const fs::path& port) {
-    const auto ms = glove::gathers_ms(port);
-    if (!ms || *ms <= quick) return {};
+    const auto ms = hand::latency_timer_ms(port);
+    if (!ms || *ms <= longest_latency_timer) return {};
     return fmt::format(
         "its adapter gathers bytes for {} ms: install the udev rule (60-boltwright.rules) and plug it in "
         "again",
         *ms);
 }
 
-Result<content::GloveCalibration> calibration_of(const std::string& trainee, const glove::Identity& glove,
+Result<content::GloveCalibration> calibration_of(const std::string& trainee, const hand::GloveIdentity& glove,
                                                  const fs::path& folder) {
-    const Result<fs::path> where = folder.empty() ? calibrations_folder() : folder;
-    if (!where) return fail(where.error());
-    const fs::path path = content::glove_calibration_path(*where, trainee, glove.hand);
+    BOLT_TRY_ASSIGN(const auto where, folder.empty() ? calibrations_folder() : folder);
+    const fs::path path = content::glove_calibration_path(where, trainee, glove.hand);
     const std::string make = fmt::format("`boltwright glove calibrate --trainee \"{}\"` makes one", trainee);
     std::error_code failed;
     if (!fs::exists(path, failed))
         return fail(ErrorCode::bad_content,
                     fmt::format("no calibration of {}'s {} hand is kept in {}", trainee, name(glove.hand),
-                                where->string()),
+                                where.string()),
                     make);
     Result<content::GloveCalibration> kept = content::load_glove_calibration(path);
     if (kept && kept->sensors != glove.sensors)
@@ -106,15 +105,15 @@ Result<content::GloveCalibration> calibration_of(const std::string& trainee, con
     return kept;
 }
 
-Pose wrist_at_handle(const hand::Hand& hand, const contact::ToolShape& tool, double along) {
+Pose wrist_at_handle(const hand::Hand& hand, const collision::ToolShape& tool, double along) {
     Pose best;
     int most = -1;
     for (const Vec3& off : places()) {
         const Pose wrist = wrist_at(hand, off, along);
         int held = 0;
         for (const double share : closed_so_far) {
-            grip::Grip grip;
-            grip::step(grip, {}, tool, hand, {true, hand::closing(share), wrist}, 0.01);
+            hand::GraspState grip;
+            hand::update_grasp(grip, {}, tool, hand, {true, hand::closed_hand_angles(share), wrist}, 0.01);
             held += grip.grasping ? 1 : 0;
         }
         if (held <= most) continue;
@@ -124,14 +123,14 @@ Pose wrist_at_handle(const hand::Hand& hand, const contact::ToolShape& tool, dou
     return best;
 }
 
-Result<HandPlan> hand_plan(const content::Assembly& assembly, const content::GloveCalibration& calibration) {
-    Result<contact::ToolShape> tool = play::load_wrench(assembly);
-    if (!tool) return fail(tool.error());
-    glove::Wearer wearer;
+Result<station::HandSetup> hand_plan(const content::Assembly& assembly,
+                                     const content::GloveCalibration& calibration) {
+    BOLT_TRY_ASSIGN(auto tool, session::load_wrench(assembly));
+    hand::GloveWearer wearer;
     wearer.calibration = calibration.calibration;
-    wearer.hand = hand::make_hand(glove::side_of(calibration.hand), calibration.hand_length);
-    const Pose wrist = wrist_at_handle(wearer.hand, *tool, assembly.wrench.handle_length);
-    return HandPlan{std::move(wearer), std::move(*tool), wrist, {}};
+    wearer.hand = hand::make_hand(calibration.hand, calibration.hand_length);
+    const Pose wrist = wrist_at_handle(wearer.hand, tool, assembly.wrench.handle_length);
+    return station::HandSetup{std::move(wearer), std::move(tool), wrist, {}};
 }
 
-}  // namespace bolt::station
+}  // namespace bolt::station_setup

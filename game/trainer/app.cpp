@@ -11,7 +11,7 @@
 #include "game/scene/resting_place.hpp"
 #include "game/sound/materials.hpp"
 #include "game/trainer/hud.hpp"
-#include "game/trainer/plates.hpp"
+#include "game/trainer/occupied_areas.hpp"
 #include "game/trainer/ui_input.hpp"
 #include "haptics/force/scaled.hpp"
 
@@ -44,9 +44,16 @@ std::vector<Listed> list_assemblies() {
         const content::Loaded loaded = content::load_assembly(name);
         if (!loaded.ok() || loaded.assembly.models.model.empty()) continue;
         listed.push_back({name, loaded.assembly.variant, loaded.assembly.title, loaded.assembly.lesson,
-                          loaded.assembly.variants, loaded.assembly.tools});
+                          loaded.assembly.variants, loaded.assembly.tools, loaded.assembly.law});
     }
     return listed;
+}
+
+joint::Law App::law_in_force(joint::Law of_assembly) const {
+    if (options_.law) return *options_.law;
+    for (const joint::Law law : {joint::Law::mechanistic, joint::Law::published})
+        if (preferences_.settings.law == joint::name(law)) return law;
+    return of_assembly;
 }
 
 // Another language from now on.
@@ -119,7 +126,7 @@ void App::drop() {
     if (on_ && on_->painter->device) (void)on_->painter->device->idle();
     if (playing_) {
         playing_->scene = {};
-        playing_->place = {};
+        scene::remove_pictures(playing_->place.world);
     }
     backdrop_.drop();
     on_.reset();
@@ -131,9 +138,9 @@ Status App::place_on_gpu() {
     Result<std::unique_ptr<scene::GpuShelf>> up = scene::upload(*on_->painter->device, *shelf_);
     if (!up) return fail(up.error());
     on_->shelf = std::move(*up);
-    Playing& p = *playing_;
-    Result<scene::Workplace> place =
-        scene::make_workplace(*shelf_, *on_->shelf, p.course->assembly(), p.course->setup());
+    ActiveLesson& p = *playing_;
+    Result<scene::Workplace> place = scene::make_workplace(std::move(p.place.world), *shelf_, *on_->shelf,
+                                                           p.course->assembly(), p.course->setup());
     if (!place) return fail(place.error());
     p.place = std::move(*place);
     p.scene = scene::lit(p.place, on_->shelf->light);
@@ -143,14 +150,14 @@ Status App::place_on_gpu() {
 namespace {
 
 // The wrench is in the first picture too: it is what one reaches for. Who sits sees it from lower.
-view::Orbit first_view(const Playing& p, const view::Subject& machine, double handle_length, float aspect,
+view::Orbit first_view(const ActiveLesson& p, const view::Subject& machine, double handle_length, float aspect,
                        const scene::Worker& worker) {
     const view::Viewpoint first = machine.views.empty()
                                       ? view::framed(p.place.machine, view::usual_fov, aspect)
                                       : machine.views.front();
-    render::Box all = p.place.machine;
+    render::BoundingBox all = p.place.machine;
     for (const double along : {-0.1, 1.2}) {
-        const glm::vec3 end(p.hand.rest * Vec3(along * handle_length, 0.0, 0.0));
+        const glm::vec3 end(hand_of(p).rest * Vec3(along * handle_length, 0.0, 0.0));
         all.low = glm::min(all.low, end);
         all.high = glm::max(all.high, end);
     }
@@ -160,9 +167,9 @@ view::Orbit first_view(const Playing& p, const view::Subject& machine, double ha
 }
 
 // The hand in the glove, or the one that somebody says they work with.
-hand::Side hand_at_work(const Playing& p, const content::Settings& wanted) {
+hand::Side hand_at_work(const ActiveLesson& p, const content::Settings& wanted) {
     if (p.station)
-        if (const station::ShownHand* gloved = p.station->bench->hand()) return gloved->side;
+        if (const station::DisplayedHand* gloved = p.station->bench->hand()) return gloved->side;
     return wanted.left_handed ? hand::Side::left : hand::Side::right;
 }
 
@@ -177,16 +184,18 @@ Status App::begin_lesson(float aspect) {
     content::Loaded loaded = content::load_assembly(choice.assembly, choice.variant);
     if (!loaded.ok()) return fail(loaded.errors.front());
     if (Status chosen = content::choose_tool(loaded.assembly, choice.tool); !chosen) return chosen;
-    assembly_ = std::move(loaded.assembly);
     course_ = options_.course;
+    course_.law = law_in_force(loaded.assembly.law);
+    // Devices, review and texts use the same targets as the lesson.
+    assembly_ = lesson::under_law(std::move(loaded.assembly), course_.law);
     course_.mode = choice.mode;
     course_.task = choice.task;
-    course_.law = options_.law.value_or(assembly_.law);
-    course_.operator_name = choice.trainee.empty() ? "person" : choice.trainee;
+    course_.operator_name = "person";
+    course_.trainee = choice.trainee;
     course_.device = force::scaled(options_.course.device, wanted.force_scale);
-    Result<play::Prepared> prepared = play::prepare(assembly_, course_);
+    Result<session::Prepared> prepared = session::prepare(assembly_, course_);
     if (!prepared) return fail(prepared.error());
-    Playing next;
+    ActiveLesson next;
     if (Status started = start_station(next, *prepared); !started) return started;
     const scene::Worker worker{hand_at_work(next, wanted), wanted.seated_height};
     course_.hand = worker.side == hand::Side::left ? "left" : "right";
@@ -194,8 +203,8 @@ Status App::begin_lesson(float aspect) {
 
     if (!shelf) return fail(shelf.error());
     for (const std::string& missing : shelf->missing) tell("left out: " + missing);
-    Result<std::unique_ptr<play::Course>> course =
-        play::Course::begin(std::move(*prepared), course_, options_.out / "session.boltwright");
+    Result<std::unique_ptr<session::Course>> course =
+        session::Course::begin(std::move(*prepared), course_, options_.out / "session.boltwright");
     if (!course) return fail(course.error());
     next.course = std::move(*course);
 
@@ -206,25 +215,26 @@ Status App::begin_lesson(float aspect) {
     if (options_.begins) options_.begins();
     shelf_ = std::move(*shelf);
     playing_.emplace(std::move(next));
-    Playing& p = *playing_;
+    ActiveLesson& p = *playing_;
+    world::add_haptics(p.place.world, p.course->state());
     if (Status placed = place_on_gpu(); !placed) return placed;
     const servo::Setup& setup = p.course->setup();
     const servo::State& state = p.course->state();
     p.mouse = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness, worker.side),
                         worker.side);
-    p.hand = hand_of(p.mouse);
+    p.place.world.only<world::Hand>() = hand_of(p.mouse);
 
     take_place();
-    p.ear.still = sound::materials(p.course->assembly(), p.course->obstacle_names());
+    p.sound.ear.still = sound::materials(p.course->assembly(), p.course->obstacle_names());
     if (options_.sound) {
-        auto live = sound::Live::start(setup, p.ear.still);
+        auto live = sound::Live::start(setup, p.sound.ear.still);
         if (live)
-            p.sound = std::make_unique<sound::Live>(std::move(*live));
+            p.sound.live = std::make_unique<sound::Live>(std::move(*live));
         else
             tell(live.error().message());
     }
-    p.postures = scene::make_postures(state.touch ? &state.touch->wrench : nullptr,
-                                      setup.wrench.handle_length, worker.side);
+    p.postures = scene::make_postures(state.tool_contact ? &state.tool_contact->wrench : nullptr,
+                                      setup.wrench.handle_length, worker.side, scene::widest_nut(setup));
     p.shoulder = scene::shoulder_at(p.place.machine, worker);
     if (p.station) {
         const hand::Skeleton& open = p.postures.open;
@@ -233,18 +243,18 @@ Status App::begin_lesson(float aspect) {
             inverse(p.station->home) * fingers * Pose{open.position[hand::wrist], open.rotation[hand::wrist]};
     }
     apply_preferences();
-    p.close_up.wished = course_.mode == lesson::Mode::guided;
+    p.view.close_up.wished = course_.mode == lesson::Mode::guided;
     p.verdicts.assign(assembly_.joints.size(), lesson::Verdict::none);
-    p.camera.jump(first_view(p, shelf_->machine, setup.wrench.handle_length, aspect, worker));
+    p.view.camera.jump(first_view(p, shelf_->machine, setup.wrench.handle_length, aspect, worker));
     played_.reset();
     shows_ = Shows::lesson;
-    tell(fmt::format("lesson begun: {} {}, {}", assembly_.name, assembly_.variant,
-                     lesson::name(course_.mode)));
+    tell(fmt::format("lesson begun: {} {}, {}, law {}", assembly_.name, assembly_.variant,
+                     lesson::name(course_.mode), joint::name(course_.law)));
     return {};
 }
 
 // The station that the lesson is played at, if any: with a servo of its own that begins as the lesson's.
-Status App::start_station(Playing& p, play::Prepared& prepared) {
+Status App::start_station(ActiveLesson& p, session::Prepared& prepared) {
     if (options_.choice.with.none()) return {};
     if (playing_) playing_->station.reset();  // that has the devices
     Equipment with = options_.choice.with;
@@ -255,27 +265,25 @@ Status App::start_station(Playing& p, play::Prepared& prepared) {
     p.station->bench = std::move(*bench);
     course_.device = p.station->bench->setup().limits;
     course_.servo = fmt::format("{:.0f} Hz", 1.0 / course_.dt);
-    play::use_device(course_, prepared);
+    session::use_device(course_, prepared);
     return {};
 }
 
 // Hand and wrench before the machine.
 void App::take_place() {
-    Playing& p = *playing_;
+    ActiveLesson& p = *playing_;
     if (!p.station) return;
-    AtStation& at = *p.station;
-    at.rest = p.hand.rest;
-    at.home = p.hand.pose;
-    at.wishes.put = at.home;
-    at.wishes.put_number = 1;
+    StationClient& at = *p.station;
+    at.rest = hand_of(p).rest;
+    at.home = hand_of(p).pose;
 }
 
 // What is pressed or moved for what.
 void App::name_controls() {
     const std::string tool = key_name(preferences_.keys, Action::tool);
-    const AtStation* at = playing_ && playing_->station ? &*playing_->station : nullptr;
+    const StationClient* at = playing_ && playing_->station ? &*playing_->station : nullptr;
     if (at == nullptr) {
-        controls_ = hints::mouse_controls(words_, tool);
+        controls_ = lesson::mouse_controls(words_, tool);
         return;
     }
     const std::uint32_t held = at->bench->layout().mover_buttons.held;
@@ -286,16 +294,16 @@ void App::name_controls() {
                           {{"number", words::Number{static_cast<double>(std::countr_zero(held) + 1), 0}}});
     const auto& mover = at->bench->layout().mover;
     const bool feels = mover && station::renders_force(*mover);
-    controls_ = options_.choice.with.devices.empty() ? hints::keyboard_controls(words_, closes, tool)
-                : feels                              ? hints::device_controls(words_, closes, tool)
-                                                     : hints::puck_controls(words_, closes, tool);
-    if (at->bench->hand() != nullptr) controls_ = hints::glove_controls(words_, std::move(controls_));
+    controls_ = options_.choice.with.devices.empty() ? lesson::keyboard_controls(words_, closes, tool)
+                : feels                              ? lesson::device_controls(words_, closes, tool)
+                                                     : lesson::puck_controls(words_, closes, tool);
+    if (at->bench->hand() != nullptr) controls_ = lesson::glove_controls(words_, std::move(controls_));
 }
 
 Status App::unseen() {
     if (!playing_ || !playing_->station) return {};
-    playing_->station->wishes.pause = true;
-    playing_->station->bench->wish(playing_->station->wishes);
+    playing_->station->controls.pause = true;
+    playing_->station->bench->set_controls(playing_->station->controls);
     return {};
 }
 
@@ -305,10 +313,10 @@ Status App::end_lesson() {
         if (const servo::Timing* timing = playing_->station->bench->stop())
             if (Status kept = playing_->course->keep(*timing); !kept) return kept;
 
-    Result<play::Played> played = playing_->course->finish();
+    Result<session::Played> played = playing_->course->finish();
     if (!played) return fail(played.error());
     played_ = std::move(*played);
-    playing_->finished = true;
+    playing_->pace.finished = true;
     for (std::size_t i = 0; i < playing_->verdicts.size(); ++i)
         playing_->verdicts[i] = view::verdict_of(played_->result.joints[i]);
     shows_ = Shows::result;
@@ -328,32 +336,32 @@ void App::tell_cost() {
             fmt::format(" {} {:.2f} {:.2f}", system, times[times.size() / 2], times[times.size() * 99 / 100]);
     }
     tell(line);
-    if (playing_->lagged > 1.0)
+    if (playing_->pace.lagged > 1.0)
         tell(fmt::format("pictures took so long that the lesson went {:.0f} s slower than the clock",
-                         playing_->lagged));
+                         playing_->pace.lagged));
     cost_.clear();
 }
 
 void App::tell_events() {
     const double dt = playing_->course->setup().dt;
-    for (const lesson::Event& event : playing_->said) {
+    for (const lesson::Event& event : playing_->events) {
         const std::string joint =
             event.joint >= 0 ? assembly_.joints[static_cast<std::size_t>(event.joint)].design.id + " "
                              : std::string();
         tell(fmt::format("{:7.2f} s  {}{} {}", static_cast<double>(event.tick) * dt, joint, event.kind,
                          event.text));
     }
-    playing_->said.clear();
+    playing_->events.clear();
 }
 
-Status App::draw_backdrop(gpu::Frame& frame, VkExtent2D size) {
+Status App::draw_backdrop(gpu::FrameContext& frame, VkExtent2D size) {
     backdrop_.want(options_.choice.assembly);
     view::Painter& painter = *on_->painter;
     return backdrop_.draw(*painter.device, *painter.renderer, frame, size);
 }
 
-Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, VkExtent2D size, float scale,
-                  double seconds) {
+Status App::frame(gpu::FrameContext& frame, std::span<const platform::Event> events, VkExtent2D size,
+                  float scale, double seconds) {
     if (const auto language = std::exchange(language_wished_, std::nullopt))
         if (Status spoken = speak(*language); !spoken) return spoken;
     if (std::exchange(start_wished_, false)) {
@@ -382,29 +390,31 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
     render::Eye eye;
     const render::Scene* scene = &no_scene;
     if (playing_) {
-        Playing& p = *playing_;
+        ActiveLesson& p = *playing_;
         if (p.station)
             p.station->keys.take(shows_ == Shows::lesson ? events : std::span<const platform::Event>());
         const double shown = std::min(seconds, longest_frame);
         Frame now{p, words_, shown, seconds - shown, extent, apply(p.controls, events, mine), &*on_->fonts,
                   {}};
-        if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.paused = !p.paused;
+        if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.pace.paused = !p.pace.paused;
         full_screen_ = full_screen_ || now.wanted.wants(Action::full_screen);
-        const bool had_wrench = p.hand.wrench;
-        ecs::run(frame_systems, p.place.world, now, [&](std::string_view system, const auto& run) {
+        const bool had_wrench = hand_of(p).wrench;
+        const auto timed = [&](std::string_view system, const auto& run) {
             const auto begin = std::chrono::steady_clock::now();
             run();
             cost_[system].push_back(
                 std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - begin).count());
-        });
-        if (p.hand.wrench != had_wrench)
+        };
+        timed("pointer", [&] { read_pointer(p.place.world, now); });
+        ecs::run(frame_systems, p.place.world, now, timed);
+        if (hand_of(p).wrench != had_wrench)
             tell(fmt::format("{:7.2f} s  the wrench is {}", p.course->time(),
-                             p.hand.wrench ? "in the hand" : "laid down"));
+                             hand_of(p).wrench ? "in the hand" : "laid down"));
         tell_events();
-        if (p.sound)
-            if (const auto news = p.sound->news()) tell(*news);
+        if (p.sound.live)
+            if (const auto news = p.sound.live->news()) tell(*news);
         if (!now.status) return now.status;
-        if (p.finished && shows_ == Shows::lesson)
+        if (p.pace.finished && shows_ == Shows::lesson)
             if (Status ended = end_lesson(); !ended) return ended;
         eye = screen_of(p, extent).eye;
         scene = &p.scene;
@@ -428,7 +438,7 @@ Status App::frame(gpu::Frame& frame, std::span<const platform::Event> events, Vk
         const Drawing on{renderer, frame, ui};
         if (Status drawn = draw_close_up(on, *playing_, extent, scale); !drawn) return drawn;
     }
-    if (playing_) playing_->plates = plates_shown();
+    if (playing_) playing_->view.occupied = occupied_areas();
     const render::Overlay overlay = ui.end();
     if (Status drawn = renderer.draw_over(frame, overlay, renderer.picture(0)); !drawn) return drawn;
     if (std::exchange(end_wished_, false)) return end_lesson();

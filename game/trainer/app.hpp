@@ -8,12 +8,12 @@
 #include <optional>
 
 #include "engine/ui/ui.hpp"
-#include "game/hints/controls.hpp"
+#include "game/lesson/controls.hpp"
 #include "game/trainer/backdrop.hpp"
 #include "game/trainer/equipment.hpp"
 #include "game/trainer/preferences.hpp"
 #include "game/trainer/systems.hpp"
-#include "game/view/painter.hpp"
+#include "game/view/gpu_context.hpp"
 
 namespace bolt::trainer {
 
@@ -32,17 +32,20 @@ struct AppOptions {
     Choice choice;
     bool sound = false;
     bool menu = true;  // false: the lesson begins at once
-    play::CourseOptions course;
-    std::optional<joint::Law> law;                         // instead of the assembly's own
-    std::filesystem::path out;                             // where sessions go
+    session::CourseOptions course;
+    std::optional<joint::Law>
+        law;                    // until another is chosen in the menu; none: the trainee's or the assembly's
+    std::filesystem::path out;  // where sessions go
     std::filesystem::path settings_folder, settings_file;  // as Preferences has them; empty: nothing is kept
     std::function<void()> begins;  // a lesson: what an earlier one left would speak of another
     // After a lesson, whole or broken off: what is left of it beside the session.
-    std::function<Status(const content::Assembly&, const play::CourseOptions&, const play::Played&)> ended;
+    std::function<Status(const content::Assembly&, const session::CourseOptions&, const session::Played&)>
+        ended;
     std::function<void(const std::string&)> tell;  // a line of what happens, for a log
     // Where somebody plays who has chosen devices.
-    std::function<Result<std::unique_ptr<station::Bench>>(
-        const content::Assembly&, const play::CourseOptions&, const Equipment&, const std::string& trainee)>
+    std::function<Result<std::unique_ptr<station_setup::Bench>>(const content::Assembly&,
+                                                                const session::CourseOptions&,
+                                                                const Equipment&, const std::string& trainee)>
         station = start_station;
 };
 
@@ -54,6 +57,7 @@ struct Listed {
     std::map<std::string, std::string> title, lesson;  // by language
     std::vector<content::Variant> variants;
     std::vector<content::Tool> tools;
+    joint::Law law = joint::Law::mechanistic;
 };
 
 // A button as it was drawn last: for whoever presses it without eyes.
@@ -81,13 +85,13 @@ class App {
     void drop();  // before the painter goes
 
     // Records a picture into the frame: it is the renderer's picture 0 afterwards.
-    Status frame(gpu::Frame& frame, std::span<const platform::Event> events, VkExtent2D size, float scale,
-                 double seconds);
+    Status frame(gpu::FrameContext& frame, std::span<const platform::Event> events, VkExtent2D size,
+                 float scale, double seconds);
 
     [[nodiscard]] bool closed() const { return closed_; }
     [[nodiscard]] Shows shows() const { return shows_; }
     [[nodiscard]] bool wants_full_screen() { return std::exchange(full_screen_, false); }
-    [[nodiscard]] const Playing* playing() const { return playing_ ? &*playing_ : nullptr; }
+    [[nodiscard]] const ActiveLesson* playing() const { return playing_ ? &*playing_ : nullptr; }
     // What stands behind the menu.
     [[nodiscard]] const Backdrop& backdrop() const { return backdrop_; }
     [[nodiscard]] std::span<const ButtonPlace> buttons() const { return buttons_; }
@@ -105,15 +109,18 @@ class App {
   private:
     struct OnGpu;
     Status begin_lesson(float aspect);
-    Status start_station(Playing& playing, play::Prepared& prepared);
+    Status start_station(ActiveLesson& playing, session::Prepared& prepared);
 
     void take_place();
     void name_controls();
     Status place_on_gpu();
     void draw_interface(const glm::dvec2& size);
-    Status draw_backdrop(gpu::Frame& frame, VkExtent2D size);
+    Status draw_backdrop(gpu::FrameContext& frame, VkExtent2D size);
     void draw_menu(const glm::dvec2& size);
     void draw_seats();
+    void draw_laws(joint::Law of_assembly);
+    // What is in force: by command line, else by the trainee's settings, else by the assembly.
+    [[nodiscard]] joint::Law law_in_force(joint::Law of_assembly) const;
     void draw_result(const glm::dvec2& size);
     void draw_pause(const glm::dvec2& size);
     void draw_settings(const glm::dvec2& size);
@@ -142,14 +149,14 @@ class App {
     std::vector<Seat> seats_;
     content::Assembly assembly_;
     std::optional<scene::Shelf> shelf_;
-    std::optional<Playing> playing_;
-    std::optional<play::Played> played_;
-    play::CourseOptions course_;
+    std::optional<ActiveLesson> playing_;
+    std::optional<session::Played> played_;
+    session::CourseOptions course_;
     std::optional<Error> trouble_;
     std::map<std::string_view, std::vector<float>> cost_;  // ms, by system and frame of this lesson
     std::vector<words::Words> languages_;
     words::Words words_;
-    hints::Controls controls_;
+    lesson::Controls controls_;
     std::optional<std::string> language_wished_;
     Preferences preferences_;
     std::optional<SettingsScreen> settings_;  // while it is shown

@@ -28,16 +28,13 @@ void Backdrop::want(const std::string& assembly) {
 }
 
 Status Backdrop::put_up(gpu::Device& device, const view::Subject& subject) {
-    if (Status idle = device.idle(); !idle) return idle;
+    BOLT_TRY(device.idle());
     if (light_.levels.get() == VK_NULL_HANDLE) {
-        Result<render::EnvironmentLight> light =
-            render::upload_environment(device, shading::studio(), light_size);
-        if (!light) return fail(light.error());
-        light_ = std::move(*light);
+        BOLT_TRY_ASSIGN(auto light, render::upload_environment(device, shading::studio(), light_size));
+        light_ = std::move(light);
     }
-    Result<std::unique_ptr<view::Stage>> stage = view::set_stage(device, subject, light_);
-    if (!stage) return fail(stage.error());
-    stage_ = std::move(*stage);
+    BOLT_TRY_ASSIGN(auto stage, view::set_stage(device, subject, light_));
+    stage_ = std::move(stage);
     stage_->scene.background = dim;
     stage_->scene.exposure = exposure;
     from_ = subject.views.empty() ? view::Viewpoint{} : subject.views.front();
@@ -46,13 +43,12 @@ Status Backdrop::put_up(gpu::Device& device, const view::Subject& subject) {
     return {};
 }
 
-Status Backdrop::draw(gpu::Device& device, render::Renderer& renderer, gpu::Frame& frame, VkExtent2D size) {
+Status Backdrop::draw(gpu::Device& device, render::Renderer& renderer, gpu::FrameContext& frame, VkExtent2D size) {
     using namespace std::chrono_literals;
     if (coming_.valid() && coming_.wait_for(0s) == std::future_status::ready) {
         const view::LoadedSubject loaded = coming_.get();
         // One that cannot be read is told of when its lesson is to begin.
-        if (loaded.ok())
-            if (Status up = put_up(device, loaded.subject); !up) return up;
+        if (loaded.ok()) BOLT_TRY(put_up(device, loaded.subject));
     }
     if (!stage_ || (drawn_.width == size.width && drawn_.height == size.height)) return {};
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
@@ -60,12 +56,12 @@ Status Backdrop::draw(gpu::Device& device, render::Renderer& renderer, gpu::Fram
     at.eye = glm::mix(at.target, at.eye, nearer);
     const render::Eye eye =
         render::make_eye(at.eye, at.target, view::lens(stage_->box, at.eye, at.target, at.fov, aspect));
-    if (Status drawn = renderer.render(frame, stage_->scene, {&eye, 1}, size, group); !drawn) return drawn;
+    BOLT_TRY(renderer.render(frame, stage_->scene, {&eye, 1}, size, group));
     drawn_ = size;
     return {};
 }
 
-std::optional<render::Layer> Backdrop::picture(const render::Renderer& renderer) const {
+std::optional<render::ImageLayer> Backdrop::picture(const render::Renderer& renderer) const {
     if (shown_ != wanted_ || drawn_.width == 0) return std::nullopt;
     return renderer.picture(0, group);
 }

@@ -18,10 +18,10 @@ class Backdrop {
 
     // In each frame of the menu: puts what has been read on the GPU and draws it, if it has not been for a
     // picture of this size.
-    Status draw(gpu::Device& device, render::Renderer& renderer, gpu::Frame& frame, VkExtent2D size);
+    Status draw(gpu::Device& device, render::Renderer& renderer, gpu::FrameContext& frame, VkExtent2D size);
 
     // None yet: what is wanted could not be read, or has not been.
-    [[nodiscard]] std::optional<render::Layer> picture(const render::Renderer& renderer) const;
+    [[nodiscard]] std::optional<render::ImageLayer> picture(const render::Renderer& renderer) const;
     [[nodiscard]] bool reading() const { return coming_.valid(); }
 
     // What is on the GPU, which must be idle.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "content/words/key.hpp"
-#include "game/sound/heard.hpp"
+#include "game/sound/sound_cues.hpp"
 
 namespace bolt::trainer {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "engine/render/camera.hpp"
-#include "game/scene/close_up.hpp"
-#include "game/trainer/plates.hpp"
-#include "game/trainer/playing.hpp"
+#include "game/trainer/active_lesson.hpp"
+#include "game/trainer/occupied_areas.hpp"
+#include "game/view/close_up_eye.hpp"
 
 namespace bolt::trainer {
 
@@ -21,16 +21,16 @@ constexpr float strain_width = 290.0F, strain_height = 62.0F;  // points, in the
 constexpr const char* window_name = "##close_up";
 
 // The nut that the tool is next to.
-std::optional<std::size_t> near_to(const Playing& p, const Pose& tool) {
+std::optional<std::size_t> near_to(const ActiveLesson& p, const Pose& tool) {
     const servo::Setup& setup = p.course->setup();
     std::optional<std::size_t> found;
     double least = appears;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
-        const Vec3 middle = servo::nut_centre(setup.nuts[i], p.course->state().joints[i].nut.angle);
+        const Vec3 middle = world::nut_centre(p.place.world, setup, i);
         // On its way, wrong side up, it has nothing to look at.
         if (std::abs(glm::dot(tool.orientation * Vec3(0, 0, 1), setup.nuts[i].axis)) < level) continue;
         const double far = glm::distance(tool.position, middle);
-        const double reach = p.close_up.joint == i ? goes : appears;
+        const double reach = p.view.close_up.joint == i ? goes : appears;
         if (far >= reach || (found && far >= least)) continue;
         least = far;
         found = i;
@@ -39,54 +39,54 @@ std::optional<std::size_t> near_to(const Playing& p, const Pose& tool) {
 }
 
 // Fingers twist, their eye does not.
-Pose at_work(const Playing& p) {
-    if (p.hand.wrench) return p.output.tool;
-    return scene::towards(p.hand.pose, p.shoulder, 0.0);
+Pose at_work(const ActiveLesson& p) {
+    if (hand_of(p).wrench) return tool_of(p).pose;
+    return scene::towards(hand_of(p).pose, p.shoulder, 0.0);
 }
 
-void choose_eye(Playing& p, std::size_t joint) {
+void choose_eye(ActiveLesson& p, std::size_t joint) {
     const servo::Setup& setup = p.course->setup();
-    const servo::State& state = p.course->state();
-    const Vec3 nut = servo::nut_centre(setup.nuts[joint], state.joints[joint].nut.angle);
-    scene::ViewOf of{setup, state.touch ? &*state.touch : nullptr, joint, nut, std::nullopt};
+    const std::optional<servo::ToolContact>& obstacles = p.course->state().tool_contact;
+    const Vec3 nut = world::nut_centre(p.place.world, setup, joint);
+    view::ViewOf of{setup, obstacles ? &*obstacles : nullptr, joint, nut, std::nullopt};
     // As it will be on the nut: it may hover yet.
-    Pose tool = p.close_up.tool;
+    Pose tool = p.view.close_up.tool;
     tool.position = nut;
-    if (p.hand.wrench) of.wrench = tool;
+    if (hand_of(p).wrench) of.wrench = tool;
     const double sense = p.course->lesson().task == lesson::Task::loosen ? 1.0 : -1.0;
 
-    const double through = p.hand.wrench ? sense * std::min(p.hand.room, swing) : 0.0;
-    const scene::CloseUpEye eye = scene::close_up_eye(of, tool, through, p.sight);
-    p.close_up.eye = eye.at;
-    p.close_up.seen = eye.seen;
+    const double through = hand_of(p).wrench ? sense * std::min(hand_of(p).room, swing) : 0.0;
+    const view::CloseUpEye eye = view::close_up_eye(of, tool, through, p.view.sight);
+    p.view.close_up.eye = eye.at;
+    p.view.close_up.seen = eye.seen;
 }
 
 bool meet(const render::Rectangle& a, const render::Rectangle& b) {
     return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
 
-render::Eye eye_of(const Playing& p, float aspect) {
-    const double size = p.course->setup().nuts[*p.close_up.joint].across_flats;
+render::Eye eye_of(const ActiveLesson& p, float aspect) {
+    const double size = p.course->setup().nuts[*p.view.close_up.joint].across_flats;
     render::Perspective lens;
-    lens.fov = static_cast<float>(scene::close_up_fov);
+    lens.fov = static_cast<float>(view::close_up_fov);
     lens.aspect = aspect;
     lens.znear = static_cast<float>(0.2 * size);
     lens.zfar = 1.0F;  // what is far is no part of a close-up
-    return render::make_eye(glm::vec3(p.close_up.tool * p.close_up.eye), glm::vec3(p.close_up.tool.position),
+    return render::make_eye(glm::vec3(p.view.close_up.tool * p.view.close_up.eye), glm::vec3(p.view.close_up.tool.position),
                             lens);
 }
 
 }  // namespace
 
-void update_close_up(Playing& p) {
-    CloseUp& c = p.close_up;
-    const bool may = c.wished && !p.finished && p.course->lesson().mode != lesson::Mode::assessment;
+void update_close_up(ActiveLesson& p) {
+    CloseUp& c = p.view.close_up;
+    const bool may = c.wished && !p.pace.finished && p.course->lesson().mode != lesson::Mode::assessment;
     c.tool = at_work(p);
     const auto joint = may ? near_to(p, c.tool) : std::nullopt;
     const bool turned = glm::length(rotation_vector(c.tool.orientation * glm::conjugate(c.chosen))) > past;
-    const bool other = joint != c.joint || p.hand.wrench != c.wrench || turned;
+    const bool other = joint != c.joint || hand_of(p).wrench != c.wrench || turned;
     c.joint = joint;
-    c.wrench = p.hand.wrench;
+    c.wrench = hand_of(p).wrench;
     if (!joint || !other) return;
     c.chosen = c.tool.orientation;
     choose_eye(p, *joint);
@@ -109,9 +109,9 @@ std::optional<render::Rectangle> close_up_place(const glm::dvec2& picture, float
     return std::nullopt;
 }
 
-Status draw_close_up(const Drawing& on, const Playing& p, const glm::dvec2& picture, float scale) {
-    if (!p.close_up.joint) return {};
-    const auto place = close_up_place(picture, scale, plates_shown());
+Status draw_close_up(const Drawing& on, const ActiveLesson& p, const glm::dvec2& picture, float scale) {
+    if (!p.view.close_up.joint) return {};
+    const auto place = close_up_place(picture, scale, occupied_areas());
     if (!place) return {};
     const glm::vec2 size = place->high - place->low;
     const VkExtent2D extent{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
@@ -119,7 +119,7 @@ Status draw_close_up(const Drawing& on, const Playing& p, const glm::dvec2& pict
     render::Scene scene = p.scene;
     scene.labels.clear();
     for (render::Object& object : scene.objects) object.outline.w = 0.0F;  // so near they only cover
-    if (Status drawn = on.renderer.render(on.frame, scene, {&eye, 1}, extent, 1); !drawn) return drawn;
+    BOLT_TRY(on.renderer.render(on.frame, scene, {&eye, 1}, extent, 1));
     ImGui::SetNextWindowPos({place->low.x, place->low.y});
     ImGui::SetNextWindowSize({size.x, size.y});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});

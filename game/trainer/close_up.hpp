@@ -12,7 +12,7 @@
 
 namespace bolt::trainer {
 
-struct Playing;
+struct ActiveLesson;
 
 struct CloseUp {
     bool wished = false;               // by whoever plays, or by the lesson's mode
@@ -25,7 +25,7 @@ struct CloseUp {
 };
 
 // Whether there is one in this frame, and from where.
-void update_close_up(Playing& playing);
+void update_close_up(ActiveLesson& playing);
 
 // px: in the lower left corner, over where the strain stands if that is too near; none where all of it is
 // taken.
@@ -35,9 +35,9 @@ std::optional<render::Rectangle> close_up_place(const glm::dvec2& picture, float
 // Draws it with the interface, after all else of that. Nothing where nothing is to be shown.
 struct Drawing {
     render::Renderer& renderer;
-    gpu::Frame& frame;
+    gpu::FrameContext& frame;
     ui::Ui& ui;
 };
-Status draw_close_up(const Drawing& on, const Playing& playing, const glm::dvec2& picture, float scale);
+Status draw_close_up(const Drawing& on, const ActiveLesson& playing, const glm::dvec2& picture, float scale);
 
 }  // namespace bolt::trainer

@@ -2,13 +2,13 @@
 
 #include "game/station/plan.hpp"
 #include "haptics/device/timer.hpp"
-#include "haptics/glove/serial_line.hpp"
+#include "haptics/hand/serial_port.hpp"
 
 namespace bolt::trainer {
 
 namespace {
 
-std::string name_of(const station::Choice& choice) {
+std::string name_of(const station_setup::Choice& choice) {
     std::string name = choice.mover ? choice.mover->name : std::string();
     if (choice.wheel) name += (name.empty() ? "" : " + ") + choice.wheel->name;
     return name;
@@ -18,9 +18,9 @@ std::string name_of(const station::Choice& choice) {
 
 std::vector<Seat> seats() {
     std::vector<Seat> there{{{}, {}}};
-    const station::Choice all = station::choose_any(device::list());
-    const auto add = [&](const station::Choice& choice) {
-        there.push_back({name_of(choice), {station::ids_of(choice), {}, {}, 1.0, false}});
+    const station_setup::Choice all = station_setup::choose_any(device::list_devices());
+    const auto add = [&](const station_setup::Choice& choice) {
+        there.push_back({name_of(choice), {station_setup::ids_of(choice), {}, {}, 1.0, false}});
     };
     if (all.mover) add({all.mover, std::nullopt});
     if (all.wheel) add({std::nullopt, all.wheel});
@@ -30,16 +30,17 @@ std::vector<Seat> seats() {
 
 Equipment usual_equipment() {
     Equipment with;
-    const station::Choice all = station::choose_any(device::list());
-    if (all.mover) with.devices = station::ids_of(all);
+    const station_setup::Choice all = station_setup::choose_any(device::list_devices());
+    if (all.mover) with.devices = station_setup::ids_of(all);
     return with;
 }
 
-Result<std::unique_ptr<station::Bench>> start_station(const content::Assembly& assembly,
-                                                      const play::CourseOptions& course,
-                                                      const Equipment& with, const std::string& trainee) {
-    device::Puck puck({}, device::steady_timer());
-    station::Wanted wanted;
+Result<std::unique_ptr<station_setup::Bench>> start_station(const content::Assembly& assembly,
+                                                            const session::CourseOptions& course,
+                                                            const Equipment& with,
+                                                            const std::string& trainee) {
+    device::VirtualPuck puck({}, device::steady_timer());
+    station_setup::Wanted wanted;
     wanted.devices = with.devices;
     wanted.rig = with.rig;
     wanted.otherwise = puck.open();
@@ -49,16 +50,16 @@ Result<std::unique_ptr<station::Bench>> start_station(const content::Assembly& a
     if (!with.glove.empty() && trainee.empty())
         return fail(ErrorCode::no_device, "nobody is said to wear the glove",
                     "the trainee's name, as boltwright glove calibrate has it");
-    Result<station::Planned> planned = station::plan_lesson(assembly, course, wanted, {});
+    Result<station_setup::Planned> planned = station_setup::plan_lesson(assembly, course, wanted, {});
     if (!planned) return fail(planned.error());
-    station::Plan& plan = planned->plan;
-    plan.wishes.pause = true;
-    std::optional<device::Puck> pushed;
+    station::StationOptions& plan = planned->plan;
+    plan.controls.pause = true;
+    std::optional<device::VirtualPuck> pushed;
     if (!planned->choice.mover) {
         pushed = std::move(puck);
         plan.mover_buttons = {1, 0, 0, 0};
     }
-    return station::start_bench(std::move(plan), std::move(pushed));
+    return station_setup::start_bench(std::move(plan), std::move(pushed));
 }
 
 }  // namespace bolt::trainer

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "game/play/course.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/station/bench.hpp"
 
 namespace bolt::trainer {
@@ -32,8 +32,9 @@ std::vector<Seat> seats();
 Equipment usual_equipment();
 
 // A station of that for the lesson, paused. `trainee` wears the glove.
-Result<std::unique_ptr<station::Bench>> start_station(const content::Assembly& assembly,
-                                                      const play::CourseOptions& course,
-                                                      const Equipment& with, const std::string& trainee);
+Result<std::unique_ptr<station_setup::Bench>> start_station(const content::Assembly& assembly,
+                                                            const session::CourseOptions& course,
+                                                            const Equipment& with,
+                                                            const std::string& trainee);
 
 }  // namespace bolt::trainer

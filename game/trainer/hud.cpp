@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "game/hints/terms.hpp"
+#include "game/lesson/terms.hpp"
 #include "game/trainer/key_binding.hpp"
 
 namespace bolt::trainer {
@@ -71,7 +71,7 @@ void plate_of(const char* name, const ImVec2& at, const ImVec2& pivot, std::span
 }
 
 // Torque over the nut's angle, with the window that is to be reached.
-void draw_plot(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
+void draw_plot(const ActiveLesson& p, const words::Words& w, const glm::dvec2& size, float scale) {
     const std::vector<PlotPoint>& points = p.plot.points;
     if (points.size() < 2) return;
     const auto joint = static_cast<std::size_t>(p.plot.joint);
@@ -112,10 +112,12 @@ void draw_plot(const Playing& p, const words::Words& w, const glm::dvec2& size, 
 }
 
 // How hard the hand pulls: what a device would let it feel.
-void draw_strain(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
-    if (p.output.joint < 0 || !p.hand.wrench) return;
+void draw_strain(const ActiveLesson& p, const words::Words& w, const glm::dvec2& size, float scale) {
+    const std::int16_t engaged = contact_of(p).joint;
+    if (engaged < 0 || !hand_of(p).wrench) return;
     const servo::Setup& setup = p.course->setup();
-    const double force = std::abs(p.output.wrench_torque) / setup.wrench.handle_length;
+    const world::Joint& joint = world::joint_at(p.place.world, static_cast<std::size_t>(engaged));
+    const double force = std::abs(joint.torque) / setup.wrench.handle_length;
     const double greatest = setup.wrench.stiffness * to_radians(2.5) / setup.wrench.handle_length;
     const auto share = static_cast<float>(std::clamp(force / greatest, 0.0, 1.0));
     plate("##strain", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 12.0F * scale},
@@ -129,9 +131,9 @@ void draw_strain(const Playing& p, const words::Words& w, const glm::dvec2& size
     ImGui::End();
 }
 
-void draw_step(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
+void draw_step(const ActiveLesson& p, const words::Words& w, const glm::dvec2& size, float scale) {
     const lesson::Lesson& lesson = p.course->lesson();
-    const lesson::Step* due = trainer::due(p.back, lesson);
+    const lesson::Step* due = trainer::due(p.undo, lesson);
     const auto whole = [](std::size_t n) { return words::Number{static_cast<double>(n), 0}; };
     const std::size_t steps = lesson.steps.size();
     const std::size_t at = due == nullptr ? steps : static_cast<std::size_t>(due - lesson.steps.data()) + 1;
@@ -140,7 +142,7 @@ void draw_step(const Playing& p, const words::Words& w, const glm::dvec2& size, 
                              white}};
     if (due != nullptr && lesson.mode != lesson::Mode::assessment) {
         const std::string& id = p.course->assembly().joints[due->joint].design.id;
-        const std::string& what = w[hints::term(due->kind)];
+        const std::string& what = w[lesson::term(due->kind)];
         lines.push_back(
             {due->kind == lesson::StepKind::tighten
                  ? words::say(w, "hud.due_torque",
@@ -155,26 +157,27 @@ void draw_step(const Playing& p, const words::Words& w, const glm::dvec2& size, 
 }
 
 // What is to be done, and what went wrong: in the middle above, where it hides the least of the work.
-void draw_hint(const Playing& p, const Said& said, const glm::dvec2& size, float scale) {
+void draw_hint(const ActiveLesson& p, const Said& said, const glm::dvec2& size, float scale) {
     const words::Words& w = *said.words;
     // Beside the step's plate, also in a small window.
     const float whole = static_cast<float>(size.x), beside = whole - 240.0F * scale;
     const float width = std::min({560.0F * scale, 0.56F * whole, beside});
     const bool narrow = 0.5F * (whole + width) > beside;
     std::vector<Line> lines;
-    if (p.output.fault != force::Fault::none) lines.push_back({w[hints::term(p.output.fault)], warm});
-    if (p.mistakes.shown) {
-        lines.push_back({hints::say_why(w, *p.mistakes.shown), warm});
-        lines.push_back({hints::say_what_to_do(w, *p.mistakes.shown), white});
+    const force::Fault fault = p.place.world.only<world::DeviceForce>().fault;
+    if (fault != force::Fault::none) lines.push_back({w[lesson::term(fault)], warm});
+    if (p.coaching.mistakes.shown) {
+        lines.push_back({lesson::say_why(w, *p.coaching.mistakes.shown), warm});
+        lines.push_back({lesson::say_what_to_do(w, *p.coaching.mistakes.shown), white});
         lines.push_back({p.course->lesson().mode == lesson::Mode::guided
                              ? w["mistake.begins_again"]
                              : words::say(w, "mistake.take_back",
                                           {{"control", key_name(p.controls.keys, Action::restart_step)}}),
                          pale});
     }
-    if (p.hints.shown) {
-        lines.push_back({hints::say(w, *p.hints.shown), white});
-        if (std::string motion = hints::say_motion(w, *p.hints.shown, *said.controls); !motion.empty())
+    if (p.coaching.hints.shown) {
+        lines.push_back({lesson::say(w, *p.coaching.hints.shown), white});
+        if (std::string motion = lesson::say_motion(w, *p.coaching.hints.shown, *said.controls); !motion.empty())
             lines.push_back({std::move(motion), pale});
     }
     plate_of("##hint", {narrow ? whole - 12.0F * scale : 0.5F * whole, 12.0F * scale},
@@ -182,7 +185,7 @@ void draw_hint(const Playing& p, const Said& said, const glm::dvec2& size, float
 }
 
 // What is wrong with the devices, in their own words.
-void draw_troubles(const Playing& p, const glm::dvec2& size, float scale) {
+void draw_troubles(const ActiveLesson& p, const glm::dvec2& size, float scale) {
     if (!p.station) return;
     std::vector<Line> lines;
     for (const std::string& trouble : p.station->troubles) lines.push_back({trouble, warm});
@@ -191,17 +194,17 @@ void draw_troubles(const Playing& p, const glm::dvec2& size, float scale) {
 }
 
 // What there is to be heard, in words, where films have it.
-void draw_captions(const Playing& p, const words::Words& w, const glm::dvec2& size, float scale) {
-    if (!p.captions) return;
+void draw_captions(const ActiveLesson& p, const words::Words& w, const glm::dvec2& size, float scale) {
+    if (!p.sound.captions) return;
     std::vector<Line> lines;
-    for (const Caption caption : shown(*p.captions)) lines.push_back({w[term(caption)], white});
+    for (const Caption caption : shown(*p.sound.captions)) lines.push_back({w[term(caption)], white});
     plate_of("##captions", {static_cast<float>(0.5 * size.x), static_cast<float>(size.y) - 72.0F * scale},
              {0.5F, 1.0F}, lines, static_cast<float>(size.x));
 }
 
 }  // namespace
 
-void draw_hud(const Playing& p, const Said& said, const glm::dvec2& size, float scale) {
+void draw_hud(const ActiveLesson& p, const Said& said, const glm::dvec2& size, float scale) {
     draw_step(p, *said.words, size, scale);
     draw_hint(p, said, size, scale);
     draw_plot(p, *said.words, size, scale);

@@ -2,18 +2,18 @@
 // stand there, in the scene (label_system).
 #pragma once
 
-#include "game/hints/controls.hpp"
-#include "game/trainer/playing.hpp"
+#include "game/lesson/controls.hpp"
+#include "game/trainer/active_lesson.hpp"
 
 namespace bolt::trainer {
 
 // In whose language, and by which keys.
 struct Said {
     const words::Words* words = nullptr;
-    const hints::Controls* controls = nullptr;
+    const lesson::Controls* controls = nullptr;
 };
 
 // Between ui::Ui::begin and end. `scale`: pixels a point.
-void draw_hud(const Playing& playing, const Said& said, const glm::dvec2& size, float scale);
+void draw_hud(const ActiveLesson& playing, const Said& said, const glm::dvec2& size, float scale);
 
 }  // namespace bolt::trainer

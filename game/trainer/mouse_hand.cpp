@@ -4,15 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "game/operators/around.hpp"
-#include "game/operators/mind.hpp"
+#include "game/motion/path_planning.hpp"
 
 namespace bolt::trainer {
 
 namespace {
 
-using operators::along;
-using operators::minimum_jerk;
+using motion::along;
+using motion::minimum_jerk;
 
 constexpr double hover = 0.045;                     // m above a nut, where a bolt's end is below the wrench
 constexpr double retreat = 0.15;                    // m, from where the wrench lies, up and to the front
@@ -30,15 +29,15 @@ constexpr double stroke = to_radians(60.0);         // that a pull would like to
 constexpr double fastest_pull = to_radians(150.0);  // rad/s
 constexpr double stronger = 2.0;  // a drag turns the handle by a third at the greatest torque: a hand strains
 
-const servo::NutPlace& nut_of(const MouseHand& hand, const servo::Setup& setup) {
+const servo::NutGeometry& nut_of(const MouseHand& hand, const servo::Setup& setup) {
     return setup.nuts[hand.nut.value()];
 }
 
 Pose at_nut(const MouseHand& hand, const servo::Setup& setup, const servo::State& state, double above) {
-    const servo::NutPlace& nut = nut_of(hand, setup);
+    const servo::NutGeometry& nut = nut_of(hand, setup);
     const double angle = state.joints[hand.nut.value()].nut.angle;
     return {servo::nut_centre(nut, angle) + above * nut.axis,
-            operators::orientation_of(nut, hand.handle, hand.flipped)};
+            motion::orientation_of(nut, hand.handle, hand.flipped)};
 }
 
 bool has_hold(const MouseHand& hand, const servo::State& state) {
@@ -65,9 +64,9 @@ double reach_time(const Pose& from, const Pose& to, const Vec3& bulge) {
 void reach(MouseHand& hand, const Pose& to, MouseHand::Then then, const servo::Setup& setup,
            const servo::State& state, const Vec3& up) {
     const double far = glm::distance(hand.pose.position, to.position);
-    operators::Way way{(std::min(0.05, 0.3 * far) + higher * std::min(hand.misses, 5)) * up, {}};
-    if (hand.wrench && state.touch)
-        way = operators::way_round(setup, *state.touch, hand.pose, to, up, glm::length(way.bulge));
+    motion::Way way{(std::min(0.05, 0.3 * far) + higher * std::min(hand.misses, 5)) * up, {}};
+    if (hand.wrench && state.tool_contact)
+        way = motion::way_round(setup, *state.tool_contact, hand.pose, to, up, glm::length(way.bulge));
     hand.stations.assign(1, to);
     hand.stations.insert(hand.stations.end(), way.stations.rbegin(), way.stations.rend());
     const Pose first = hand.stations.back();
@@ -80,19 +79,19 @@ void reach(MouseHand& hand, const Pose& to, MouseHand::Then then, const servo::S
 // From which side the handle goes on the nut.
 void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     const double sign = hand.loosens ? -1.0 : 1.0;
-    const servo::NutPlace& nut = nut_of(hand, setup);
+    const servo::NutGeometry& nut = nut_of(hand, setup);
     // Towards whoever works, in the middle of the pull.
     const Vec3 out = hand.rest.position - nut.seat;
     const double aside = (hand.misses % 2 == 1 ? 1.0 : -1.0) * to_radians(60.0) * (hand.misses / 2);
     const double wanted =
         -std::atan2(glm::dot(out, nut.e2), glm::dot(out, nut.e1)) - 0.5 * sign * stroke + aside;
-    const auto grip = operators::choose_grip(setup, state.touch ? &*state.touch : nullptr, *hand.nut,
-                                             state.joints[*hand.nut].nut.angle, wanted, sign, stroke);
+    const auto grip = motion::choose_grip(setup, state.tool_contact ? &*state.tool_contact : nullptr, *hand.nut,
+                                          state.joints[*hand.nut].nut.angle, wanted, sign, stroke);
     hand.handle = grip.handle;
     hand.flipped = grip.flipped;
     hand.room = grip.room;
-    hand.above = state.touch ? operators::room_above(setup, *state.touch, *hand.nut,
-                                                     state.joints[*hand.nut].nut.angle, grip, hover)
+    hand.above = state.tool_contact ? motion::room_above(setup, *state.tool_contact, *hand.nut,
+                                                  state.joints[*hand.nut].nut.angle, grip, hover)
                              : hover;
 }
 
@@ -111,11 +110,11 @@ void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& s
 }
 
 void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
-    hand.pose = hand.wrench && state.touch && state.touch->in_hand ? state.touch->god_object.tool : hand.pose;
+    hand.pose = hand.wrench && state.tool_contact && state.tool_contact->in_hand ? state.tool_contact->god_object.tool : hand.pose;
     Pose up = at_nut(hand, setup, state, hand.above);
     up.orientation = hand.pose.orientation;
     // Caught on the way there: off what holds it, not on through that.
-    const servo::NutPlace& nut = nut_of(hand, setup);
+    const servo::NutGeometry& nut = nut_of(hand, setup);
     if (hand.missed && glm::distance(hand.pose.position, nut.seat) > caught)
         up.position = hand.pose.position + hover * nut.axis;
     go(hand, up, lifting, Doing::lifting);
@@ -319,7 +318,7 @@ servo::Input move(MouseHand& hand, const servo::Setup& setup, const servo::State
             if (hand.time < hand.length) break;
             hand.doing = Doing::resting;
             // Caught again and again, it gets out of there: from where it begins all nuts can be reached.
-            if (hand.missed && hand.misses > 2 && hand.wrench && state.touch) {
+            if (hand.missed && hand.misses > 2 && hand.wrench && state.tool_contact) {
                 withdraw(hand, setup, state);
                 break;
             }

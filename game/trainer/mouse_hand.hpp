@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "game/lesson/plan.hpp"
-#include "game/trainer/hand.hpp"
-
+#include "game/world/components.hpp"
 #include "haptics/hand/kinematics.hpp"
 #include "haptics/servo/tick.hpp"
 
 namespace bolt::trainer {
+
+using world::Doing;
+using world::Hand;
 
 // What the mouse wants; filled in once a frame.
 struct Wish {

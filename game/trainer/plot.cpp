@@ -18,13 +18,15 @@ std::optional<content::Window> aim_of(const lesson::Lesson& lesson, std::size_t 
 
 }  // namespace
 
-void note(Plot& plot, const lesson::Lesson& lesson, const servo::Output& output) {
-    if (output.joint < 0) return;
-    if (output.joint != plot.joint) plot.points.clear();
-    plot.joint = output.joint;
+void note(Plot& plot, const lesson::Lesson& lesson,
+          const ecs::Access<const world::Joint, const world::ToolContact>& world) {
+    const std::int16_t engaged = world.only<world::ToolContact>().joint;
+    if (engaged < 0) return;
+    if (engaged != plot.joint) plot.points.clear();
+    plot.joint = engaged;
     plot.aim = aim_of(lesson, static_cast<std::size_t>(plot.joint));
-    const PlotPoint now{static_cast<float>(to_degrees(output.nut_angle)),
-                        static_cast<float>(output.wrench_torque)};
+    const world::Joint& joint = world::joint_at(world, static_cast<std::size_t>(plot.joint));
+    const PlotPoint now{static_cast<float>(to_degrees(joint.angle)), static_cast<float>(joint.torque)};
     const bool same = !plot.points.empty() && std::abs(plot.points.back().angle - now.angle) < seen_angle &&
                       std::abs(plot.points.back().torque - now.torque) < seen_torque;
     if (!same && plot.points.size() < most_points) plot.points.push_back(now);

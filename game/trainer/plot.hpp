@@ -20,7 +20,8 @@ struct Plot {
         aim;  // N·m: the due step's, else what the joint is to have; loosening: none
 };
 
-// A tick with the wrench, after the lesson has seen it.
-void note(Plot& plot, const lesson::Lesson& lesson, const servo::Output& output);
+// Adds a tick with the wrench, after the lesson has observed it.
+void note(Plot& plot, const lesson::Lesson& lesson,
+          const ecs::Access<const world::Joint, const world::ToolContact>& world);
 
 }  // namespace bolt::trainer

@@ -35,8 +35,8 @@ void Pushing::take(std::span<const platform::Event> events) {
     }
 }
 
-device::Push Pushing::push() const {
-    device::Push push;
+device::PuckInput Pushing::push() const {
+    device::PuckInput push;
     for (const Way& way : ways) {
         if (!down_.test(static_cast<std::size_t>(way.key))) continue;
         push.along += share * way.along;

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/platform/input.hpp"
-#include "haptics/device/puck.hpp"
+#include "haptics/device/virtual_puck.hpp"
 
 namespace bolt::trainer {
 
@@ -15,7 +15,7 @@ class Pushing {
   public:
     // Takes in what was pressed and let go of. A window that has lost the keyboard pushes nothing.
     void take(std::span<const platform::Event> events);
-    [[nodiscard]] device::Push push() const;
+    [[nodiscard]] device::PuckInput push() const;
     [[nodiscard]] bool closes() const;  // the space bar is down
 
   private:

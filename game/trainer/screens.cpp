@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "game/hints/coach.hpp"
-#include "game/hints/terms.hpp"
+#include "game/lesson/feedback.hpp"
+#include "game/lesson/terms.hpp"
 #include "game/trainer/app.hpp"
 #include "game/trainer/hud.hpp"
 
@@ -69,6 +69,22 @@ void App::draw_seats() {
     }
 }
 
+// A choice is the trainee's from now on, and replaces that of the command line.
+void App::draw_laws(joint::Law of_assembly) {
+    ImGui::AlignTextToFramePadding();
+    text(words_["menu.law"]);
+    const joint::Law now = law_in_force(of_assembly);
+    for (const auto& [key, law] : {std::pair{words::Key("menu.law.mechanistic"), joint::Law::mechanistic},
+                                   std::pair{words::Key("menu.law.published"), joint::Law::published}}) {
+        ImGui::SameLine();
+        if (ImGui::RadioButton(words_[key].c_str(), now == law)) {
+            preferences_.settings.law = joint::name(law);
+            options_.law.reset();
+        }
+        remember_place(key);
+    }
+}
+
 void App::draw_menu(const glm::dvec2& size) {
     Choice& choice = options_.choice;
     const float scale = input_.scale;
@@ -109,11 +125,12 @@ void App::draw_menu(const glm::dvec2& size) {
         ImGui::PopStyleColor();
     }
     for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment})
-        radio(words_[hints::term(mode)].c_str(), choice.mode, mode);
+        radio(words_[lesson::term(mode)].c_str(), choice.mode, mode);
     ImGui::NewLine();
     for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen})
-        radio(words_[hints::term(task)].c_str(), choice.task, task);
+        radio(words_[lesson::term(task)].c_str(), choice.task, task);
     ImGui::NewLine();
+    if (listed != listed_.end()) draw_laws(listed->law);
     draw_seats();
     text_field(words_["menu.trainee"].c_str(), choice.trainee);
     if (ImGui::IsItemDeactivatedAfterEdit()) meet_trainee();
@@ -137,19 +154,19 @@ void App::draw_pause(const glm::dvec2& size) {
     text(words_["menu.paused"]);
     ImGui::Separator();
     if (preferences_.trouble != Preferences::Trouble::none) draw_kept();
-    if (button("menu.go_on")) playing_->paused = false;
+    if (button("menu.go_on")) playing_->pace.paused = false;
     const bool may_undo = playing_->course->lesson().mode != lesson::Mode::assessment;
     if (may_undo && button("menu.undo")) {
-        go_back(playing_->back, playing_->course->lesson(), 1);
-        playing_->paused = false;
+        go_back(playing_->undo, playing_->course->lesson(), 1);
+        playing_->pace.paused = false;
     }
     if (may_undo && button("menu.restart_step")) {
-        go_back(playing_->back, playing_->course->lesson(), 0);
-        playing_->paused = false;
+        go_back(playing_->undo, playing_->course->lesson(), 0);
+        playing_->pace.paused = false;
     }
     if (button("menu.settings")) open_settings();
     if (button("menu.end")) {
-        playing_->paused = false;
+        playing_->pace.paused = false;
         end_wished_ = true;
     }
     if (button("menu.quit")) closed_ = true;
@@ -181,18 +198,18 @@ void App::draw_result(const glm::dvec2& size) {
                  {joint.id, fmt::format("{:.1f}", joint.torque),
                   fmt::format("{:.0f}", to_degrees(joint.angle)), fmt::format("{:.1f}", joint.clamp / 1e3),
                   fmt::format("{} {}", view::sign_of(view::verdict_of(joint)),
-                              words_[hints::term(joint.overall)])}) {
+                              words_[lesson::term(joint.overall)])}) {
                 ImGui::TableNextColumn();
                 text(cell);
             }
         }
         ImGui::EndTable();
     }
-    const hints::Review review = hints::review(assembly_, result);
+    const lesson::Review review = lesson::review(assembly_, result);
     ImGui::PushTextWrapPos(340.0F * scale);
-    for (const hints::Remark& reason : review.reasons)
+    for (const lesson::Remark& reason : review.reasons)
         text((reason.points != 0.0 ? fmt::format("{:+.0f}  ", reason.points) : std::string()) +
-             hints::say(words_, reason));
+             lesson::say(words_, reason));
     ImGui::Separator();
     for (const words::Key advice : review.advice) text(words_[advice]);
     ImGui::PopTextWrapPos();
@@ -203,7 +220,7 @@ void App::draw_interface(const glm::dvec2& size) {
     buttons_.clear();
     if (shows_ == Shows::lesson) draw_hud(*playing_, {&words_, &controls_}, size, input_.scale);
     if (settings_) return draw_settings(size);
-    if (shows_ == Shows::lesson && playing_->paused) draw_pause(size);
+    if (shows_ == Shows::lesson && playing_->pace.paused) draw_pause(size);
     if (shows_ == Shows::menu) draw_menu(size);
     if (shows_ == Shows::result) draw_result(size);
 }

@@ -78,12 +78,12 @@ void App::apply_preferences() {
     name_controls();
     if (!playing_) return;
     const content::Settings& settings = preferences_.settings;
-    Playing& p = *playing_;
+    ActiveLesson& p = *playing_;
     p.controls.keys = preferences_.keys;
-    p.volume = settings.volume;
+    p.sound.volume = settings.volume;
     p.palette = view::palette_of(settings.palette);
-    if (settings.captions != p.captions.has_value())
-        p.captions = settings.captions ? std::optional(Captions{}) : std::nullopt;
+    if (settings.captions != p.sound.captions.has_value())
+        p.sound.captions = settings.captions ? std::optional(Captions{}) : std::nullopt;
 }
 
 void App::bind_key(platform::Key key) {

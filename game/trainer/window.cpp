@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "engine/gpu/restarts.hpp"
+#include "engine/gpu/device_loss_policy.hpp"
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 
@@ -38,33 +38,26 @@ struct Canvas {
 Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instance,
                            const WindowChoice& choice) {
     const gpu::MakeSurface make_surface = [&] { return window.make_surface(instance); };
-    Result<gpu::Surface> surface = make_surface();
-    if (!surface) return fail(surface.error());
+    BOLT_TRY_ASSIGN(auto surface, make_surface());
     render::RendererOptions renderer;
     renderer.level_error_px = level_error;
     Canvas canvas;
-    Result<view::Painter> painter = view::make_painter(instance, {choice.gpu, surface->get()}, renderer);
-    if (!painter) return fail(painter.error());
-    canvas.painter = std::move(*painter);
-    auto swapchain = gpu::Swapchain::create(*canvas.painter.device, std::move(*surface), make_surface);
-    if (!swapchain) return fail(swapchain.error());
-    canvas.swapchain = std::move(*swapchain);
+    BOLT_TRY_ASSIGN(auto painter, view::make_painter(instance, {choice.gpu, surface.get()}, renderer));
+    canvas.painter = std::move(painter);
+    BOLT_TRY_ASSIGN(auto swapchain,
+                    gpu::Swapchain::create(*canvas.painter.device, std::move(surface), make_surface));
+    canvas.swapchain = std::move(swapchain);
     return canvas;
 }
 
 Status draw(App& app, Canvas& canvas, platform::Window& window, std::span<const platform::Event> events,
             double passed) {
-    const Result<VkExtent2D> size = canvas.swapchain->ready(size_of(window));
-    if (!size) return fail(size.error());
-    if (size->width == 0 || size->height == 0) return app.unseen();  // minimised: the lesson waits
-    const Result<gpu::Frame*> frame = canvas.painter.frames->begin();
-    if (!frame) return fail(frame.error());
-    if (Status drawn = app.frame(**frame, events, *size, window.content_scale(), passed); !drawn)
-        return drawn;
-    const render::Layer picture = canvas.painter.renderer->picture(0);
-    const Result<bool> shown =
-        canvas.swapchain->show(*canvas.painter.frames, **frame, *picture.image, picture.layer);
-    if (!shown) return fail(shown.error());
+    BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->ready(size_of(window)));
+    if (size.width == 0 || size.height == 0) return app.unseen();  // minimised: the lesson waits
+    BOLT_TRY_ASSIGN(const auto frame, canvas.painter.frames->begin());
+    BOLT_TRY(app.frame(*frame, events, size, window.content_scale(), passed));
+    const render::ImageLayer picture = canvas.painter.renderer->picture(0);
+    BOLT_TRY(canvas.swapchain->show(*canvas.painter.frames, *frame, *picture.image, picture.layer));
     return {};
 }
 
@@ -75,18 +68,18 @@ Status until_closed(App& app, Canvas& canvas, platform::Window& window, const Wi
         const bool nothing_to_see = canvas.swapchain->plan().extent.width == 0;
         const std::vector<platform::Event> events =
             nothing_to_see ? window.wait_for_events(0.1) : window.events();
-        if (Status there = window.there(); !there) return there;
+        BOLT_TRY(window.display_status());
         for (const platform::Event& event : events)
             if (nothing_to_see && std::holds_alternative<platform::CloseEvent>(event)) return {};
         const double now = seconds(), passed = now - last;
         last = now;
         if (Status done = draw(app, canvas, window, events, passed); !done) {
             // What cannot be shown for want of a display is no fault of the GPU.
-            Status there = window.there();
+            Status there = window.display_status();
             return there ? done : there;
         }
         if (app.wants_full_screen()) window.set_full_screen(!window.full_screen());
-        (void)platform::wait_for_due(pace);
+        (void)platform::wait_for_deadline(pace);
     }
     return {};
 }
@@ -95,7 +88,7 @@ Status until_closed(App& app, Canvas& canvas, platform::Window& window, const Wi
 
 Status run_in_window(App& app, platform::Window& window, const gpu::Instance& instance,
                      const WindowChoice& choice) {
-    gpu::Restarts restarts;
+    gpu::DeviceLossPolicy loss_policy;
     for (;;) {
         Status done;
         {
@@ -113,11 +106,11 @@ Status run_in_window(App& app, platform::Window& window, const gpu::Instance& in
             const Status ended = app.end_lesson();
             return done ? ended : done;
         }
-        if (!restarts.again(seconds())) {
+        if (!loss_policy.should_restart(seconds())) {
             (void)app.end_lesson();
             return fail(ErrorCode::no_device,
-                        fmt::format("the GPU was lost twice within {:.0f} s: {}", gpu::Restarts::patience,
-                                    done.error().what),
+                        fmt::format("the GPU was lost twice within {:.0f} s: {}",
+                                    gpu::DeviceLossPolicy::min_interval, done.error().what),
                         "another GPU or driver: boltwright doctor lists them, --gpu chooses");
         }
         (void)std::fprintf(stderr, "the GPU was lost (%s) and is started again\n", done.error().what.c_str());

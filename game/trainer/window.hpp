@@ -12,7 +12,7 @@ struct WindowChoice {
 };
 
 // Until it is closed; a lesson under way is then ended as it stands. A GPU that is lost is started again,
-// once in a while (gpu::Restarts); the lesson goes on.
+// once in a while (gpu::DeviceLossPolicy); the lesson goes on.
 Status run_in_window(App& app, platform::Window& window, const gpu::Instance& instance,
                      const WindowChoice& choice = {});
 

@@ -100,7 +100,7 @@ void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const
     for (const render::Rectangle& plate : taken) placed.push_back({plate.low, plate.high, true});
     for (const std::size_t i : order) {
         LabelBox& box = boxes[i];
-        if (!box.seen || labels[i].stand != render::LabelStand::on_screen) continue;
+        if (!box.seen || labels[i].stand != render::LabelPlacement::on_screen) continue;
         const glm::vec2 best = nearest_free(box, placed, step_em * labels[i].height, picture);
         labels[i].moved_px += glm::vec2(best.x, -best.y);
         box.low += best;

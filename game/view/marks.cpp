@@ -42,10 +42,9 @@ Result<std::set<int>> nodes_of(const assets::Model& model, const std::string& na
 
 template <class Objects, class Do>
 Status each(Objects& objects, const Subject& subject, const std::string& name, const Do& what) {
-    const Result<std::set<int>> nodes = nodes_of(subject.model, name);
-    if (!nodes) return fail(nodes.error());
+    BOLT_TRY_ASSIGN(const auto nodes, nodes_of(subject.model, name));
     for (auto& object : objects)
-        if (nodes->contains(object.node)) what(object);
+        if (nodes.contains(object.node)) what(object);
     return {};
 }
 
@@ -55,31 +54,28 @@ Status outline(Stage& stage, const Subject& subject, const std::string& node, co
     return each(stage.scene.objects, subject, node, [&](render::Object& object) { object.outline = color; });
 }
 
-Result<render::Box> box_of(const Stage& stage, const Subject& subject, const std::string& node) {
+Result<render::BoundingBox> box_of(const Stage& stage, const Subject& subject, const std::string& node) {
     render::Scene some;
-    const Status found = each(stage.scene.objects, subject, node,
-                              [&](const render::Object& object) { some.objects.push_back(object); });
-    if (!found) return fail(found.error());
+    BOLT_TRY(each(stage.scene.objects, subject, node,
+                  [&](const render::Object& object) { some.objects.push_back(object); }));
     return render::bounds(some);
 }
 
 Status mark(Stage& stage, const Subject& subject, const Marks& marks) {
     std::vector<render::Object>& objects = stage.scene.objects;
-    for (const std::string& name : marks.outlined)
-        if (Status s = outline(stage, subject, name, outline_color); !s) return s;
+    for (const std::string& name : marks.outlined) BOLT_TRY(outline(stage, subject, name, outline_color));
     for (const std::string& name : marks.ghosts)
         if (Status s = each(objects, subject, name, [](render::Object& o) { o.opacity = ghost_opacity; }); !s)
             return s;
     if (marks.seen.empty()) return {};
     for (render::Object& object : objects) object.cut = true;
     if (Status s = each(objects, subject, marks.seen, [](render::Object& o) { o.cut = false; }); !s) return s;
-    const Result<render::Box> seen = box_of(stage, subject, marks.seen);
-    if (!seen) return fail(seen.error());
-    if (seen->empty())
+    BOLT_TRY_ASSIGN(const auto seen, box_of(stage, subject, marks.seen));
+    if (seen.empty())
         return fail(ErrorCode::usage, fmt::format("there is nothing to see at the node \"{}\"", marks.seen),
                     "a node with a mesh");
-    stage.scene.cut_away = {0.5F * (seen->low + seen->high),
-                            free_radius * glm::distance(seen->low, seen->high), 1.0F};
+    stage.scene.cut_away = {0.5F * (seen.low + seen.high), free_radius * glm::distance(seen.low, seen.high),
+                            1.0F};
     return {};
 }
 

@@ -15,7 +15,7 @@ struct Marks {
 Status outline(Stage& stage, const Subject& subject, const std::string& node, const glm::vec4& color);
 
 // Around the node and what hangs below it; empty where nothing of it is drawn.
-Result<render::Box> box_of(const Stage& stage, const Subject& subject, const std::string& node);
+Result<render::BoundingBox> box_of(const Stage& stage, const Subject& subject, const std::string& node);
 
 // An error names the node that is nearest to one that is not there.
 Status mark(Stage& stage, const Subject& subject, const Marks& marks);

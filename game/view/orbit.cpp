@@ -28,7 +28,7 @@ Axes axes(const Orbit& o) {
 // Metres at the target's distance that a height of the picture spans.
 double span(const Orbit& o) { return 2.0 * o.distance * std::tan(0.5 * o.fov); }
 
-double extent(const render::Box& box) {
+double extent(const render::BoundingBox& box) {
     return std::max(static_cast<double>(glm::distance(box.low, box.high)), 1e-6);
 }
 
@@ -53,7 +53,7 @@ Viewpoint viewpoint_of(const Orbit& o) {
             static_cast<float>(o.fov)};
 }
 
-render::Eye eye_of(const Orbit& o, const render::Box& box, float aspect, float aside) {
+render::Eye eye_of(const Orbit& o, const render::BoundingBox& box, float aspect, float aside) {
     const Axes a = axes(o);
     const Vec3 beside = static_cast<double>(aside) * a.right;
     const Vec3 eye = o.target + o.distance * a.back + beside;
@@ -78,7 +78,7 @@ void pan(Orbit& o, glm::dvec2 by) {
     o.target -= span(o) * (by.x * a.right + by.y * a.up);
 }
 
-void zoom(Orbit& o, double notches, glm::dvec2 at, const render::Box& box) {
+void zoom(Orbit& o, double notches, glm::dvec2 at, const render::BoundingBox& box) {
     const double size = extent(box);
     const double to = std::clamp(o.distance * std::pow(notch, notches), 1e-3 * size, 30.0 * size);
     const Axes a = axes(o);
@@ -94,7 +94,7 @@ Orbit from_at_most(const Orbit& orbit, double eye) {
     return lower;
 }
 
-Orbit framing(const Orbit& o, const render::Box& box, float aspect) {
+Orbit framing(const Orbit& o, const render::BoundingBox& box, float aspect) {
     render::Perspective through;
     through.fov = static_cast<float>(o.fov);
     through.aspect = aspect;

@@ -22,7 +22,7 @@ Viewpoint viewpoint_of(const Orbit& orbit);
 
 // What the renderer needs; right from straight above and below too. `aside`: m to the right of the orbit, as
 // one of two eyes is, which meet at the target (stereo.hpp).
-render::Eye eye_of(const Orbit& orbit, const render::Box& box, float aspect, float aside = 0.0F);
+render::Eye eye_of(const Orbit& orbit, const render::BoundingBox& box, float aspect, float aside = 0.0F);
 
 // The cursor went this far: half a turn a height. The model follows it.
 void turn(Orbit& orbit, glm::dvec2 by);
@@ -32,13 +32,13 @@ void pan(Orbit& orbit, glm::dvec2 by);
 
 // Nearer by notches of a wheel (further if negative), while the point under `at` (at the target's distance)
 // stays there. Distances stay between a thousandth and thirty times the box's size.
-void zoom(Orbit& orbit, double notches, glm::dvec2 at, const render::Box& box);
+void zoom(Orbit& orbit, double notches, glm::dvec2 at, const render::BoundingBox& box);
 
 // From no higher than `eye` (m), as far away as before, and never from less than 5° above the target.
 Orbit from_at_most(const Orbit& orbit, double eye);
 
 // All of the box, from the side that it is seen from now.
-Orbit framing(const Orbit& orbit, const render::Box& box, float aspect);
+Orbit framing(const Orbit& orbit, const render::BoundingBox& box, float aspect);
 
 // The camera glides to where the hand wants it: what is left of the way shrinks by e in 70 ms, whatever the
 // frames' times are. In a straight line in all values, so that a zoom keeps its point in between too.

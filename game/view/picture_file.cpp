@@ -7,14 +7,13 @@
 namespace bolt::view {
 
 Status write_picture(const render::Picture& picture, const std::filesystem::path& file) {
-    const Result<std::string> png = assets::encode_png(static_cast<int>(picture.width),
-                                                       static_cast<int>(picture.height), 4, picture.rgba);
-    if (!png) return fail(png.error());
+    BOLT_TRY_ASSIGN(const auto png, assets::encode_png(static_cast<int>(picture.width),
+                                                       static_cast<int>(picture.height), 4, picture.rgba));
     std::error_code ignored;  // write_file says why
     if (const auto folder = file.parent_path(); !folder.empty())
         std::filesystem::create_directories(folder, ignored);
-    if (Status kept = write_file(file, *png); !kept) return kept;
-    return say(file.string() + "\n");
+    BOLT_TRY(write_file(file, png));
+    return print(file.string() + "\n");
 }
 
 }  // namespace bolt::view

@@ -1,9 +1,9 @@
 #include "game/view/result_pictures.hpp"
 
 #include "engine/render/picture.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/label_places.hpp"
 #include "game/view/marks.hpp"
-#include "game/view/painter.hpp"
 #include "game/view/palette.hpp"
 #include "game/view/picture_file.hpp"
 
@@ -19,15 +19,14 @@ namespace {
 Status add_joint(Stage& stage, const Subject& subject, const std::string& node,
                  const lesson::JointResult& joint) {
     const glm::vec4 color = verdict_color(joint);
-    if (Status s = outline(stage, subject, node, color); !s) return s;
-    const Result<render::Box> box = box_of(stage, subject, node);
-    if (!box) return fail(box.error());
-    if (box->empty() || color.w == 0.0F) return {};
+    BOLT_TRY(outline(stage, subject, node, color));
+    BOLT_TRY_ASSIGN(const auto box, box_of(stage, subject, node));
+    if (box.empty() || color.w == 0.0F) return {};
     render::Label label;
     label.text = fmt::format(
         "{} {} {:.0f} N·m", joint.id,
         joint.condition == joint::Condition::sound ? lesson::name(joint.overall) : "DAMAGED", joint.torque);
-    label.position = {0.5F * (box->low.x + box->high.x), box->high.y, 0.5F * (box->low.z + box->high.z)};
+    label.position = {0.5F * (box.low.x + box.high.x), box.high.y, 0.5F * (box.low.z + box.high.z)};
     label.height = 15.0F;
     label.anchor = {0.5F, 0.0F};
     label.moved_px = {0.0F, 10.0F};
@@ -47,38 +46,31 @@ Status draw_result(const content::Assembly& assembly, const lesson::LessonResult
     if (assembly.models.model.empty() || assembly.views.empty()) return {};
     LoadedSubject loaded = load_subject(assembly.file);
     if (!loaded.ok()) return fail(loaded.errors.front());
-    const Result<shading::RadianceImage> radiance = load_light("studio");
-    if (!radiance) return fail(radiance.error());
-    Result<gpu::Instance> instance = gpu::Instance::create({});
-    if (!instance) return fail(instance.error());
-    Result<Painter> painter = make_painter(*instance, {});
-    if (!painter) return fail(painter.error());
-    Result<render::EnvironmentLight> light = render::upload_environment(*painter->device, *radiance);
-    if (!light) return fail(light.error());
-    const auto stage = set_stage(*painter->device, loaded.subject, *light);
-    if (!stage) return fail(stage.error());
+    BOLT_TRY_ASSIGN(const auto radiance, load_light("studio"));
+    BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create({}));
+    BOLT_TRY_ASSIGN(auto painter, make_painter(instance, {}));
+    BOLT_TRY_ASSIGN(auto light, render::upload_environment(*painter.device, radiance));
+    BOLT_TRY_ASSIGN(const auto stage, set_stage(*painter.device, loaded.subject, light));
     for (std::size_t i = 0; i < assembly.joints.size() && i < result.joints.size(); ++i) {
         if (assembly.joints[i].node.empty()) continue;
         const std::string& node = assembly.joints[i].node;
-        if (Status s = add_joint(**stage, loaded.subject, node, result.joints[i]); !s) return s;
+        BOLT_TRY(add_joint(*stage, loaded.subject, node, result.joints[i]));
     }
-    const Result<text::Fonts> fonts = text::load_fonts();
-    if (!fonts) return fail(fonts.error());
-    const std::vector<render::Label> labels = (*stage)->scene.labels;
+    BOLT_TRY_ASSIGN(const auto fonts, text::load_fonts());
+    const std::vector<render::Label> labels = (stage)->scene.labels;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     for (const Viewpoint& view : loaded.subject.views) {
         const float fov = view.fov > 0.0F ? view.fov : usual_fov;
         const render::Eye eye =
-            render::make_eye(view.eye, view.target, lens((*stage)->box, view.eye, view.target, fov, aspect));
-        (*stage)->scene.labels = labels;
-        move_apart(*fonts, (*stage)->scene.labels, eye, {size.width, size.height});
-        const auto pictures = render::take_pictures(*painter->device, *painter->frames, *painter->renderer,
-                                                    (*stage)->scene, {&eye, 1}, size);
-        if (!pictures) return fail(pictures.error());
-        if (Status kept = write_picture(pictures->front(), folder / ("view-" + view.name + ".png")); !kept)
-            return kept;
+            render::make_eye(view.eye, view.target, lens((stage)->box, view.eye, view.target, fov, aspect));
+        (stage)->scene.labels = labels;
+        move_apart(fonts, (stage)->scene.labels, eye, {size.width, size.height});
+        BOLT_TRY_ASSIGN(const auto pictures,
+                        render::take_pictures(*painter.device, *painter.frames, *painter.renderer,
+                                              (stage)->scene, {&eye, 1}, size));
+        BOLT_TRY(write_picture(pictures.front(), folder / ("view-" + view.name + ".png")));
     }
-    (void)painter->renderer->save_pipelines();  // without them the next start is slower, no more
+    (void)painter.renderer->save_pipelines();  // without them the next start is slower, no more
     return {};
 }
 

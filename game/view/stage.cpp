@@ -23,15 +23,14 @@ render::SceneLight key_light() {
 Result<std::unique_ptr<Stage>> set_stage(gpu::Device& device, const Subject& subject,
                                          const render::EnvironmentLight& light, const StageOptions& options) {
     auto stage = std::make_unique<Stage>();
-    Result<render::GpuModel> model = render::upload_model(device, subject.model, {options.levels});
-    if (!model) return fail(model.error());
-    stage->model = std::move(*model);
+    BOLT_TRY_ASSIGN(auto model, render::upload_model(device, subject.model, {options.levels}));
+    stage->model = std::move(model);
     render::Scene& scene = stage->scene;
-    render::place(scene, subject.model, stage->model);
+    render::add_model(scene, subject.model, stage->model);
     if (scene.objects.empty())
         return fail(ErrorCode::bad_content, fmt::format("{}: nothing in it can be drawn", subject.name),
                     "a mesh in the default scene");
-    render::place_lights(scene, subject.model);
+    render::add_lights(scene, subject.model);
     if (scene.lights.empty() && options.key) scene.lights.push_back(key_light());
     scene.environment = &light;
     scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
@@ -40,8 +39,8 @@ Result<std::unique_ptr<Stage>> set_stage(gpu::Device& device, const Subject& sub
     return stage;
 }
 
-render::Perspective lens(const render::Box& box, const glm::vec3& eye, const glm::vec3& target, float fov,
-                         float aspect) {
+render::Perspective lens(const render::BoundingBox& box, const glm::vec3& eye, const glm::vec3& target,
+                         float fov, float aspect) {
     render::Perspective lens;
     lens.fov = fov;
     lens.aspect = aspect;
@@ -53,7 +52,7 @@ render::Perspective lens(const render::Box& box, const glm::vec3& eye, const glm
     return lens;
 }
 
-Viewpoint framed(const render::Box& box, float fov, float aspect) {
+Viewpoint framed(const render::BoundingBox& box, float fov, float aspect) {
     render::Perspective lens;
     lens.fov = fov;
     lens.aspect = aspect;

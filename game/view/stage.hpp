@@ -4,14 +4,14 @@
 #include <memory>
 
 #include "engine/render/camera.hpp"
-#include "game/view/subject.hpp"
+#include "game/view/loaded_model.hpp"
 
 namespace bolt::view {
 
 struct Stage {
     render::GpuModel model;
     render::Scene scene;  // points to the model and to the light
-    render::Box box;
+    render::BoundingBox box;
 };
 
 struct StageOptions {
@@ -25,14 +25,14 @@ Result<std::unique_ptr<Stage>> set_stage(gpu::Device& device, const Subject& sub
                                          const StageOptions& options = {});
 
 // A lens for a look from `eye` to `target`, deep enough for the whole stage.
-render::Perspective lens(const render::Box& box, const glm::vec3& eye, const glm::vec3& target, float fov,
-                         float aspect);
+render::Perspective lens(const render::BoundingBox& box, const glm::vec3& eye, const glm::vec3& target,
+                         float fov, float aspect);
 
 // Where models are looked at from when nobody says: from above, in front and to the right.
 inline const glm::vec3 usual_side{0.55F, 0.5F, 1.0F};
 inline constexpr float usual_fov = 0.6108652F;  // rad, 35°
 
 // All of the stage, from there.
-Viewpoint framed(const render::Box& box, float fov, float aspect);
+Viewpoint framed(const render::BoundingBox& box, float fov, float aspect);
 
 }  // namespace bolt::view

@@ -16,7 +16,7 @@ std::uint64_t take(std::span<const std::uint8_t> at) {
 
 }  // namespace
 
-std::array<std::uint8_t, report_bytes> bytes_of(const Message& message) {
+std::array<std::uint8_t, report_bytes> encode_message(const Message& message) {
     std::array<std::uint8_t, report_bytes> bytes{};
     const std::span<std::uint8_t> all(bytes);
     bytes[0] = report_id;
@@ -29,7 +29,7 @@ std::array<std::uint8_t, report_bytes> bytes_of(const Message& message) {
     return bytes;
 }
 
-std::optional<Message> message_in(std::span<const std::uint8_t> report) {
+std::optional<Message> decode_message(std::span<const std::uint8_t> report) {
     if (report.size() < report_bytes || report[0] != report_id) return std::nullopt;
     Message m;
     m.type = static_cast<Type>(report[1]);
@@ -41,7 +41,7 @@ std::optional<Message> message_in(std::span<const std::uint8_t> report) {
     return m;
 }
 
-std::optional<std::int64_t> answer_to(Command question, const Message& message) {
+std::optional<std::int64_t> reply_value(Command question, const Message& message) {
     if (message.type != Type::request || message.of_class != axis_class || message.instance != 0 ||
         message.command != static_cast<std::uint32_t>(question))
         return std::nullopt;

@@ -1,8 +1,8 @@
-// What OpenFFBoard (1209:ffb0) is asked beside USB's force feedback, and how it answers: a report of the
-// maker's own. Bytes only.
+// Encodes and decodes the vendor report of OpenFFBoard (1209:ffb0), which reads settings that USB force
+// feedback lacks. No I/O.
 //
-// OpenFFBoard wiki, "Commands" (HID); of the axis class the numbers up to 9 are the same in all versions of
-// the firmware that were looked at, those behind are not.
+// Source: OpenFFBoard wiki, "Commands" (HID). Command numbers of the axis class up to 9 agree in all firmware
+// versions that we compared; higher numbers differ.
 #pragma once
 
 #include <array>
@@ -26,9 +26,9 @@ enum class Type : std::uint8_t {
 };
 
 enum class Command : std::uint32_t {
-    power = 0,     // 0 … 32767 of what the motor driver can
-    degrees = 1,   // that the joystick's axis spans from end to end
-    position = 9,  // of the encoder, counts
+    power = 0,     // full-scale motor torque, 0 … 32767
+    degrees = 1,   // range of the joystick axis
+    position = 9,  // encoder position in counts
 };
 
 constexpr double full_power = 32767.0;
@@ -43,12 +43,12 @@ struct Message {
     friend bool operator==(const Message&, const Message&) = default;
 };
 
-std::array<std::uint8_t, report_bytes> bytes_of(const Message& message);
+std::array<std::uint8_t, report_bytes> encode_message(const Message& message);
 
-// None: it is no such report, or a short one.
-std::optional<Message> message_in(std::span<const std::uint8_t> report);
+// Returns nullopt for another report or a short one.
+std::optional<Message> decode_message(std::span<const std::uint8_t> report);
 
-// An answer of the first axis to a question: its value. None: it is none.
-std::optional<std::int64_t> answer_to(Command question, const Message& message);
+// The value that axis 0 returns for `question`; nullopt if the message is not that reply.
+std::optional<std::int64_t> reply_value(Command question, const Message& message);
 
 }  // namespace bolt::device::board

@@ -8,7 +8,7 @@ constexpr std::uint16_t button_page = 0x09, most_buttons = 32;
 
 }  // namespace
 
-std::vector<Field> button_fields(const ReportDescriptor& descriptor) {
+std::vector<Field> find_button_fields(const ReportDescriptor& descriptor) {
     std::vector<Field> buttons;
     for (std::uint16_t number = 1; number <= most_buttons; ++number)
         if (const Field* button = find_field(descriptor, ReportKind::input, {button_page, number});
@@ -17,8 +17,8 @@ std::vector<Field> button_fields(const ReportDescriptor& descriptor) {
     return buttons;
 }
 
-bool take_buttons(const std::vector<Field>& buttons, std::uint8_t id, std::span<const std::uint8_t> report,
-                  std::uint32_t& pressed) {
+bool decode_buttons(const std::vector<Field>& buttons, std::uint8_t id, std::span<const std::uint8_t> report,
+                    std::uint32_t& pressed) {
     bool told = false;
     for (const Field& button : buttons) {
         if (button.report != id) continue;
@@ -31,7 +31,7 @@ bool take_buttons(const std::vector<Field>& buttons, std::uint8_t id, std::span<
     return told;
 }
 
-std::optional<std::uint8_t> take_id(bool numbered, std::span<const std::uint8_t>& report) {
+std::optional<std::uint8_t> strip_report_id(bool numbered, std::span<const std::uint8_t>& report) {
     if (!numbered) return std::uint8_t{0};
     if (report.empty()) return std::nullopt;
     const std::uint8_t id = report.front();

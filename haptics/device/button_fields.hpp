@@ -1,4 +1,4 @@
-// The buttons of a HID device: where its reports say which are pressed.
+// Finds and decodes the buttons of a HID device.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace bolt::device {
 
-// In the order of their numbers, those that have a bit below.
-std::vector<Field> button_fields(const ReportDescriptor& descriptor);
+// One-bit fields of the Button page, sorted by button number.
+std::vector<Field> find_button_fields(const ReportDescriptor& descriptor);
 
-// What a report (its id taken off) tells of them: a bit each. False: nothing.
-bool take_buttons(const std::vector<Field>& buttons, std::uint8_t id, std::span<const std::uint8_t> report,
-                  std::uint32_t& pressed);
+// Decodes a report without its id into `pressed` (bit i: button i). Returns false if it contains no buttons.
+bool decode_buttons(const std::vector<Field>& buttons, std::uint8_t id, std::span<const std::uint8_t> report,
+                    std::uint32_t& pressed);
 
-// Takes the id off a report as hidapi gives it; 0 where reports are not numbered. None: it is empty and
-// should have one.
-std::optional<std::uint8_t> take_id(bool numbered, std::span<const std::uint8_t>& report);
+// Removes the id that hidapi puts in front of a report and returns it; 0 if reports are not numbered, nullopt
+// if the id is missing.
+std::optional<std::uint8_t> strip_report_id(bool numbered, std::span<const std::uint8_t>& report);
 
 }  // namespace bolt::device

@@ -1,5 +1,5 @@
-// hidapi keeps one error text for all of a program, and frees it in every call that is about no open device:
-// whoever makes such a call holds this. Two threads that looked for devices at once have crashed.
+// hidapi has one global error string and frees it in every call without an open device. Hold this lock during
+// such calls; two threads that enumerate at once crash without it.
 #pragma once
 
 #include <mutex>

@@ -20,29 +20,29 @@ constexpr Usage set_effect = pid(0x21), block_index = pid(0x22), constant_force 
 
 constexpr ReportKind sent[] = {ReportKind::output, ReportKind::feature};
 
-struct Made {
+struct MessageBuilder {
     PidMessage message;
     std::span<std::uint8_t> body() { return std::span(message.bytes).subspan(1); }
 };
 
-Made made(const ReportDescriptor& descriptor, const Field& field) {
-    Made m;
+MessageBuilder made(const ReportDescriptor& descriptor, const Field& field) {
+    MessageBuilder m;
     m.message.kind = field.kind;
     m.message.bytes.resize(1 + report_size(descriptor, field.kind, field.report));
     m.message.bytes[0] = field.report;
     return m;
 }
 
-void put(Made& m, const Field& field, std::int64_t value) {
-    if (field.report == m.message.bytes[0]) put_value(field, value, m.body());
+void put(MessageBuilder& m, const Field& field, std::int64_t value) {
+    if (field.report == m.message.bytes[0]) write_value(field, value, m.body());
 }
 
-// A message that one choice is the whole point of; none if the device does not offer it.
-std::optional<Made> chosen(const ReportDescriptor& descriptor, Usage option,
-                           std::optional<Usage> within = std::nullopt) {
+// A message that consists of one selector; empty if the device lacks it.
+std::optional<MessageBuilder> chosen(const ReportDescriptor& descriptor, Usage option,
+                                     std::optional<Usage> within = std::nullopt) {
     for (const ReportKind kind : sent)
-        if (const auto choice = find_choice(descriptor, kind, option, within)) {
-            Made m = made(descriptor, choice->field);
+        if (const auto choice = find_selector(descriptor, kind, option, within)) {
+            MessageBuilder m = made(descriptor, choice->field);
             put(m, choice->field, choice->value);
             if (const Field* block = within ? find_field(descriptor, kind, block_index, within) : nullptr;
                 block != nullptr && block->report == choice->field.report)
@@ -58,7 +58,8 @@ const Field* sent_field(const ReportDescriptor& descriptor, Usage usage, Usage w
     return nullptr;
 }
 
-// Seconds in a field's counts. Those that name no unit mean milliseconds, as the standard's own examples do.
+// Converts seconds to counts of a field. Fields without a unit use milliseconds, as in the standard's
+// examples.
 std::int64_t counts_of(const Field& field, double seconds) {
     constexpr std::uint32_t si_seconds = 0x1001, english_seconds = 0x1003;
     const bool says = field.unit == si_seconds || field.unit == english_seconds;
@@ -70,15 +71,14 @@ std::int64_t counts_of(const Field& field, double seconds) {
 }
 
 PidMessage set_effect_message(const ReportDescriptor& descriptor) {
-    std::optional<Made> m = chosen(descriptor, constant_force, set_effect);
+    std::optional<MessageBuilder> m = chosen(descriptor, constant_force, set_effect);
     if (!m) return {};
     const auto field = [&](Usage usage) {
         return find_field(descriptor, m->message.kind, usage, set_effect);
     };
     if (const Field* f = field(duration)) put(*m, *f, counts_of(*f, effect_life));
     if (const Field* f = field(gain)) put(*m, *f, f->high);
-    // Of the axes that can be enabled the first is the wheel's. The button that triggers an effect, and the
-    // delay of its start, stay zero: none.
+    // The first axis that can be enabled is the wheel's. Trigger button and start delay stay zero (none).
     for (const Field& f : descriptor.fields)
         if (f.kind == m->message.kind && f.report == m->message.bytes[0] &&
             find_field(descriptor, f.kind, f.usage, axes_enable) == &f) {
@@ -86,7 +86,7 @@ PidMessage set_effect_message(const ReportDescriptor& descriptor) {
             break;
         }
     if (const Field* f = field(direction_enable)) put(*m, *f, 1);
-    // A quarter of a turn from north: from the right. Its slots are called by ordinals or by axes.
+    // Direction 90° from north: from the right. Devices name the slots by ordinals or by axes.
     for (const Field& f : descriptor.fields)
         if (f.kind == m->message.kind && find_field(descriptor, f.kind, f.usage, direction) == &f) {
             put(*m, f, f.low + (f.high - f.low) / 4);
@@ -101,52 +101,52 @@ Result<PidLayout> pid_layout(const ReportDescriptor& descriptor) {
     PidLayout layout;
     const Field* strength = sent_field(descriptor, magnitude, set_constant_force);
     if (strength == nullptr)
-        return fail(ErrorCode::no_device, "the device offers no constant force",
+        return fail(ErrorCode::no_device, "the device has no constant-force effect",
                     "a wheel with USB's force feedback (PID)");
     if (strength->low >= 0 || strength->high <= 0)
-        return fail(ErrorCode::no_device, "the device's constant force pulls one way only",
-                    "a magnitude with a sign");
-    std::optional<Made> start = chosen(descriptor, op_start, effect_operation);
-    std::optional<Made> stop = chosen(descriptor, op_stop, effect_operation);
+        return fail(ErrorCode::no_device, "the device's constant force has one sign only",
+                    "a signed magnitude");
+    std::optional<MessageBuilder> start = chosen(descriptor, op_start, effect_operation);
+    std::optional<MessageBuilder> stop = chosen(descriptor, op_stop, effect_operation);
     if (!start || !stop)
-        return fail(ErrorCode::no_device, "the device does not let effects be started and stopped",
+        return fail(ErrorCode::no_device, "the device cannot start and stop effects",
                     "the report \"effect operation\" of USB's force feedback");
     if (const Field* loops = find_field(descriptor, start->message.kind, loop_count, effect_operation))
         put(*start, *loops, 1);
     layout.start = std::move(start->message);
     layout.stop = std::move(stop->message);
 
-    Made force = made(descriptor, *strength);
+    MessageBuilder force = made(descriptor, *strength);
     layout.magnitude = *strength;
     if (const Field* block = find_field(descriptor, strength->kind, block_index, set_constant_force))
         force.message.block = *block;
     layout.force = std::move(force.message);
 
     const auto control = [&](Usage option) {
-        std::optional<Made> m = chosen(descriptor, option);
+        std::optional<MessageBuilder> m = chosen(descriptor, option);
         return m ? std::move(m->message) : PidMessage{};
     };
     layout.reset = control(device_reset);
     layout.stop_all = control(stop_all_effects);
     layout.enable = control(enable_actuators);
     if (const Field* f = sent_field(descriptor, device_gain, device_gain_report)) {
-        Made m = made(descriptor, *f);
+        MessageBuilder m = made(descriptor, *f);
         put(m, *f, f->high);
         layout.gain = std::move(m.message);
     }
-    if (std::optional<Made> m = chosen(descriptor, constant_force, create_effect))
+    if (std::optional<MessageBuilder> m = chosen(descriptor, constant_force, create_effect))
         layout.create = std::move(m->message);
     layout.set = set_effect_message(descriptor);
     if (const Field* f = sent_field(descriptor, block_index, block_free)) {
-        Made m = made(descriptor, *f);
+        MessageBuilder m = made(descriptor, *f);
         m.message.block = *f;
         layout.free = std::move(m.message);
     }
     if (const Field* f = find_field(descriptor, ReportKind::feature, block_index, block_load)) {
-        Made m = made(descriptor, *f);
+        MessageBuilder m = made(descriptor, *f);
         m.message.block = *f;
         layout.loaded = std::move(m.message);
-        if (const auto well = find_choice(descriptor, ReportKind::feature, load_success, block_load)) {
+        if (const auto well = find_selector(descriptor, ReportKind::feature, load_success, block_load)) {
             layout.status = well->field;
             layout.loaded_well = well->value;
         }
@@ -154,8 +154,8 @@ Result<PidLayout> pid_layout(const ReportDescriptor& descriptor) {
     return layout;
 }
 
-Result<std::optional<std::int64_t>> loaded_block(const PidLayout& layout,
-                                                 std::span<const std::uint8_t> answer) {
+Result<std::optional<std::int64_t>> parse_block_load(const PidLayout& layout,
+                                                     std::span<const std::uint8_t> answer) {
     if (answer.empty() || !layout.loaded.block) return std::nullopt;
     const auto body = answer.subspan(1);
     const auto block = value_of(*layout.loaded.block, body);
@@ -165,21 +165,21 @@ Result<std::optional<std::int64_t>> loaded_block(const PidLayout& layout,
         if (!status || *status < layout.status->low || *status > layout.status->high) return std::nullopt;
         if (*status != layout.loaded_well)
             return fail(ErrorCode::no_device, "the device has no room for an effect",
-                        "a device that no other program pulls at; unplug it and plug it in again");
+                        "a device that no other program uses; unplug it and plug it in again");
     }
     if (*block < layout.loaded.block->low || *block > layout.loaded.block->high) return std::nullopt;
     return block;
 }
 
-void use_block(PidLayout& layout, std::int64_t block) {
+void select_block(PidLayout& layout, std::int64_t block) {
     for (PidMessage* m : {&layout.set, &layout.force, &layout.start, &layout.stop, &layout.free})
-        if (m->block && !m->bytes.empty()) put_value(*m->block, block, std::span(m->bytes).subspan(1));
+        if (m->block && !m->bytes.empty()) write_value(*m->block, block, std::span(m->bytes).subspan(1));
 }
 
-void put_share(PidLayout& layout, double share) {
+void set_magnitude(PidLayout& layout, double share) {
     const double s = std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0.0;
     const auto most = static_cast<double>(s < 0.0 ? -layout.magnitude.low : layout.magnitude.high);
-    put_value(layout.magnitude, std::llround(s * most), std::span(layout.force.bytes).subspan(1));
+    write_value(layout.magnitude, std::llround(s * most), std::span(layout.force.bytes).subspan(1));
 }
 
 }  // namespace bolt::device

@@ -1,8 +1,8 @@
-// USB's force feedback (page "Physical Interface", PID): one constant force, kept running for as long as the
-// device is open. Bytes only; pid_force.hpp sends them.
+// Messages of USB force feedback (usage page "Physical Interface Device", PID) for one constant force. No
+// I/O; pid_force.hpp sends them.
 //
-// USB-IF, Device Class Definition for Physical Interface Devices 1.0; what devices leave out or do otherwise
-// is known from Linux' hid-pidff.c.
+// Source: USB-IF, Device Class Definition for Physical Interface Devices 1.0. Deviations of real devices
+// follow Linux' hid-pidff.c.
 #pragma once
 
 #include <vector>
@@ -11,39 +11,41 @@
 
 namespace bolt::device {
 
-// s that a force lasts without being started again: so long it outlives a program that was killed.
+// Duration of the effect in s unless restarted, and so the longest time that a force outlives a killed
+// program.
 constexpr double effect_life = 1.0;
 
 struct PidMessage {
     ReportKind kind = ReportKind::output;
-    std::vector<std::uint8_t> bytes;  // id in front; empty: the device knows no such message
-    std::optional<Field> block;       // which effect is meant
+    std::vector<std::uint8_t> bytes;  // begins with the id; empty: the device has no such message
+    std::optional<Field> block;       // index of the effect
 };
 
 struct PidLayout {
-    PidMessage reset, stop_all, enable;  // of the device
-    PidMessage gain;                     // all of it
-    PidMessage create;                   // an effect of constant force
-    PidMessage loaded;                   // to be asked for: where the effect was put, and whether
-    PidMessage set;                      // the effect: for its life, from the right
-    PidMessage force;                    // how strong it is
-    PidMessage start, stop, free;        // the effect
+    PidMessage reset, stop_all, enable;  // device control
+    PidMessage gain;                     // device gain
+    PidMessage create;                   // creates a constant-force effect
+    PidMessage loaded;                   // feature to read: block index and status of the new effect
+    PidMessage set;                      // effect parameters: duration and direction (from the right)
+    PidMessage force;                    // magnitude of the constant force
+    PidMessage start, stop, free;        // effect operation
     Field magnitude;                     // in `force`
     std::optional<Field> status;         // in `loaded`
     std::int64_t loaded_well = 0;
 };
 
-// An error: it has no constant force, or none that goes both ways.
+// Error: the device has no constant force, or none of both signs.
 Result<PidLayout> pid_layout(const ReportDescriptor& descriptor);
 
-// From the answer to `loaded`: the effect's number. None: not loaded yet. An error: there is no room.
-Result<std::optional<std::int64_t>> loaded_block(const PidLayout& layout,
-                                                 std::span<const std::uint8_t> answer);
+// Parses the `loaded` report: the block index, nullopt if loading is not complete, an error if memory is
+// full.
+Result<std::optional<std::int64_t>> parse_block_load(const PidLayout& layout,
+                                                     std::span<const std::uint8_t> answer);
 
-// Everything from now on is about this effect.
-void use_block(PidLayout& layout, std::int64_t block);
+// Writes the block index into all messages of the effect.
+void select_block(PidLayout& layout, std::int64_t block);
 
-// −1 … 1 of what the device can; positive turns to the left, the force "coming from the right".
-void put_share(PidLayout& layout, double share);
+// `share` is −1 … 1 of full scale; positive turns to the left (the force comes from the right).
+void set_magnitude(PidLayout& layout, double share);
 
 }  // namespace bolt::device

@@ -1,7 +1,7 @@
-// Keeps a wheel's one constant force alive over a line, and takes it away at the end.
+// Runs the constant-force effect of a wheel: creates, updates, restarts and stops it.
 #pragma once
 
-#include "haptics/device/hid_line.hpp"
+#include "haptics/device/hid_transport.hpp"
 #include "haptics/device/pid.hpp"
 
 namespace bolt::device {
@@ -10,13 +10,13 @@ class PidForce {
   public:
     explicit PidForce(PidLayout layout) : layout_(std::move(layout)) {}
 
-    // Takes the device over from whoever used it before: all effects stopped, ours made and started at zero.
-    Status begin(HidLine& line, double now);
-    // −1 … 1 of what the device can, to the left. Sends what is new, and now and then what is not: the effect
-    // is given a short life, and there are devices that let a force die of themselves.
-    Status push(HidLine& line, double share, double now);
-    // As far as it still can be told.
-    void end(HidLine& line);
+    // Resets the device, stops all effects of earlier users, then creates ours and starts it at zero.
+    Status start(HidTransport& line, double now);
+    // `share` is −1 … 1 of full scale, positive to the left. Sends changes at once, and repeats the value
+    // before the effect's duration ends; some devices also drop a force that is not refreshed.
+    Status update(HidTransport& line, double share, double now);
+    // Best effort: ignores write errors.
+    void stop(HidTransport& line);
 
   private:
     PidLayout layout_;

@@ -18,17 +18,17 @@ class Recorded final : public Device {
 
     [[nodiscard]] const Description& describe() const override { return description_; }
 
-    Result<std::optional<Sample>> read(double patience) override {
-        const double until = timer_.now() + patience;
+    Result<std::optional<Sample>> read(double timeout) override {
+        const double until = timer_.now() + timeout;
         const double due = next_ ? start_ + next_->time : last_.time + 1.0 / description_.rate;
         if (due > until) {
-            timer_.wait(patience);
+            timer_.wait(timeout);
             return std::optional<Sample>{};
         }
         if (due > timer_.now()) timer_.wait(due - timer_.now());
         const double now = timer_.now();
         if (!next_) last_.buttons = 0, last_.velocity = last_.angular_velocity = Vec3(0.0);
-        // Of several that are due the newest counts, as with any device that is looked at late.
+        // If several samples are due, return the latest, as a device does that is polled late.
         while (next_ && start_ + next_->time <= now) {
             last_ = *next_;
             next_ = recording_(++index_);
@@ -51,11 +51,11 @@ class Recorded final : public Device {
 
 }  // namespace
 
-Open recorded(Description description, Recording recording, Timer timer) {
+DeviceFactory recorded(Description description, Recording recording, Timer timer) {
     return [description = std::move(description), recording = std::move(recording),
             timer = std::move(timer)]() -> Result<std::unique_ptr<Device>> {
         if (!recording(0))
-            return fail(ErrorCode::failed, "the recording holds no sample", "a session with ticks");
+            return fail(ErrorCode::failed, "the recording has no samples", "a session with ticks");
         return std::make_unique<Recorded>(description, recording, timer);
     };
 }

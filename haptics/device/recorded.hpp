@@ -1,5 +1,4 @@
-// A device that plays what was recorded of one, at the pace it had. Where the samples lie is their owner's
-// business.
+// A device that plays recorded samples at their recorded times. The caller supplies the samples.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +8,11 @@
 
 namespace bolt::device {
 
-// The samples one after the other, times rising; none: there are no more.
+// Returns sample `index`, with increasing times; nullopt after the last.
 using Recording = std::function<std::optional<Sample>(std::size_t index)>;
 
-// Begins anew whenever it is opened. At its end the hand stays where it is and lets all buttons go. What is
-// rendered moves nobody.
-Open recorded(Description description, Recording recording, Timer timer);
+// Restarts at each opening. After the last sample the pose stays and all buttons are released. Rendered force
+// has no effect.
+DeviceFactory recorded(Description description, Recording recording, Timer timer);
 
 }  // namespace bolt::device

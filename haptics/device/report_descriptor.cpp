@@ -73,7 +73,7 @@ class Parser {
             for (std::size_t i = 0; i < size; ++i)
                 value |= static_cast<std::uint32_t>(bytes_[at_ + i]) << (8 * i);
             at_ += size;
-            if (const Status taken = take(head & 0xfcU, value, size); !taken) return fail(taken.error());
+            BOLT_TRY(take(head & 0xfcU, value, size));
         }
         item_ = at_;
         if (!open_.empty()) return wrong("a collection is not ended", "an end of each collection");
@@ -182,8 +182,7 @@ class Parser {
                 if (!local_.low || local_.low->page != high.page || high.id < local_.low->id)
                     return wrong("a range of usages that ends before it begins", "its least usage first");
                 for (std::uint32_t id = local_.low->id; id <= high.id; ++id)
-                    if (Status added = add_usage({high.page, static_cast<std::uint16_t>(id)}); !added)
-                        return added;
+                    BOLT_TRY(add_usage({high.page, static_cast<std::uint16_t>(id)}));
                 local_.low.reset();
                 return {};
             }
@@ -221,7 +220,7 @@ class Parser {
         field.report = now_.report;
         field.bits = static_cast<std::uint8_t>(std::min(now_.bits, most_bits));
         field.low = now_.low;
-        // A greatest value below the least was meant without a sign (0xff in one byte for 255).
+        // Some devices encode an unsigned maximum as signed (0xff in one byte for 255).
         field.high = now_.high < now_.low && now_.low >= 0 ? now_.high_as_unsigned : now_.high;
         field.physical_low = now_.physical_low;
         field.physical_high = now_.physical_high < now_.physical_low && now_.physical_low >= 0
@@ -299,16 +298,16 @@ const Field* find_field(const ReportDescriptor& descriptor, ReportKind kind, Usa
     return nullptr;
 }
 
-std::optional<Choice> find_choice(const ReportDescriptor& descriptor, ReportKind kind, Usage option,
-                                  std::optional<Usage> within) {
+std::optional<Selector> find_selector(const ReportDescriptor& descriptor, ReportKind kind, Usage option,
+                                      std::optional<Usage> within) {
     for (const Field& f : descriptor.fields) {
         if (f.kind != kind || (within && !is_within(descriptor, f, *within))) continue;
         if (!f.array) {
-            if (f.usage == option) return Choice{f, std::clamp<std::int64_t>(1, f.low, f.high)};
+            if (f.usage == option) return Selector{f, std::clamp<std::int64_t>(1, f.low, f.high)};
             continue;
         }
         for (std::uint32_t i = 0; i < f.usages; ++i)
-            if (descriptor.slots[f.slots + i] == option) return Choice{f, f.low + i};
+            if (descriptor.slots[f.slots + i] == option) return Selector{f, f.low + i};
     }
     return std::nullopt;
 }
@@ -326,7 +325,7 @@ std::optional<std::int64_t> value_of(const Field& field, std::span<const std::ui
     return value;
 }
 
-bool put_value(const Field& field, std::int64_t value, std::span<std::uint8_t> report) {
+bool write_value(const Field& field, std::int64_t value, std::span<std::uint8_t> report) {
     if (field.bit + field.bits > 8 * report.size()) return false;
     const auto raw = static_cast<std::uint64_t>(std::clamp(value, field.low, field.high));
     for (std::uint32_t i = 0; i < field.bits; ++i) {
@@ -338,7 +337,7 @@ bool put_value(const Field& field, std::int64_t value, std::span<std::uint8_t> r
     return true;
 }
 
-double share_of(const Field& field, std::int64_t value) {
+double normalized_value(const Field& field, std::int64_t value) {
     const auto v = static_cast<double>(std::clamp(value, field.low, field.high));
     const auto low = static_cast<double>(field.low), high = static_cast<double>(field.high);
     if (field.low < 0 && field.high > 0) return v / std::max(-low, high);

@@ -1,7 +1,8 @@
-// What a HID device says about its reports: which bits of which report mean what. Read from the device, for
-// devices of one class differ in all of it.
+// Parses a HID report descriptor: which bits of which report have which meaning. Devices of one class differ
+// in all of it, so drivers read it from the device.
 //
-// USB-IF, Device Class Definition for Human Interface Devices 1.11, section 6.2.2; usages: HID Usage Tables.
+// Source: USB-IF, Device Class Definition for Human Interface Devices 1.11, section 6.2.2; usages: HID Usage
+// Tables.
 #pragma once
 
 #include <cstdint>
@@ -24,17 +25,18 @@ struct Usage {
 // One value in a report, or one slot of an array of usages.
 struct Field {
     ReportKind kind = ReportKind::input;
-    std::uint8_t report = 0;                           // id; 0: reports are not numbered
-    std::uint32_t bit = 0;                             // from the beginning of the report, behind its id byte
-    std::uint8_t bits = 0;                             // 1 … 32
-    Usage usage;                                       // of an array's slot the first that it can hold
-    std::uint32_t slots = 0, usages = 1;               // of an array's slot: so many, from there in `slots`
-    std::int64_t low = 0, high = 0;                    // logical: as the bits have it
-    std::int64_t physical_low = 0, physical_high = 0;  // both 0: as logical
-    std::int32_t exponent = 0;                         // of ten, of the physical unit
+    std::uint8_t report = 0;  // report id; 0: reports are not numbered
+    std::uint32_t bit = 0;    // offset after the id byte
+    std::uint8_t bits = 0;    // 1 … 32
+    Usage usage;              // for an array slot the first usage that it can hold
+    std::uint32_t slots = 0,
+                  usages = 1;        // for an array slot: first index and count in ReportDescriptor::slots
+    std::int64_t low = 0, high = 0;  // logical range
+    std::int64_t physical_low = 0, physical_high = 0;  // both 0: same as logical
+    std::int32_t exponent = 0;                         // power of ten of the physical unit
     std::uint32_t unit = 0;
     bool constant = false, array = false, relative = false, null_state = false;
-    std::uint32_t collection = 0;  // index of the innermost
+    std::uint32_t collection = 0;  // index of the innermost collection
 };
 
 struct Collection {
@@ -51,38 +53,39 @@ struct ReportLength {
 
 struct ReportDescriptor {
     std::vector<Collection> collections;
-    std::vector<Field> fields;  // without padding, and without what is wider than 32 bits
-    std::vector<Usage> slots;   // what arrays choose from
+    std::vector<Field> fields;  // without padding and fields wider than 32 bits
+    std::vector<Usage> slots;   // usages that array slots can hold
     std::vector<ReportLength> reports;
-    bool numbered = false;
+    bool numbered = false;  // reports begin with an id
 };
 
-// Errors say at which byte and what is wrong there.
+// Errors name the byte offset and the problem.
 Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> bytes);
 
-// Bytes of a report without its id byte; 0: there is none.
+// Bytes of a report without its id; 0 if the report does not exist.
 std::size_t report_size(const ReportDescriptor& descriptor, ReportKind kind, std::uint8_t report);
 
-// The first field of a kind with a usage; within collections of a usage, where given.
+// The first field with this kind and usage, inside a collection of usage `within` if given; nullptr if none.
 const Field* find_field(const ReportDescriptor& descriptor, ReportKind kind, Usage usage,
                         std::optional<Usage> within = std::nullopt);
 
-// A thing that a host chooses: one of an array's usages, or a bit of its own.
-struct Choice {
+// An option that the host selects: a usage of an array, or a one-bit field.
+struct Selector {
     Field field;
-    std::int64_t value = 0;  // to be put there
+    std::int64_t value = 0;  // value that selects it
 };
-std::optional<Choice> find_choice(const ReportDescriptor& descriptor, ReportKind kind, Usage option,
-                                  std::optional<Usage> within = std::nullopt);
+std::optional<Selector> find_selector(const ReportDescriptor& descriptor, ReportKind kind, Usage option,
+                                      std::optional<Usage> within = std::nullopt);
 
-// The value of a field in a report's bytes (without the id byte). None: the report is too short, or the
-// device says that it has none (null state).
+// The value of a field in a report without id. nullopt: the report is too short, or the value is the null
+// state.
 std::optional<std::int64_t> value_of(const Field& field, std::span<const std::uint8_t> report);
 
-// Puts a value, brought into the field's range, into a report's bytes; false: the report is too short.
-bool put_value(const Field& field, std::int64_t value, std::span<std::uint8_t> report);
+// Clamps the value to the field's range and writes it into a report without id. Returns false if the report
+// is too short.
+bool write_value(const Field& field, std::int64_t value, std::span<std::uint8_t> report);
 
-// The share of the field's range, −1 … 1 for one that goes below zero and 0 … 1 else.
-double share_of(const Field& field, std::int64_t value);
+// Maps the logical range to −1 … 1 if it includes negative values, otherwise to 0 … 1.
+double normalized_value(const Field& field, std::int64_t value);
 
 }  // namespace bolt::device

@@ -15,40 +15,40 @@ tl::unexpected<Error> gone(const Description& description) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = description.name + " is not plugged in";
-    error.expected = "plug it in";
+    error.expected = "a connected device";
     error.lost = true;
     return fail(std::move(error));
 }
 
 }  // namespace
 
-class Simulated::Plug final : public Device {
+class SimulatedDevice::Connection final : public Device {
   public:
-    explicit Plug(Simulated& thing) : thing_(thing), due_(thing.timer_.now()) {}
-    Plug(const Plug&) = delete;
-    Plug& operator=(const Plug&) = delete;
-    ~Plug() override { thing_.command_ = {}; }
+    explicit Connection(SimulatedDevice& thing) : device_(thing), due_(thing.timer_.now()) {}
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+    ~Connection() override { device_.command_ = {}; }
 
-    [[nodiscard]] const Description& describe() const override { return thing_.design_.description; }
+    [[nodiscard]] const Description& describe() const override { return device_.options_.description; }
 
-    Result<std::optional<Sample>> read(double patience) override {
+    Result<std::optional<Sample>> read(double timeout) override {
         wait_if_stuck();
-        const double until = thing_.timer_.now() + patience;
-        if (thing_.befallen(Mishap::silent) || due_ > until) {
-            thing_.timer_.wait(patience);
-            if (thing_.cut()) return gone(describe());
+        const double until = device_.timer_.now() + timeout;
+        if (device_.is_active(InjectedFault::silent) || due_ > until) {
+            device_.timer_.wait(timeout);
+            if (device_.cut()) return gone(describe());
             return std::optional<Sample>{};
         }
-        thing_.timer_.wait(due_ - thing_.timer_.now());
-        if (thing_.cut()) return gone(describe());
-        thing_.advance();
-        // What is late is not made up for.
-        due_ = std::max(due_, thing_.now_.time - 1.0 / describe().rate) + 1.0 / describe().rate;
-        Sample sample = thing_.now_;
-        if (thing_.befallen(Mishap::no_number))
+        device_.timer_.wait(due_ - device_.timer_.now());
+        if (device_.cut()) return gone(describe());
+        device_.advance();
+        // Missed samples are skipped.
+        due_ = std::max(due_, device_.now_.time - 1.0 / describe().rate) + 1.0 / describe().rate;
+        Sample sample = device_.now_;
+        if (device_.is_active(InjectedFault::not_a_number))
             sample.pose.position.y = sample.velocity.y = sample.turn =
                 std::numeric_limits<double>::quiet_NaN();
-        if (thing_.befallen(Mishap::jumped)) {
+        if (device_.is_active(InjectedFault::jumped)) {
             sample.pose.position += Vec3(0.5, 0.0, 0.0);
             sample.turn += 3.0;
         }
@@ -57,77 +57,77 @@ class Simulated::Plug final : public Device {
 
     Status write(const force::OutputCommand& command) override {
         wait_if_stuck();
-        if (thing_.befallen(Mishap::slow)) thing_.timer_.wait(slow_write);
-        if (thing_.cut()) return gone(describe());
-        thing_.advance();
+        if (device_.is_active(InjectedFault::slow)) device_.timer_.wait(slow_write_time);
+        if (device_.cut()) return gone(describe());
+        device_.advance();
         const force::OutputLimits& limits = describe().limits;
-        thing_.command_ = {force::at_most(command.force, limits.force),
-                           force::at_most(command.torque, limits.torque)};
+        device_.command_ = {force::clamp_length(command.force, limits.force),
+                            force::clamp_length(command.torque, limits.torque)};
         return {};
     }
 
   private:
     void wait_if_stuck() {
-        while (const Trouble* stuck = thing_.find(Mishap::stuck))
-            thing_.timer_.wait(stuck->until - thing_.timer_.now() + 1e-9);
+        while (const FaultInterval* stuck = device_.find(InjectedFault::stuck))
+            device_.timer_.wait(stuck->until - device_.timer_.now() + 1e-9);
     }
 
-    Simulated& thing_;
+    SimulatedDevice& device_;
     double due_;  // s, of the next sample
 };
 
-Simulated::Simulated(SimulatedDesign design, Timer timer)
-    : design_(std::move(design)), timer_(std::move(timer)) {
+SimulatedDevice::SimulatedDevice(SimulatedDeviceOptions design, Timer timer)
+    : options_(std::move(design)), timer_(std::move(timer)) {
     time_ = timer_.now();
     advance();
 }
 
-Open Simulated::open() {
+DeviceFactory SimulatedDevice::open() {
     return [this]() -> Result<std::unique_ptr<Device>> {
-        if (cut()) return gone(design_.description);
+        if (cut()) return gone(options_.description);
         advance();
-        return std::make_unique<Plug>(*this);
+        return std::make_unique<Connection>(*this);
     };
 }
 
-void Simulated::happen(const Trouble& trouble) {
-    std::erase_if(design_.troubles, [now = timer_.now()](const Trouble& t) { return t.until < now; });
-    design_.troubles.push_back(trouble);
+void SimulatedDevice::inject(const FaultInterval& trouble) {
+    std::erase_if(options_.faults, [now = timer_.now()](const FaultInterval& t) { return t.until < now; });
+    options_.faults.push_back(trouble);
 }
 
-const Trouble* Simulated::find(Mishap what) const {
+const FaultInterval* SimulatedDevice::find(InjectedFault what) const {
     const double now = timer_.now();
-    const auto found = std::find_if(design_.troubles.begin(), design_.troubles.end(), [&](const Trouble& t) {
-        return t.what == what && t.from <= now && now < t.until;
-    });
-    return found == design_.troubles.end() ? nullptr : &*found;
+    const auto found = std::find_if(
+        options_.faults.begin(), options_.faults.end(),
+        [&](const FaultInterval& t) { return t.what == what && t.from <= now && now < t.until; });
+    return found == options_.faults.end() ? nullptr : &*found;
 }
 
-bool Simulated::befallen(Mishap what) const { return find(what) != nullptr; }
+bool SimulatedDevice::is_active(InjectedFault what) const { return find(what) != nullptr; }
 
-// Without power motors also forget what they were told.
-bool Simulated::cut() {
-    if (!befallen(Mishap::unplugged)) return false;
+// Without power the motors also lose their command.
+bool SimulatedDevice::cut() {
+    if (!is_active(InjectedFault::unplugged)) return false;
     command_ = {};
     return true;
 }
 
-force::OutputCommand Simulated::rendered() const {
-    return befallen(Mishap::unplugged) ? force::OutputCommand{} : command_;
+force::OutputCommand SimulatedDevice::rendered() const {
+    return is_active(InjectedFault::unplugged) ? force::OutputCommand{} : command_;
 }
 
-// Where the hand has got to until now.
-void Simulated::advance() {
+// Advances the hand to the current time.
+void SimulatedDevice::advance() {
     const double now = timer_.now();
-    if (!design_.hand || !begun_ || now - time_ > forgets) {
-        now_ = design_.script(now);
+    if (!options_.hand || !begun_ || now - time_ > forgets) {
+        now_ = options_.script(now);
         velocity_ = angular_velocity_ = Vec3(0.0);
         turn_rate_ = 0.0;
         begun_ = true;
     } else if (now > time_) {
         const auto steps = static_cast<int>(std::ceil((now - time_) / longest_step));
         const double dt = (now - time_) / steps;
-        const Sample meant = design_.script(now);
+        const Sample meant = options_.script(now);
         for (int i = 0; i < steps; ++i) step(meant, dt);
         now_.velocity = meant.velocity;
         now_.angular_velocity = meant.angular_velocity;
@@ -136,13 +136,13 @@ void Simulated::advance() {
     time_ = now_.time = now;
 }
 
-// Semi-implicit, stable far beyond these springs at this step.
-void Simulated::step(const Sample& meant, double dt) {
-    const HoldingHand& hand = *design_.hand;
+// Semi-implicit Euler; stable for much stiffer springs at this step.
+void SimulatedDevice::step(const Sample& meant, double dt) {
+    const HandImpedance& hand = *options_.hand;
     const force::OutputCommand force = rendered();
-    if (design_.description.sensing == Sensing::turn) {
+    if (options_.description.sensing == Sensing::turn) {
         const double torque = hand.torsion * (meant.turn - now_.turn) - hand.angular_damping * turn_rate_ +
-                              glm::dot(force.torque, design_.description.axis);
+                              glm::dot(force.torque, options_.description.axis);
         turn_rate_ += torque / hand.inertia * dt;
         now_.turn += turn_rate_ * dt;
         return;

@@ -1,6 +1,6 @@
-// A device that is not there: it goes a scripted way, gives way to the forces that it renders if a hand holds
-// it, and fails in the ways that real ones do, when it is told to. On a clock of any kind; its thread's
-// alone, but for tests in virtual time, which have no threads.
+// A simulated device: a script gives the intended motion, an optional hand impedance yields to the rendered
+// force, and faults of real devices can be injected. Works on any clock. Not thread-safe: one thread uses it,
+// or a test without threads in virtual time.
 #pragma once
 
 #include "haptics/device/device.hpp"
@@ -8,63 +8,63 @@
 
 namespace bolt::device {
 
-enum class Mishap : std::uint8_t {
-    unplugged,  // errors, and cannot be opened; the motors have no power
-    silent,     // says nothing; hears, and keeps the force that it has
-    stuck,      // neither reading nor writing comes back before it is over
-    slow,       // each write takes 15 ms
-    no_number,  // the hand's pose is no number
-    jumped,     // the hand's pose is half a metre off
+enum class InjectedFault : std::uint8_t {
+    unplugged,     // read and write fail, it cannot be opened, the motors have no power
+    silent,        // sends nothing, but accepts writes and keeps its force
+    stuck,         // read and write block until the interval ends
+    slow,          // each write takes slow_write_time
+    not_a_number,  // the pose contains NaN
+    jumped,        // the pose is off by 0.5 m
 };
-inline constexpr std::size_t mishaps = 6;
-inline constexpr double slow_write = 0.015;  // s
+inline constexpr std::size_t injected_fault_count = 6;
+inline constexpr double slow_write_time = 0.015;  // s
 
-struct Trouble {
-    Mishap what = Mishap::silent;
-    double from = 0.0, until = 0.0;  // s of the clock
+struct FaultInterval {
+    InjectedFault what = InjectedFault::silent;
+    double from = 0.0, until = 0.0;  // s on the timer's clock
 };
 
-// What holds it: a mass between the device's force and a spring to where the hand means to be. Chosen: a
-// relaxed grip, as tests/support/simulated_arm.hpp has it in the middle of its ranges.
-struct HoldingHand {
+// The hand that holds the device: a mass, pulled by a spring and damper to the intended pose and pushed by
+// the device's force. Defaults: a relaxed grip, the middle of the ranges in tests/support/simulated_arm.hpp.
+struct HandImpedance {
     double mass = 0.3, stiffness = 300.0, damping = 10.0;          // kg, N/m, N·s/m
     double inertia = 2e-3, torsion = 2.0, angular_damping = 0.05;  // kg·m², N·m/rad, N·m·s/rad
 };
 
-struct SimulatedDesign {
+struct SimulatedDeviceOptions {
     Description description;
-    std::function<Sample(double time)> script;  // what the hand means to do
-    std::optional<HoldingHand> hand;            // none: it does so, whatever the force
-    std::vector<Trouble> troubles;
+    std::function<Sample(double time)> script;  // the intended motion
+    std::optional<HandImpedance> hand;          // nullopt: the motion follows the script whatever the force
+    std::vector<FaultInterval> faults;
 };
 
-// The thing itself, plugged in or not; what is opened is a line to it, which it must outlive.
-class Simulated {
+// The device itself, plugged in or not. It must outlive the connections that open() creates.
+class SimulatedDevice {
   public:
-    Simulated(SimulatedDesign design, Timer timer);
+    SimulatedDevice(SimulatedDeviceOptions design, Timer timer);
 
-    [[nodiscard]] Open open();
-    void happen(const Trouble& trouble);
+    [[nodiscard]] DeviceFactory open();
+    void inject(const FaultInterval& trouble);
 
-    // For those who look on: what is at the hand at this moment, and the hand.
+    // For observers: the force at the hand now, and the true pose of the hand.
     [[nodiscard]] force::OutputCommand rendered() const;
     [[nodiscard]] const Sample& hand() const { return now_; }
-    [[nodiscard]] bool befallen(Mishap what) const;
+    [[nodiscard]] bool is_active(InjectedFault fault) const;
 
   private:
-    class Plug;
+    class Connection;
     void advance();
     bool cut();
     void step(const Sample& meant, double dt);
-    [[nodiscard]] const Trouble* find(Mishap what) const;
+    [[nodiscard]] const FaultInterval* find(InjectedFault what) const;
 
-    SimulatedDesign design_;
+    SimulatedDeviceOptions options_;
     Timer timer_;
     force::OutputCommand command_;
     Sample now_;
     Vec3 velocity_{0.0}, angular_velocity_{0.0};
     double turn_rate_ = 0.0;
-    double time_ = 0.0;  // s, of `now_`
+    double time_ = 0.0;  // s, time of now_
     bool begun_ = false;
 };
 

@@ -24,12 +24,12 @@ Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor) {
                         "pushes along and turns about x, y and z");
         layout.axes[i] = *axis;
     }
-    layout.buttons = button_fields(descriptor);
+    layout.buttons = find_button_fields(descriptor);
     return layout;
 }
 
-bool take_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state) {
-    const auto id = take_id(layout.numbered, report);
+bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state) {
+    const auto id = strip_report_id(layout.numbered, report);
     if (!id) return false;
     bool told = false;
     for (std::size_t i = 0; i < layout.axes.size(); ++i) {
@@ -37,10 +37,10 @@ bool take_report(const SixAxisLayout& layout, std::span<const std::uint8_t> repo
         if (axis.report != *id) continue;
         const auto value = value_of(axis, report);
         if (!value) continue;
-        state.share[i] = share_of(axis, *value);
+        state.share[i] = normalized_value(axis, *value);
         told = true;
     }
-    return take_buttons(layout.buttons, *id, report, state.buttons) || told;
+    return decode_buttons(layout.buttons, *id, report, state.buttons) || told;
 }
 
 }  // namespace bolt::device

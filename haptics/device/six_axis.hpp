@@ -1,5 +1,5 @@
-// A puck or ball that is pushed and turned about six axes and springs back (SpaceMouse class). Which bits say
-// so stands in its report descriptor; some send all axes in one report, some pushes and turns in two.
+// Decodes a spring-centred puck with six axes (SpaceMouse class). The report descriptor locates the axes;
+// some devices send all six in one report, others translation and rotation in two.
 #pragma once
 
 #include <array>
@@ -10,23 +10,23 @@
 namespace bolt::device {
 
 struct SixAxisLayout {
-    std::array<Field, 6> axes;   // x, y, z, then the turns about them
-    std::vector<Field> buttons;  // in the order of their numbers
+    std::array<Field, 6> axes;   // x, y, z, then rotations about them
+    std::vector<Field> buttons;  // sorted by button number
     bool numbered = false;
 };
 
-// As the puck stands: −1 … 1 each, in the device's own frame (3Dconnexion: x right, y towards the user, z
-// down; turns right-handed).
+// Deflection, −1 … 1 each, in the puck's own frame (3Dconnexion: x right, y towards the user, z down;
+// rotations right-handed).
 struct SixAxisState {
     std::array<double, 6> share{};
-    std::uint32_t buttons = 0;  // a bit each
+    std::uint32_t buttons = 0;  // bit i: button i is pressed
 };
 
-// An error: the device is none of this class.
+// Error: the device does not have six such axes.
 Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor);
 
-// Takes an input report as hidapi gives it, with its id in front where reports are numbered. False: it tells
-// nothing that is looked for, or is too short.
-bool take_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state);
+// Decodes an input report from hidapi (numbered reports begin with their id) into `state`. Returns false if
+// it has none of these fields or is too short.
+bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state);
 
 }  // namespace bolt::device

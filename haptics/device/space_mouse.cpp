@@ -12,37 +12,36 @@ constexpr int most_at_once = 64;      // reports that the kernel keeps for a rea
 
 class SpaceMouse : public Device {
   public:
-    SpaceMouse(std::unique_ptr<HidLine> line, SixAxisLayout layout, Description description,
-               const PuckFeel& feel, Clock clock)
+    SpaceMouse(std::unique_ptr<HidTransport> line, SixAxisLayout layout, Description description,
+               const PuckResponse& response, Clock clock)
         : line_(std::move(line)),
           layout_(std::move(layout)),
           description_(std::move(description)),
-          feel_(feel),
+          response_(response),
           clock_(std::move(clock)) {}
 
     [[nodiscard]] const Description& describe() const override { return description_; }
 
-    Result<std::optional<Sample>> read(double patience) override {
+    Result<std::optional<Sample>> read(double timeout) override {
         const double asked = clock_();
-        if (pushed_) patience = std::clamp(told_ + feel_.silence - asked, 0.0, patience);
+        if (pushed_) timeout = std::clamp(told_ + response_.silence - asked, 0.0, timeout);
         for (int i = 0; i < most_at_once; ++i) {
-            const auto report = line_->read(i == 0 ? patience : 0.0);
-            if (!report) return fail(report.error());
-            if (report->empty()) break;
-            if (!take_report(layout_, *report, state_)) continue;
+            BOLT_TRY_ASSIGN(const auto report, line_->read(i == 0 ? timeout : 0.0));
+            if (report.empty()) break;
+            if (!decode_report(layout_, report, state_)) continue;
             told_ = clock_();
-            const auto moves = [&](double share) { return std::abs(share) > feel_.dead; };
+            const auto moves = [&](double share) { return std::abs(share) > response_.dead_zone; };
             pushed_ = std::any_of(state_.share.begin(), state_.share.end(), moves);
             news_ = true;
         }
         const double now = clock_();
         if (!std::exchange(news_, false) && pushed_) {
-            if (now < told_ + feel_.silence) return std::nullopt;
+            if (now < told_ + response_.silence) return std::nullopt;
             state_.share.fill(0.0);
             pushed_ = false;
         }
         Sample sample;
-        const PuckRates rates = rates_of(state_, feel_);
+        const PuckRates rates = rates_of(state_, response_);
         sample.velocity = rates.velocity;
         sample.angular_velocity = rates.angular_velocity;
         sample.buttons = state_.buttons;
@@ -53,10 +52,10 @@ class SpaceMouse : public Device {
     Status write(const force::OutputCommand&) override { return {}; }
 
   private:
-    std::unique_ptr<HidLine> line_;
+    std::unique_ptr<HidTransport> line_;
     SixAxisLayout layout_;
     Description description_;
-    PuckFeel feel_;
+    PuckResponse response_;
     Clock clock_;
     SixAxisState state_;
     double told_ = 0.0;
@@ -65,30 +64,29 @@ class SpaceMouse : public Device {
 
 }  // namespace
 
-PuckRates rates_of(const SixAxisState& state, const PuckFeel& feel) {
+PuckRates rates_of(const SixAxisState& state, const PuckResponse& response) {
     const auto rate = [&](std::size_t axis, double most) {
         const double share = std::clamp(state.share[axis], -1.0, 1.0);
-        const double felt = std::max(std::abs(share) - feel.dead, 0.0) / (1.0 - feel.dead);
+        const double felt = std::max(std::abs(share) - response.dead_zone, 0.0) / (1.0 - response.dead_zone);
         return std::copysign(most * felt * felt, share);
     };
     // 3Dconnexion: x right, y towards the user, z down.
-    const double v = feel.speed, w = feel.turn_speed;
+    const double v = response.speed, w = response.turn_speed;
     return {{rate(0, v), -rate(2, v), rate(1, v)}, {rate(3, w), -rate(5, w), rate(4, w)}};
 }
 
-Result<std::unique_ptr<Device>> make_space_mouse(std::unique_ptr<HidLine> line,
+Result<std::unique_ptr<Device>> make_space_mouse(std::unique_ptr<HidTransport> line,
                                                  const ReportDescriptor& descriptor, std::string name,
-                                                 std::string id, const PuckFeel& feel, Clock clock) {
-    Result<SixAxisLayout> layout = six_axis_layout(descriptor);
-    if (!layout) return fail(layout.error());
+                                                 std::string id, const PuckResponse& response, Clock clock) {
+    BOLT_TRY_ASSIGN(auto layout, six_axis_layout(descriptor));
     Description description;
     description.name = std::move(name);
     description.id = std::move(id);
     description.sensing = Sensing::rate;
     description.limits.force = description.limits.torque = 0.0;
     description.rate = usual_rate;
-    description.buttons = static_cast<int>(layout->buttons.size());
-    return std::make_unique<SpaceMouse>(std::move(line), std::move(*layout), std::move(description), feel,
+    description.buttons = static_cast<int>(layout.buttons.size());
+    return std::make_unique<SpaceMouse>(std::move(line), std::move(layout), std::move(description), response,
                                         std::move(clock));
 }
 

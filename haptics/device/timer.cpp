@@ -14,7 +14,7 @@ Timer steady_timer() {
         [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }};
 }
 
-Timer timer_of(VirtualTime& time) {
+Timer virtual_timer(VirtualTime& time) {
     return {[&time] { return time.now; }, [&time](double seconds) { time.now += std::max(0.0, seconds); }};
 }
 

@@ -1,5 +1,5 @@
-// The time as a device's line has it, and waiting in it: the machine's own, or one that stands until somebody
-// waits in it, so that hours pass in seconds and every run is the same.
+// A clock and a wait function for device threads: the machine's steady clock, or virtual time that advances
+// only by waiting, so that tests are fast and repeatable.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 namespace bolt::device {
 
 struct Timer {
-    std::function<double()> now;  // s, never goes back
+    std::function<double()> now;  // s, monotonic
     std::function<void(double seconds)> wait;
 };
 
@@ -17,6 +17,6 @@ struct VirtualTime {
     double now = 0.0;  // s
 };
 
-Timer timer_of(VirtualTime& time);  // which outlives it
+Timer virtual_timer(VirtualTime& time);  // `time` must outlive the timer
 
 }  // namespace bolt::device

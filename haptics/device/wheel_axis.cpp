@@ -20,18 +20,18 @@ Result<WheelAxis> wheel_axis(const ReportDescriptor& descriptor) {
         return fail(ErrorCode::no_device, "the device does not say how far it is turned",
                     "a wheel whose reports hold its steering or x axis");
     layout.axis = *axis;
-    layout.buttons = button_fields(descriptor);
+    layout.buttons = find_button_fields(descriptor);
     return layout;
 }
 
-bool take_report(const WheelAxis& layout, std::span<const std::uint8_t> report, WheelState& state) {
-    const auto id = take_id(layout.numbered, report);
+bool decode_report(const WheelAxis& layout, std::span<const std::uint8_t> report, WheelState& state) {
+    const auto id = strip_report_id(layout.numbered, report);
     if (!id) return false;
-    take_buttons(layout.buttons, *id, report, state.buttons);
+    decode_buttons(layout.buttons, *id, report, state.buttons);
     if (layout.axis.report != *id) return false;
     const auto value = value_of(layout.axis, report);
     if (!value) return false;
-    const double share = share_of(layout.axis, *value);
+    const double share = normalized_value(layout.axis, *value);
     state.share = layout.axis.low < 0 ? share : 2.0 * share - 1.0;
     return true;
 }

@@ -1,4 +1,4 @@
-// Where a wheel says how far it is turned, and which buttons are pressed.
+// Decodes the angle and the buttons of a wheel.
 #pragma once
 
 #include <vector>
@@ -8,19 +8,19 @@
 namespace bolt::device {
 
 struct WheelAxis {
-    Field axis;                  // steering, or a joystick's x
-    std::vector<Field> buttons;  // in the order of their numbers
+    Field axis;                  // usage Steering, or X of a joystick
+    std::vector<Field> buttons;  // sorted by button number
     bool numbered = false;
 };
 
 struct WheelState {
-    double share = 0.0;         // −1 at the left stop, 1 at the right one
-    std::uint32_t buttons = 0;  // a bit each
+    double share = 0.0;         // −1 at the left stop, 1 at the right stop
+    std::uint32_t buttons = 0;  // bit i: button i is pressed
 };
 
 Result<WheelAxis> wheel_axis(const ReportDescriptor& descriptor);
 
-// An input report, with its id in front where reports are numbered. False: it does not tell the angle.
-bool take_report(const WheelAxis& layout, std::span<const std::uint8_t> report, WheelState& state);
+// Decodes an input report (numbered reports begin with their id). Returns false if it has no angle.
+bool decode_report(const WheelAxis& layout, std::span<const std::uint8_t> report, WheelState& state);
 
 }  // namespace bolt::device

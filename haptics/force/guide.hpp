@@ -1,6 +1,6 @@
-// Leads a hand to a nut: plans a way, pulls along it towards the farthest point that the tool sees, aligns at
-// the end. Help comes and goes slowly, and whatever changes (the target, the way, the lesson's mode) changes
-// only while there is none: the force never jumps.
+// The guiding force: plans a path to a nut, pulls the tool towards the farthest point of the path in its line
+// of sight and aligns the jaw at the end. The force fades in and out, and goal or path change only while it
+// is zero, so it is continuous.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +13,35 @@ namespace bolt::force {
 
 struct GuidedTool {
     Vec3 position{0.0};
-    Vec3 jaw{1.0, 0.0, 0.0};     // unit, the direction that lies along a flat
+    Vec3 jaw{1.0, 0.0, 0.0};     // unit, direction that aligns with a flat of the hexagon
     Vec3 normal{0.0, 0.0, 1.0};  // unit
 };
 
 struct GuideGoal {
-    int id = -1;  // another one is another goal; below 0: none
+    int id = -1;  // identifies the goal; negative: none
     GuideTarget target;
     Hexagon hexagon;
 };
 
 struct GuideState {
-    GuideGoal goal;  // that the force leads to now; a new one waits until this one has faded
+    GuideGoal goal;  // goal of the present force; replaced once that has faded out
     GuidePath path;
-    double along = 0.0;      // m of the path: the point that it pulls to
-    double farthest = 0.0;   // m: where that was at most
+    double along = 0.0;      // m along the path: the pull point
+    double farthest = 0.0;   // m, largest value of `along` on this path
     double strength = 0.0;   // 0 … 1, of the force
     double alignment = 0.0;  // 0 … 1, of the torque
-    double patience = 0.0;   // s before a way is looked for again where there was none
-    double stuck = 0.0;      // s that the tool has been at the point pulled to and not seen on
+    double patience = 0.0;   // s until the next attempt to plan a path
+    double stuck = 0.0;      // s that the tool has been at the pull point without sight of the path beyond
 
-    // Of the tick before, for the energy.
+    // Values of the last tick, for the energy balance.
     Vec3 tool{0.0}, force{0.0};
-    bool at_end = false;  // of the way: it pulls to the target itself
+    bool at_end = false;  // the pull point is the target
 };
 
-// One tick of dt. `goal.id` below 0 (also: something is engaged): what help there is fades. What is wanted of
-// the output stage, with its energy: leading round obstacles is granted as it comes, so the observer has no
-// part in it; at the end of the way there is a potential, and the observer watches it like any spring.
-Wanted guide(const Guiding& guiding, GuideState& state, const GuidedTool& tool, const GuideGoal& goal,
-             Free free, double dt);
+// One tick of dt. With a negative `goal.id` the force fades out; pass that while a nut is engaged. Returns
+// the request to the output stage: along the path all work counts as injected energy, so the passivity
+// observer ignores it; at the target the force is a potential, which the observer watches like any spring.
+ForceRequest guide(const GuidingParameters& guiding, GuideState& state, const GuidedTool& tool,
+                   const GuideGoal& goal, IsSegmentFree free, double dt);
 
 }  // namespace bolt::force

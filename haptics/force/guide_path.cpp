@@ -7,22 +7,23 @@ namespace bolt::force {
 
 namespace {
 
-constexpr double on_axis = 2.5e-3;  // m beside the axis: as good as on it
-constexpr double cone = 0.1;        // m aside for every m above, some 6°
+constexpr double on_axis = 2.5e-3;  // m from the axis that counts as on the axis
+constexpr double cone = 0.1;        // radius over height of the approach cone, 6°
 
-struct Place {
-    double above, aside;  // m, of the target
+// Position relative to the target, m: along its axis and perpendicular to it.
+struct AxialOffset {
+    double above, aside;
 };
 
-Place place_of(const GuideTarget& target, const Vec3& tool) {
+AxialOffset axial_offset(const GuideTarget& target, const Vec3& tool) {
     const Vec3 from = tool - target.point;
     const double above = glm::dot(from, target.axis);
     return {above, glm::length(from - above * target.axis)};
 }
 
 bool leads_straight(const GuideTarget& target, const Vec3& tool) {
-    const Place place = place_of(target, tool);
-    return place.above < 0.5 * target.shell || place.aside <= on_axis + cone * place.above;
+    const AxialOffset offset = axial_offset(target, tool);
+    return offset.above < 0.5 * target.shell || offset.aside <= on_axis + cone * offset.above;
 }
 
 GuidePath path_of(std::initializer_list<Vec3> points) {
@@ -31,7 +32,7 @@ GuidePath path_of(std::initializer_list<Vec3> points) {
     return path;
 }
 
-bool all_free(const GuidePath& path, const GuideTarget& target, Free free) {
+bool all_free(const GuidePath& path, const GuideTarget& target, IsSegmentFree free) {
     for (std::size_t i = 1; i < path.count; ++i)
         if (!free_to(path.points[i - 1], path.points[i], target, free)) return false;
     return true;
@@ -39,7 +40,7 @@ bool all_free(const GuidePath& path, const GuideTarget& target, Free free) {
 
 }  // namespace
 
-bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, Free free) {
+bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegmentFree free) {
     const Vec3 way = to - from;
     const double distance = glm::length(way);
     if (distance <= 0.0) return true;
@@ -47,7 +48,7 @@ bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, Free f
     const double nearest = glm::dot(target.point - from, direction);
     const double aside = glm::length(from + nearest * direction - target.point);
     if (aside >= target.shell) return free(from, to);
-    // What lies in the shell, a ball around the target, is not asked for; what lies before and behind it is.
+    // Query only the parts of the segment before and behind the ball around the target.
     const double half = std::sqrt(square(target.shell) - square(aside));
     const double in = nearest - half, out = nearest + half;
     if (in >= distance || out <= 0.0) return free(from, to);
@@ -55,7 +56,7 @@ bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, Free f
            (out >= distance || free(from + out * direction, to));
 }
 
-GuidePath plan_path(const Vec3& from, const GuideTarget& target, Free free) {
+GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free) {
     const Vec3 above = target.point + target.axis * target.approach;
     const GuidePath straight = path_of({from, target.point});
     GuidePath best;
@@ -78,7 +79,7 @@ GuidePath plan_path(const Vec3& from, const GuideTarget& target, Free free) {
     const Vec3 e2 = glm::cross(target.axis, e1);
     const double from_height = glm::dot(from - above, target.axis);
     for (const double height : {0.06, 0.15, 0.3, 0.5}) {
-        // Over: up to a height above both ends, across, down.
+        // Over the obstacle: up to a height above both ends, across, down.
         const double level = std::max(from_height, 0.0) + height;
         consider(path_of({from, from + target.axis * (level - from_height), above + target.axis * level,
                           above, target.point}));
@@ -92,8 +93,8 @@ GuidePath plan_path(const Vec3& from, const GuideTarget& target, Free free) {
 }
 
 double lowest_ahead(const GuideTarget& target, const Vec3& tool) {
-    const Place place = place_of(target, tool);
-    return std::clamp(std::min((place.aside - on_axis) / cone, place.above), 0.0, target.approach);
+    const AxialOffset offset = axial_offset(target, tool);
+    return std::clamp(std::min((offset.aside - on_axis) / cone, offset.above), 0.0, target.approach);
 }
 
 void move_end(GuidePath& path, const GuideTarget& target) {

@@ -1,5 +1,5 @@
-// A way for the guiding force that goes round what is in the way. Whether two points see each other is asked
-// of somebody else (Embree, in the servo), so nothing is ever pulled through a casing.
+// Plans a path for the guiding force around obstacles. The caller supplies the line-of-sight query (Embree,
+// in the servo), so the force never pulls through a housing.
 #pragma once
 
 #include <array>
@@ -10,38 +10,38 @@
 
 namespace bolt::force {
 
-// Whether the straight way is free. It may ask with a margin, as wide as the tool.
-using Free = FunctionRef<bool(const Vec3& from, const Vec3& to)>;
+// Returns true if the straight segment is free. It may include a margin as wide as the tool.
+using IsSegmentFree = FunctionRef<bool(const Vec3& from, const Vec3& to)>;
 
 struct GuideTarget {
-    Vec3 point{0.0};           // m, where the tool is to be
-    Vec3 axis{0.0, 1.0, 0.0};  // unit: the open side
-    double approach = 0.08;    // m above the point, where the last piece of the way begins
-    double shell = 0.03;       // m around the point that its own nut and bolt fill: no obstacle
+    Vec3 point{0.0};           // m, goal of the tool
+    Vec3 axis{0.0, 1.0, 0.0};  // unit, towards the accessible side
+    double approach = 0.08;    // m above the point at which the last segment begins
+    double shell = 0.03;       // m, radius of the ball that the target's nut and bolt fill; not an obstacle
 };
 
 struct GuidePath {
     std::array<Vec3, 5> points{};  // from the tool to the target
-    std::size_t count = 0;         // 0: no way was found
+    std::size_t count = 0;         // 0: no path found
 };
 
-// Straight, where that leads along the axis or level from the side; to the approach point and down; over it
-// at some height; or round one side. The shortest of these that is free from end to end; straight all the
-// same where none of them is. Asks at most 100 times.
-GuidePath plan_path(const Vec3& from, const GuideTarget& target, Free free);
+// Candidates: straight, if that arrives along the axis or level from the side; via the approach point; over
+// the target at several heights; around one side. Returns the shortest free candidate. If none is free,
+// returns the straight segment if that is free, else an empty path. Queries `free` at most 100 times.
+GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
 
-// m above the target: a tool there is not to be led lower than this yet. The ways are asked for as lines, a
-// tool is wide, and near the target it is only along the axis that all of it is known to fit: level until it
-// is within a cone about the axis, then down.
+// The lowest height above the target, m, to which the tool may be led from its present position. The queries
+// treat the tool as a line, but it is wide: near the target it is known to fit only along the axis. So it is
+// led level until it is inside a cone about the axis, then down.
 double lowest_ahead(const GuideTarget& target, const Vec3& tool);
 
-// The way's end may move with the nut.
+// Moves the end of the path, and the approach point if there is one, to the target's present position.
 void move_end(GuidePath& path, const GuideTarget& target);
 
 double length(const GuidePath& path);
-Vec3 point_at(const GuidePath& path, double along);  // m from the beginning; clamped
+Vec3 point_at(const GuidePath& path, double along);  // `along` in m from the start, clamped
 
-// Free but for the target's own nut and bolt.
-bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, Free free);
+// `free` for the segment without the ball of the target's own nut and bolt.
+bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegmentFree free);
 
 }  // namespace bolt::force

@@ -1,4 +1,4 @@
-// What a force-feedback device takes and renders, as its description says, and what is sent to it.
+// Limits of a force-feedback device, from its description, and the command that it receives.
 #pragma once
 
 #include <algorithm>
@@ -12,32 +12,34 @@ struct OutputCommand {
     Vec3 torque{0.0};  // N·m
 };
 
-// The defaults are those of a 6-DoF arm as the Virtuose class has them, where its maker publishes them;
-// speeds are what no hand does on purpose.
+// The defaults are the published values of a 6-DoF arm of the Virtuose class; speeds and jumps are chosen
+// above those of deliberate hand motion.
 struct OutputLimits {
     double force = 20.0;         // N, magnitude
-    double torque = 2.0;         // N·m, magnitude; 0: the device has none
+    double torque = 2.0;         // N·m, magnitude; 0: no torque output
     double force_rate = 2000.0;  // N/s, while rendering
     double torque_rate = 200.0;  // N·m/s
     double ramp_up = 0.5;        // s from enabling to full strength
-    double release = 0.02;       // s: with the dead-man let go everything is zero after at most this time
+    double release = 0.02;       // s from releasing the dead-man switch to zero output, at most
 
-    double stiffness = 2000.0;     // N/m that it renders stably
+    double stiffness = 2000.0;     // N/m, largest stiffness that the device renders stably
     double torsion = 40.0;         // N·m/rad
-    double damping = 20.0;         // N·s/m that it takes without trembling; 0: nothing may be damped
+    double damping = 20.0;         // N·s/m that the device renders without oscillation; 0: no damping
     double angular_damping = 0.1;  // N·m·s/rad
-    int delay = 1;                 // ticks from sending a force to the hand having it, 0 … 3
+    int delay = 1;                 // ticks from a command to the force on the hand, 0 … 3
 
-    double speed = 3.0;           // m/s, above it the output is held off
+    double speed = 3.0;           // m/s above which the output is held at zero
     double angular_speed = 50.0;  // rad/s
-    double jump = 0.03;           // m in one tick: no hand, whatever the sample says
+    double jump = 0.03;           // m in one tick; more is a faulty sample
     double angular_jump = 0.5;    // rad in one tick
-    double silence = 0.008;       // s without a new sample; `release` counts from the last one
-    double recovery = 0.1;        // s of sound samples after a fault before the output ramps up again
+    double silence =
+        0.008;  // s without a sample before the output is released; `release` counts from the last sample
+    double recovery = 0.1;  // s of valid samples after a fault before the output ramps up
 };
 
-// Not glm::length: a huge but finite component must not overflow to infinity and so slip through as NaN.
-inline Vec3 at_most(const Vec3& v, double most) {
+// Limits the length of `v` to `most`; zero if `most` is not positive. Scaled before glm::length so that the
+// square of a huge finite component does not overflow and yield NaN.
+inline Vec3 clamp_length(const Vec3& v, double most) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (largest == 0.0 || most <= 0.0) return Vec3(0.0);
     const Vec3 unit = v / largest;

@@ -1,6 +1,6 @@
-// Everything that is felt goes through here, and nothing else writes to a device:
+// All forces pass through this stage; nothing else writes to a device.
 //
-//   watchdog    may anything be rendered?            watchdog.hpp
+//   watchdog    permits or blocks the output         watchdog.hpp
 //   passivity   observer, then controller            passivity.hpp
 //   limiter     ramp, slew limit, clamp, release     limiter.hpp
 #pragma once
@@ -17,9 +17,9 @@ struct OutputStage {
     OutputState output;
 };
 
-// One tick of dt. Returns what goes to the device. Within limits.release of the dead-man being let go, of the
-// last sample, or of any other fault, that is nothing.
+// One tick of dt. Returns the device's command. It is zero at most limits.release after the dead-man switch
+// is released, after the last sample of a silent device, and after any other fault.
 OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortInput& input,
-                     const Wanted& wanted, double dt);
+                     const ForceRequest& request, double dt);
 
 }  // namespace bolt::force

@@ -6,11 +6,11 @@ namespace bolt::force {
 
 namespace {
 
-// The share of the wanted wrench that the device can give. One for force and torque: a contact that is felt
-// at a lever keeps its place. Clamped each for itself they would be the wrench of no contact, and a hand that
-// goes round such a field gains or loses energy. What a device renders none of takes nothing from the rest.
-double share_of(const OutputLimits& limits, const OutputCommand& wanted) {
-    const double force = glm::length(wanted.force), torque = glm::length(wanted.torque);
+// The share of the requested wrench that the device can render, common to force and torque: it preserves the
+// line of action of a contact force. Separate clamps would produce a field that is not conservative, in which
+// a hand gains energy on a closed path. A component that the device does not render at all is ignored.
+double renderable_share(const OutputLimits& limits, const OutputCommand& request) {
+    const double force = glm::length(request.force), torque = glm::length(request.torque);
     double share = 1.0;
     if (limits.force > 0.0 && force > limits.force) share = limits.force / force;
     if (limits.torque > 0.0 && torque > limits.torque) share = std::min(share, limits.torque / torque);
@@ -33,28 +33,29 @@ void observe(const OutputLimits& limits, PassivityState& s, const Motion& motion
 }
 
 OutputCommand control(const OutputLimits& limits, PassivityState& s, const Motion& motion,
-                      const Wanted& wanted, double strength, double before, double dt) {
-    // A spring that is clamped to a share r of its force is pressed as far, but gives only that force back:
-    // of its energy 2 r - r² is left.
-    const double r = share_of(limits, wanted.command);
-    const double full = wanted.stored * r * (2.0 - r);
+                      const ForceRequest& request, double strength, double before, double dt) {
+    // A spring clamped to a share r of its force takes the same work at first but returns only that force: 2
+    // r − r² of its energy can be recovered.
+    const double r = renderable_share(limits, request.command);
+    const double full = request.stored_energy * r * (2.0 - r);
     const double stored = strength * full;
-    // What the ramp lets in is no work of the hand either, and is meant to be.
-    const double granted = strength * wanted.granted + (strength - before) * full;
-    s.balance = std::min(s.balance + granted - (stored - s.stored), saved_at_most);
+    // Energy that enters with the ramp is not work of the hand and counts as injected.
+    const double injected = strength * request.injected_energy + (strength - before) * full;
+    s.balance = std::min(s.balance + injected - (stored - s.stored_energy), saved_at_most);
     if (s.balance > 0.0) s.balance *= std::max(0.0, 1.0 - dt / saved_for);
-    s.stored = stored;
+    s.stored_energy = stored;
 
     const double b = damping_share * limits.damping, b_angular = damping_share * limits.angular_damping;
     const double power = b * glm::dot(motion.velocity, motion.velocity) +
                          b_angular * glm::dot(motion.angular_velocity, motion.angular_velocity);
     const double needed = std::max(0.0, -s.balance) / dt;
-    const double wants = needed < power ? needed / power : needed > 0.0 ? 1.0 : 0.0;
-    s.damping += std::clamp(wants - s.damping, -damping_goes * dt, damping_comes * dt);
+    const double target = needed < power ? needed / power : needed > 0.0 ? 1.0 : 0.0;
+    s.damping += std::clamp(target - s.damping, -damping_goes * dt, damping_comes * dt);
     s.removed += s.damping * power * dt;
-    // Taken off what the device can give: off a force far above that, damping would change nothing.
-    return {r * wanted.command.force - s.damping * b * motion.velocity,
-            r * wanted.command.torque - s.damping * b_angular * motion.angular_velocity};
+    // Damping is subtracted after the clamp; subtracted from a force far above the limit it would have no
+    // effect.
+    return {r * request.command.force - s.damping * b * motion.velocity,
+            r * request.command.torque - s.damping * b_angular * motion.angular_velocity};
 }
 
 void note_sent(PassivityState& s, const OutputCommand& sent) {

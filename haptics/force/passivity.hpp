@@ -1,8 +1,9 @@
-// The energy that goes through the device's port, watched and kept from being made out of nothing: a sampled,
-// late and slew-limited spring gives back more than was put in, and that is what a hand feels as trembling.
+// Time-domain passivity: observes the energy at the device's port and removes energy that the rendering
+// generates. A sampled, delayed and slew-limited spring returns more energy than was put in, which a hand
+// feels as vibration.
 //
 // Hannaford, Ryu: Time-domain passivity control of haptic interfaces. IEEE Trans. Robotics and Automation
-// 18(1), 2002. Against what is stored as a reference, as in Ryu, Preusche, Hannaford, Hirzinger: Time domain
+// 18(1), 2002. The stored energy is the reference, as in Ryu, Preusche, Hannaford, Hirzinger: Time domain
 // passivity control with reference energy following. IEEE Trans. Control Systems Technology 13(5), 2005.
 #pragma once
 
@@ -13,48 +14,52 @@
 
 namespace bolt::force {
 
-// What is to be rendered, and what its maker knows of its energy. Both may be left at 0: then everything that
-// is given back must have been put in before, and not long before.
-struct Wanted {
+// A requested command with its energy. Both energies may be 0; then the controller permits only energy that
+// the hand put in shortly before.
+struct ForceRequest {
     OutputCommand command;
-    double stored = 0.0;   // J that the springs behind it hold and may give back; never more than they do
-    double granted = 0.0;  // J that they gained in this tick by no work of the hand: help that is meant to be
+    double stored_energy =
+        0.0;  // J that the springs behind it hold and may give back; never more than they do
+    double injected_energy =
+        0.0;  // J that they gained in this tick by no work of the hand: help that is meant to be
 };
 
 struct PassivityState {
-    // J: what the hand put in and did not get back, beyond what is stored. Below 0 energy was made.
+    // J that the hand put in and did not get back, less the stored energy. Negative: energy was generated.
     double balance = 0.0;
-    double stored = 0.0;   // J, as told last
-    double removed = 0.0;  // J, by the controller, ever
-    double damping = 0.0;  // 0 … 1: share of the damping allowed that works now
+    double stored_energy = 0.0;  // J, of the last request
+    double removed = 0.0;        // J removed by the controller since the start
+    double damping = 0.0;        // 0 … 1, active share of the permitted damping
 
-    std::array<OutputCommand, 4> sent{};  // the last first
-    OutputCommand applied;                // sum since the last sample, over `ticks`
+    std::array<OutputCommand, 4> sent{};  // commands sent, newest first
+    OutputCommand applied;                // sum of the commands since the last sample, over `ticks`
     double ticks = 0.0;
 };
 
-// Of what the device takes (Colgate, Schenkel 1997 give the reason: damping is sampled and late as well).
+// Share of OutputLimits::damping that is used: damping is sampled and delayed as well (Colgate, Schenkel
+// 1997).
 inline constexpr double damping_share = 0.9;
 
-// J that may be saved up, and s in which what is saved is forgotten: what was dissipated a while ago does not
-// pay for trembling now. Rocking on a ball lived for a second on half a millijoule. A spring of 1 N/mm that
-// is pressed at 0.3 m/s by a 1 kHz loop makes 45 µJ a tick; this is enough not to act on single ticks.
+// Largest credit, J, and time constant of its decay, s: energy dissipated long ago must not pay for vibration
+// now. With 0.5 mJ of credit a tool rocking on a ball vibrated for one second. A spring of 1 N/mm pressed at
+// 0.3 m/s at 1 kHz generates 45 µJ per tick, so 0.2 mJ prevents a reaction to single ticks.
 inline constexpr double saved_at_most = 0.2e-3;
 inline constexpr double saved_for = 0.03;
 
-// 1/s: damping that comes or goes at once is itself a jolt, of as much as 2 N at 0.1 m/s. What is not taken
-// out now is taken out a few milliseconds later.
+// 1/s, rates at which damping sets in and ends. A step of damping would itself be a jolt of up to 2 N at 0.1
+// m/s; energy that is not removed at once is removed a few milliseconds later.
 inline constexpr double damping_comes = 60.0, damping_goes = 40.0;
 
-// The observer: what the motion since the last sample cost with the forces that were out then.
+// The observer: adds the work of the applied commands along the motion since the last sample. `ticks`:
+// periods that passed, missed deadlines included.
 void observe(const OutputLimits& limits, PassivityState& state, const Motion& motion, double ticks);
 
-// The controller: damps as much as is needed and allowed. `strength` is the share of the wanted force that
-// the limiter lets through now, `before` the share in the tick before.
+// The controller: returns the command, clamped and with as much damping as the deficit needs and the device
+// permits. `strength` is the ramp's share now, `before` that of the last tick.
 OutputCommand control(const OutputLimits& limits, PassivityState& state, const Motion& motion,
-                      const Wanted& wanted, double strength, double before, double dt);
+                      const ForceRequest& request, double strength, double before, double dt);
 
-// After each tick, what went out.
+// Call after each tick with the command that was sent.
 void note_sent(PassivityState& state, const OutputCommand& sent);
 
 }  // namespace bolt::force

@@ -6,7 +6,7 @@ namespace bolt::force {
 
 namespace {
 
-constexpr double share = 0.8;  // of the device's range at the greatest torque asked for
+constexpr double share = 0.8;  // of the device's range that the largest torque of the lesson uses
 
 }  // namespace
 
@@ -23,7 +23,8 @@ OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3&
 
 double stored_torque(const TorqueRendering& r, double torque, double stiffness, double handle_length) {
     const double whole = 0.5 * torque * torque / stiffness;
-    // A turn moves the grip by the handle's length: force times way is that share of torque times turn.
+    // A rotation moves the grip by handle_length, so the force's work is as_force · handle_length of the
+    // torque's.
     return whole * (r.scale + r.as_force * handle_length);
 }
 

@@ -7,19 +7,20 @@ namespace bolt::force {
 
 namespace {
 
-constexpr double speed_smoothing = 0.005;  // s, of what the speed limits hold
-constexpr double smoothing = 0.0015;       // s, of what is damped: an encoder's steps would be felt as noise
+constexpr double speed_smoothing = 0.005;  // s, of the velocity that the speed limits check
+constexpr double smoothing =
+    0.0015;  // s, of the velocity that damping uses; unfiltered encoder steps would be felt as noise
 
 bool is_pose(const PortInput& input) {
     const Pose& p = input.pose;
-    // Also false for NaN. A kilometre is beyond any device.
+    // False for NaN too. No device moves a kilometre.
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(p.position[i]) < 1e3)) return false;
     return input.valid && std::abs(glm::dot(p.orientation, p.orientation) - 1.0) < 1e-2;
 }
 
-// Takes the sample in. False: it is further from the last one than a hand goes in that time.
-bool move_on(const OutputLimits& limits, WatchdogState& s, const Pose& pose, double dt) {
+// Updates the motion from the sample. Returns false if it is farther from the last one than a hand can move.
+bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pose, double dt) {
     const auto ticks = static_cast<double>(s.quiet);
     Motion& m = s.motion;
     m.shift = pose.position - s.last.position;
@@ -41,18 +42,18 @@ bool move_on(const OutputLimits& limits, WatchdogState& s, const Pose& pose, dou
     return true;
 }
 
-Fault look(const OutputLimits& limits, WatchdogState& s, const PortInput& input, bool request_is_sound,
-           double dt) {
+Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
+                   bool request_is_sound, double dt) {
     s.quiet += 1 + input.missed;
     s.motion.fresh = s.motion.begins = false;
     if (input.fresh) {
         if (!is_pose(input)) {
-            s.known = false;  // the next pose is a beginning, not a motion
+            s.known = false;  // the next pose starts a new motion
             s.motion = {};
             s.quiet = 0;
             return Fault::no_pose;
         }
-        if (s.known && !move_on(limits, s, input.pose, dt)) {
+        if (s.known && !update_motion(limits, s, input.pose, dt)) {
             s.quiet = 0;
             return Fault::jumped;
         }
@@ -64,7 +65,7 @@ Fault look(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
         s.motion = {};
         return Fault::silent;
     }
-    // Held off once, it has to come down to half the limit.
+    // Hysteresis: after a fault the speed must fall below half the limit.
     const double share = s.fault == Fault::too_fast ? 0.5 : 1.0;
     if (glm::length(s.mean_velocity) > share * limits.speed ||
         glm::length(s.mean_angular_velocity) > share * limits.angular_speed)
@@ -81,13 +82,13 @@ const char* name(Fault fault) {
         case Fault::silent:
             return "the device is silent";
         case Fault::no_pose:
-            return "the device's sample is no pose";
+            return "the device's sample is not a pose";
         case Fault::jumped:
             return "the device's pose jumped";
         case Fault::too_fast:
             return "the device moves too fast";
         case Fault::bad_request:
-            return "a force that is no number was wanted";
+            return "the requested force is not finite";
         case Fault::stopped:
             return "emergency stop";
     }
@@ -97,9 +98,9 @@ const char* name(Fault fault) {
 bool watch(const OutputLimits& limits, WatchdogState& s, const PortInput& input, bool request_is_sound,
            double dt) {
     const Fault before = s.fault;
-    const Fault now = look(limits, s, input, request_is_sound, dt);
-    // As ISO 13850 has it: the stop wins over everything, lasts until somebody resets it, and the reset
-    // starts nothing by itself.
+    const Fault now = check_sample(limits, s, input, request_is_sound, dt);
+    // ISO 13850: the stop overrides everything, lasts until a deliberate reset, and the reset starts nothing
+    // by itself.
     if (input.stop || (before == Fault::stopped && !(input.reset && !input.enabled))) {
         s.fault = Fault::stopped;
         s.sound = 0;

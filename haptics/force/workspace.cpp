@@ -14,7 +14,7 @@ WorkspaceState place(const Workspace& w, const Pose& device, const Pose& tool) {
 }
 
 Pose to_assembly(const Workspace& w, WorkspaceState& s, const Pose& device, bool clutch, double dt) {
-    // What is no pose is passed on for the watchdog to hold off, and nothing is kept of it.
+    // The watchdog rejects a pose that is not finite; it must not enter the state.
     const Vec3& p = device.position;
     const Quat& q = device.orientation;
     if (!std::isfinite(p.x + p.y + p.z + q.w + q.x + q.y + q.z)) return device;

@@ -1,6 +1,5 @@
-// The device's small work space and the assembly's large one: turned, scaled, and clutched: while the clutch
-// is held the tool stays where it is and the hand may go back to the middle of its reach, as one lifts a
-// mouse.
+// Maps the device's small workspace to the assembly's: rotation, scale and clutch. While the clutch is held
+// the tool stands still and the hand can return to the middle of its reach, like lifting a mouse.
 #pragma once
 
 #include "engine/base/pose.hpp"
@@ -8,37 +7,37 @@
 
 namespace bolt::force {
 
-// Positions are scaled, turns are not: a quarter turn of the wrench is a quarter turn of the hand.
+// Positions are scaled, rotations are not: a quarter turn of the wrench is a quarter turn of the hand.
 //
-// Forces go back by the transposed map, so power is kept but for one factor on force and torque alike: at the
-// device F·v + T·ω is `power` times what it is in the assembly, whatever the motion. What is passive there is
-// passive here. `power` 1: a large scale makes forces larger by it. `power` 1/scale: forces as they are,
-// torques less by the scale.
+// Forces use the transposed map, so power is preserved up to one factor: for every motion F·v + T·ω at the
+// device is `power` times its value in the assembly, and passivity carries over. `power` 1: forces grow with
+// the scale. `power` 1/scale: forces are unchanged and torques shrink by the scale.
 struct Workspace {
     Quat turn{1.0, 0.0, 0.0, 0.0};  // unit, from the device's frame to the assembly's
-    double scale = 1.0;             // m of the tool for each m of the device
+    double scale = 1.0;             // m of the tool per m of the device
     double power = 1.0;
-    double fade = 0.05;  // s in which forces go and come with the clutch
+    double fade = 0.05;  // s in which forces fade out and in with the clutch
 };
 
 struct WorkspaceState {
     Vec3 centre{0.0};               // m: tool = centre + scale · turn · device
     Quat grip{1.0, 0.0, 0.0, 0.0};  // tool = turn · device · grip
-    Pose tool;                      // of the last tick
-    double share = 1.0;             // 0 … 1 of the force
+    Pose tool;                      // in the assembly's frame, at the last tick
+    double share = 1.0;             // 0 … 1, share of the force that is rendered
 };
 
-// The tool stands at `tool` while the device stands at `device`.
+// Returns the state in which the device pose `device` maps to the tool pose `tool`.
 WorkspaceState place(const Workspace& workspace, const Pose& device, const Pose& tool);
 
-// One tick of dt. Where the tool is. Letting the clutch go moves nothing.
+// One tick of dt. Returns the tool's pose in the assembly's frame. Releasing the clutch does not move the
+// tool. A device pose that is not finite is returned unchanged for the watchdog to reject.
 Pose to_assembly(const Workspace& workspace, WorkspaceState& state, const Pose& device, bool clutch,
                  double dt);
 
 OutputCommand to_device(const Workspace& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);
 
-// What the device takes, as the assembly sees it: the output stage stands on that side of the map.
+// The device's limits in the assembly's units; the output stage works on that side of the map.
 OutputLimits in_assembly(const Workspace& workspace, const OutputLimits& device);
 
 }  // namespace bolt::force

@@ -1,15 +1,17 @@
-// How a hand is bent: what a glove measures and what the kinematics take. Angles in rad; all of them 0: flat,
-// fingers and thumb straight and side by side in the plane of the palm. Flexion is positive to the palm.
+// Joint angles of a hand in rad: the output of the glove, the input of the kinematics. All zero is a flat
+// hand, fingers and thumb straight and side by side in the plane of the palm. Flexion towards the palm is
+// positive.
 #pragma once
 
 #include <array>
 
 namespace bolt::hand {
 
-// The joints by their anatomical names: MCP the knuckle, PIP and DIP those beyond it.
+// Anatomical names: MCP is the knuckle, then PIP and DIP.
 struct FingerAngles {
     double mcp = 0.0, pip = 0.0, dip = 0.0;
-    double side = 0.0;  // abduction: away from the middle finger; of that itself, to the little finger
+    double side =
+        0.0;  // abduction, away from the middle finger; for the middle finger towards the little finger
 };
 
 struct ThumbAngles {

@@ -13,7 +13,7 @@ Quat flexed(double angle) { return glm::angleAxis(-angle, along_x); }
 
 const Quat none(1.0, 0.0, 0.0, 0.0);
 
-// A right hand of scale 1, bent joint by joint in the frame of the wrist.
+// Poses a right hand of scale 1 joint by joint, in the wrist frame.
 struct Bending {
     const Skeleton& flat;
     std::array<Pose, 6> at{};  // the wrist, then the digit's joints
@@ -21,7 +21,7 @@ struct Bending {
 
     explicit Bending(const Skeleton& skeleton) : flat(skeleton) {}
 
-    // The digit's next joint turns by `turn` in its own frame, after `swing` in that of the one it hangs on.
+    // Rotates the digit's next joint by `swing` in its parent's frame, then by `turn` in its own.
     void hang(std::size_t k, const Quat& swing, const Quat& turn) {
         const std::size_t joint = first + k, parent = k == 0 ? static_cast<std::size_t>(wrist) : joint - 1;
         const Quat back = glm::conjugate(flat.rotation[parent]);
@@ -32,7 +32,7 @@ struct Bending {
 };
 
 void bend_thumb(Bending& hand, const ThumbAngles& angles) {
-    // In the wrist's frame: to the thumb's side is −X, across the palm is from there to −Y.
+    // Wrist frame: −X points to the thumb's side, −Y out of the palm.
     hand.hang(0, glm::angleAxis(angles.roll, along_z) * glm::angleAxis(angles.abduction, along_y), none);
     hand.hang(1, none, flexed(angles.mcp));
     hand.hang(2, none, flexed(angles.ip));
@@ -47,7 +47,7 @@ void bend_finger(Bending& hand, const FingerAngles& angles, double arch, double 
     hand.hang(4, none, none);
 }
 
-// A joint of the right hand at its place on this hand, wherever that is.
+// Maps a joint of the unit right hand to this hand and wrist pose.
 void put(const Hand& hand, const Pose& wrist_pose, std::size_t joint, const Pose& at, Skeleton& out) {
     const bool right = hand.side == Side::right;
     const Quat& q = at.orientation;
@@ -88,11 +88,11 @@ Pose wrist_of(const Hand& hand, const Angles& angles, const Pose& forearm) {
                                              glm::angleAxis(to_thumb, along_y))};
 }
 
-Tube tube(const Hand& hand, const Skeleton& joints, std::size_t digit, std::size_t bone) {
+Capsule tube(const Hand& hand, const Skeleton& joints, std::size_t digit, std::size_t bone) {
     const std::size_t joint = digits[digit].first + bone;
     const auto& breadth = half_breadths_mm[digit];
-    Tube tube{joints.position[joint], joints.position[joint + 1], hand.scale * breadth[bone] * mm,
-              hand.scale * breadth[bone + 1] * mm};
+    Capsule tube{joints.position[joint], joints.position[joint + 1], hand.scale * breadth[bone] * mm,
+                 hand.scale * breadth[bone + 1] * mm};
     if (bone + 2 == digits[digit].count)  // the last ends at the tip of the glove
         tube.to += joints.rotation[joint] * Vec3(0.0, 0.0, tube.radius_to - hand.scale * glove_mm * mm);
     return tube;
@@ -100,7 +100,7 @@ Tube tube(const Hand& hand, const Skeleton& joints, std::size_t digit, std::size
 
 Vec3 pad(const Hand& hand, const Skeleton& joints, std::size_t digit) {
     const std::size_t bone = digits[digit].count - 2;
-    const Tube last = tube(hand, joints, digit, bone);
+    const Capsule last = tube(hand, joints, digit, bone);
     const double radius = 0.5 * (last.radius_from + last.radius_to);
     const Vec3 to_palm = joints.rotation[digits[digit].first + bone] * Vec3(0.0, -1.0, 0.0);
     return 0.45 * last.from + 0.55 * last.to + to_palm * (radius - hand.scale * pad_radius);

@@ -11,7 +11,7 @@ double within(const Span& span, double angle) {
 
 }  // namespace
 
-Angles limited(const Angles& angles) {
+Angles clamp_to_limits(const Angles& angles) {
     Angles out;
     out.thumb = {within(thumb_roll_span, angles.thumb.roll),
                  within(thumb_abduction_span, angles.thumb.abduction),

@@ -1,9 +1,10 @@
-// How far the joints of a hand go. What lies beyond is a glove's error, and would be seen as a broken finger.
+// Ranges of the joints of a hand. Readings beyond them are errors of the glove and would show a broken
+// finger.
 //
-// Ranges are those of the American Academy of Orthopaedic Surgeons (Joint Motion: Method of Measuring and
+// Sources: the American Academy of Orthopaedic Surgeons (Joint Motion: Method of Measuring and
 // Recording, 1965), a PIP of 110° as in J. Lin, Y. Wu, T. S. Huang, Modeling the constraints of human hand
 // motion (IEEE Workshop on Human Motion, 2000); of the carpometacarpal joints those of M. El-shennawy et al.
-// (J. Hand Surg. 26A(6), 2001, 1030-1035). They are means of many people: `margin` is added on both sides.
+// (J. Hand Surg. 26A(6), 2001, 1030-1035). They are population means, so `margin` is added on both sides.
 #pragma once
 
 #include "engine/base/math.hpp"
@@ -33,9 +34,9 @@ inline constexpr Span arch_span = degrees(0.0, 27.0);
 inline constexpr Span wrist_flexion_span = degrees(-70.0, 80.0);
 inline constexpr Span wrist_side_span = degrees(-30.0, 20.0);
 
-// The nearest that a hand can do; what is not a number is 0. A finger that is bent at its knuckle cannot be
-// spread: what it may go to a side falls to nothing at 90° (I. A. Kapandji, The Physiology of the Joints,
-// vol. 1, on the collateral ligaments; that it falls evenly is taken for simplicity).
-Angles limited(const Angles& angles);
+// Clamps each angle to its range; NaN becomes 0. The abduction range of a finger decreases linearly to zero
+// at 90° of MCP flexion (I. A. Kapandji, The Physiology of the Joints, vol. 1, on the collateral ligaments;
+// linear by assumption).
+Angles clamp_to_limits(const Angles& angles);
 
 }  // namespace bolt::hand

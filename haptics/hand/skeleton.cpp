@@ -26,7 +26,7 @@ constexpr std::array<Bones, 4> bones{{
     {little_metacarpal, {18.5, -0.5, -27.0}, {53.69, 32.74, 18.11, 15.96}, 3.73},
 }};
 
-// Degrees at rest: turned to the little finger, dropped to the palm, rolled to the little finger, bent.
+// Degrees at rest: yaw to the little finger, pitch to the palm, roll to the little finger, flexion.
 struct Rest {
     double metacarpal_turn, metacarpal_drop, turn, roll;
     std::array<double, 3> flexion;
@@ -65,15 +65,15 @@ struct Thumb {
     Vec3 up;
 };
 
-// The metacarpal stands out of the plane of the palm, and the nail looks to the side.
+// The metacarpal leaves the plane of the palm, and the nail faces sideways.
 Thumb thumb_at_rest() {
     return {{glm::normalize(Vec3(-0.60, -0.36, -0.72)), glm::normalize(Vec3(-0.47, -0.29, -0.84)),
              glm::normalize(Vec3(-0.36, -0.23, -0.90))},
             Vec3(-0.72, 0.69, 0.0)};
 }
 
-// Beside the index finger: as near as their flesh lets it. The nail is that at rest, rolled back by as much
-// as the metacarpal is out of the palm's plane there (31°).
+// Beside the index finger, in contact with its flesh. The nail's roll at rest is reduced by the angle of the
+// metacarpal to the palm's plane (31°).
 Thumb flat_thumb() {
     return {{direction(-15.0, 0.0), direction(-15.0, 0.0), direction(-15.0, 0.0)}, Vec3(-0.26, 0.965, 0.0)};
 }
@@ -96,7 +96,7 @@ Skeleton place(const Thumb& thumb, const std::array<Rest, 4>& fingers) {
     hand.rotation[wrist] = Quat(1.0, 0.0, 0.0, 0.0);
     place_thumb(hand, thumb);
     for (std::size_t i = 0; i < bones.size(); ++i) place_finger(hand, bones[i], fingers[i]);
-    // The palm joint: the middle of the middle finger's metacarpal.
+    // The palm joint is the middle of the middle finger's metacarpal.
     hand.position[palm] = 0.5 * (hand.position[middle_metacarpal] + hand.position[middle_proximal]);
     hand.rotation[palm] = hand.rotation[middle_metacarpal];
     return hand;

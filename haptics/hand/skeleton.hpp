@@ -1,11 +1,10 @@
-// The 26 joints of XR_EXT_hand_tracking (OpenXR 1.0, section 12.31), of a hand at rest and of a flat one.
-// Frames as the extension has them: −Z from the wrist towards the tip along the bone that begins at the
-// joint, +Y out of the back of the hand or nail, +X to the right. Positions in the frame of the wrist joint,
-// metres.
+// The 26 joints of XR_EXT_hand_tracking (OpenXR 1.0, section 12.31) of a relaxed and of a flat hand. Frames
+// of the extension: −Z from the wrist towards the tip along the bone that begins at the joint, +Y out of the
+// back of the hand or the nail, +X to the right. Positions in m, in the frame of the wrist joint.
 //
-// Lengths of the bones and of the soft tissue at the tips are plausible, near those of A. Buryanov, V.
-// Kotiuk, Proportions of hand segments, Int. J. Morphol. 28(3), 2010, 755-758; no copy of that table was at
-// hand to check them against. With a carpus of 32 mm the hand is 189 mm long, about a median man's.
+// Lengths of bones and of the soft tissue at the tips are plausible and near A. Buryanov, V. Kotiuk,
+// Proportions of hand segments, Int. J. Morphol. 28(3), 2010, 755-758; they are not verified against that
+// table. With a carpus of 32 mm the hand is 189 mm long, about the median of men.
 #pragma once
 
 #include <array>
@@ -16,7 +15,9 @@
 
 namespace bolt::hand {
 
-// In the order of XrHandJointEXT; names of nodes are those of the enumeration in lower case.
+enum class Side : std::uint8_t { left, right };
+
+// In the order of XrHandJointEXT; glTF nodes have the same names in lower case.
 enum Joint : std::size_t {
     palm,
     wrist,
@@ -74,7 +75,7 @@ inline constexpr std::array<std::string_view, joint_count> joint_names{"palm",
                                                                        "little_distal",
                                                                        "little_tip"};
 
-// The wrist's own is joint_count. Everything else hangs on the wrist: palm and metacarpals directly.
+// joint_count for the wrist, the root. Palm and metacarpals are its children.
 constexpr std::size_t parent_of(std::size_t joint) {
     if (joint == wrist) return joint_count;
     const bool first = joint == palm || joint == thumb_metacarpal ||
@@ -82,7 +83,7 @@ constexpr std::size_t parent_of(std::size_t joint) {
     return first ? static_cast<std::size_t>(wrist) : joint - 1;
 }
 
-// A digit from its metacarpal to its tip: joints first, first + 1, ... first + count − 1.
+// Joints of a digit from metacarpal to tip: first … first + count − 1.
 struct Digit {
     std::size_t first = 0, count = 0;
 };
@@ -90,14 +91,13 @@ inline constexpr std::array<Digit, 5> digits{Digit{thumb_metacarpal, 4}, Digit{i
                                              Digit{middle_metacarpal, 5}, Digit{ring_metacarpal, 5},
                                              Digit{little_metacarpal, 5}};
 
-// Half the breadth (mm) of the gloved digit at the metacarpal joint, the knuckle, the joints after it and the
-// tip.
+// Half the breadth (mm) of the gloved digit at each of its joints, metacarpal to tip.
 inline constexpr std::array<std::array<double, 5>, 5> half_breadths_mm{{{15.0, 13.0, 11.9, 9.6, 0.0},
                                                                         {12.5, 11.8, 10.5, 9.7, 8.4},
                                                                         {12.8, 12.0, 10.7, 9.9, 8.6},
                                                                         {12.3, 11.4, 10.1, 9.4, 8.2},
                                                                         {11.5, 10.3, 9.0, 8.4, 7.4}}};
-inline constexpr double glove_mm = 1.6;  // beyond the skin of the tip
+inline constexpr double glove_mm = 1.6;  // thickness of the glove at the tip
 
 inline constexpr double skeleton_length = 0.189;  // m, wrist to the middle finger's tip along the bones
 
@@ -106,9 +106,9 @@ struct Skeleton {
     std::array<Quat, joint_count> rotation{};
 };
 
-// The right hand, relaxed and open: its thumb points to −X. The left hand is mirrored() in the plane x = 0.
+// The right hand, relaxed and open; its thumb points to −X. mirrored() gives the left hand (plane x = 0).
 Skeleton right_skeleton();
-// The same hand flat: fingers and thumb straight and side by side in the plane of the palm.
+// The same hand flat: all angles 0.
 Skeleton flat_right_skeleton();
 Skeleton mirrored(const Skeleton& skeleton);
 

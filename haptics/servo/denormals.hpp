@@ -1,6 +1,7 @@
-// Numbers too small to be normal take a hundred times longer on many processors, which a tick cannot afford
-// when something fades out. For as long as this lives the calling thread takes them for 0 (as Embree also
-// wants it). The tick has it inside, so that the same inputs give the same bits on every thread.
+// Flushes denormal numbers to zero in the calling thread for the lifetime of the object, as Embree
+// recommends. On many processors arithmetic with denormals is a hundred times slower, which would delay a
+// tick while a force fades out. The tick creates one itself, so that the same inputs give the same bits on
+// every thread.
 #pragma once
 
 #if defined(__SSE2__)
@@ -17,7 +18,7 @@ class FlushDenormals {
     FlushDenormals(const FlushDenormals&) = delete;
     FlushDenormals& operator=(const FlushDenormals&) = delete;
 
-    // Whether this processor is one that it works on.
+    // Returns false on processors for which this is not implemented; the object then does nothing.
     static constexpr bool supported() { return bits != 0; }
 
   private:

@@ -7,12 +7,12 @@ namespace bolt::servo {
 
 namespace {
 
-constexpr double centring = 1.5e-3;       // m off the axis at which a jaw still slides on
+constexpr double centring = 1.5e-3;       // m, radial offset up to which a jaw slides onto the nut
 constexpr double squareness = 0.9976;     // cos 4°
-constexpr double finger_reach = 0.012;    // m
-constexpr double tilted_off = 0.866;      // cos 30°: beyond it a jaw no longer holds
-constexpr double along_axis = 0.8;        // of the handle's direction: its angle about the bolt means little
-constexpr double leap = 0.35;             // rad in a tick: no hand turns so fast
+constexpr double finger_reach = 0.012;    // m from fingertips to nut centre
+constexpr double tilted_off = 0.866;      // cos 30°; a jaw that is tilted more releases the nut
+constexpr double along_axis = 0.8;        // handle · axis above which the azimuth is ill-conditioned
+constexpr double leap = 0.35;             // rad in a tick, faster than any hand
 constexpr double hold_relaxation = 0.05;  // s
 
 struct Offset {
@@ -20,23 +20,23 @@ struct Offset {
     double radial = 0.0;  // m
 };
 
-Offset offset_of(const Vec3& from_centre, const NutPlace& nut) {
+Offset offset_of(const Vec3& from_centre, const NutGeometry& nut) {
     const double axial = glm::dot(from_centre, nut.axis);
     return {axial, glm::length(from_centre - axial * nut.axis)};
 }
 
-bool tilted_away(const NutPlace& nut, const ToolPose& tool, Grip grip) {
+bool tilted_away(const NutGeometry& nut, const ToolPose& tool, Grip grip) {
     if (std::abs(glm::dot(tool.handle, nut.axis)) > along_axis) return true;
     return grip == Grip::wrench && std::abs(glm::dot(tool.normal, nut.axis)) < tilted_off;
 }
 
-bool pulled_away(const NutPlace& nut, const Offset& o, Grip grip) {
+bool pulled_away(const NutGeometry& nut, const Offset& o, Grip grip) {
     if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) > 2.0 * finger_reach;
     return std::abs(o.axial) > 0.6 * nut.height || o.radial > 0.3 * nut.across_flats;
 }
 
-bool takes_hold(const Setup& setup, const NutPlace& nut, const Offset& o, const ToolPose& tool, Grip grip,
-                double misalignment) {
+bool fits(const Setup& setup, const NutGeometry& nut, const Offset& o, const ToolPose& tool, Grip grip,
+          double misalignment) {
     if (tilted_away(nut, tool, grip)) return false;
     if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) < finger_reach;
     return std::abs(o.axial) < 0.35 * nut.height && o.radial < centring &&
@@ -50,7 +50,7 @@ ToolPose pose_of(const DeviceSample& sample) {
     ToolPose tool;
     for (int i = 0; i < 3; ++i) {
         tool.position[i] = static_cast<double>(sample.position[i]);
-        tool.valid = tool.valid && std::abs(tool.position[i]) < 1e3;  // also false for NaN
+        tool.valid = tool.valid && std::abs(tool.position[i]) < 1e3;  // false for NaN too
     }
     const Quat q(static_cast<double>(sample.orientation[0]), static_cast<double>(sample.orientation[1]),
                  static_cast<double>(sample.orientation[2]), static_cast<double>(sample.orientation[3]));
@@ -65,13 +65,13 @@ ToolPose at_pose(const Pose& pose) {
             pose.orientation * Vec3(0, 0, 1), true};
 }
 
-Vec3 nut_centre(const NutPlace& nut, double nut_angle) {
+Vec3 nut_centre(const NutGeometry& nut, double nut_angle) {
     const double gap = std::max(0.0, nut.start_gap - nut.lead * nut_angle);
     return nut.seat + nut.axis * (gap + 0.5 * nut.height);
 }
 
-double tool_azimuth(const Setup& setup, const NutPlace& nut, const ToolPose& tool, Grip grip) {
-    // Counter-clockwise about the axis loosens a right-hand thread: tightening is the negative azimuth.
+double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& tool, Grip grip) {
+    // Counter-clockwise about the axis loosens a right-hand thread, hence the sign.
     const double handle = -std::atan2(glm::dot(tool.handle, nut.e2), glm::dot(tool.handle, nut.e1));
     if (grip != Grip::wrench) return handle;
     return handle +
@@ -85,7 +85,7 @@ void update_engagement(const Setup& setup, std::span<const joint::JointState> jo
         return;
     }
     if (e.joint >= 0) {
-        const NutPlace& nut = setup.nuts[static_cast<std::size_t>(e.joint)];
+        const NutGeometry& nut = setup.nuts[static_cast<std::size_t>(e.joint)];
         const double nut_angle = joints[static_cast<std::size_t>(e.joint)].nut.angle;
         const Offset o = offset_of(tool.position - nut_centre(nut, nut_angle), nut);
         const double azimuth = tool_azimuth(setup, nut, tool, grip);
@@ -98,17 +98,17 @@ void update_engagement(const Setup& setup, std::span<const joint::JointState> jo
             return;
         }
         e = {};
-        return;  // what was let go in this tick is not taken again in it
+        return;  // a nut released in this tick can be engaged in the next tick at the earliest
     }
     if (grip == Grip::none) return;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
-        const NutPlace& nut = setup.nuts[i];
+        const NutGeometry& nut = setup.nuts[i];
         const double nut_angle = joints[i].nut.angle;
         const Vec3 from_centre = tool.position - nut_centre(nut, nut_angle);
         if (std::abs(from_centre.x) + std::abs(from_centre.y) + std::abs(from_centre.z) > 0.1) continue;
         const double azimuth = tool_azimuth(setup, nut, tool, grip);
-        const double misalignment = wrap(azimuth - nut_angle, pi / 3.0);  // a hexagon repeats every 60°
-        if (!takes_hold(setup, nut, offset_of(from_centre, nut), tool, grip, misalignment)) continue;
+        const double misalignment = wrap(azimuth - nut_angle, pi / 3.0);  // the hexagon's symmetry
+        if (!fits(setup, nut, offset_of(from_centre, nut), tool, grip, misalignment)) continue;
         e.joint = static_cast<int>(i);
         e.grip = grip;
         e.azimuth = azimuth;

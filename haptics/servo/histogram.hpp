@@ -1,5 +1,5 @@
-// How long things took: counts in bins that grow with the value, so that microseconds and stalls of seconds
-// fit side by side. Fixed in size, no allocation; a copy is a value.
+// A histogram of durations with bins that grow with the value, from nanoseconds to minutes. Fixed size, no
+// allocation. Log-linear bins as in HdrHistogram.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,10 @@
 
 namespace bolt::servo {
 
-// Below 32 ns a bin a nanosecond, from there on 16 bins an octave: a value is known to a sixteenth.
-// (Log-linear bins as HdrHistogram has them.)
+// Bins of 1 ns below 32 ns, then 16 bins per octave: the relative resolution is 1/16.
 struct Histogram {
-    static constexpr int fine = 4;                           // bits of a value that tell bins apart
-    static constexpr std::uint64_t most = (1ULL << 40) - 1;  // ns, 18 minutes: what is longer counts as this
+    static constexpr int fine = 4;  // bits of a value below its leading bit that select the bin
+    static constexpr std::uint64_t most = (1ULL << 40) - 1;  // ns, 18 minutes; longer durations count as this
     static constexpr std::size_t bins = (40 - fine + 1) << fine;
 
     std::array<std::uint64_t, bins> counts{};
@@ -29,7 +28,7 @@ constexpr std::size_t bin_of(std::uint64_t ns) {
     return (static_cast<std::size_t>(octave) << Histogram::fine) + static_cast<std::size_t>(ns >> octave);
 }
 
-// First value that is in the bin after this one.
+// The first value, ns, of the next bin.
 constexpr std::uint64_t end_of(std::size_t bin) {
     constexpr std::size_t linear = 2U << Histogram::fine;
     if (bin < linear) return bin + 1;
@@ -37,7 +36,7 @@ constexpr std::uint64_t end_of(std::size_t bin) {
     return (static_cast<std::uint64_t>(bin - (octave << Histogram::fine)) + 1) << octave;
 }
 
-// A clock that went backwards counts as 0.
+// Negative durations, from a clock that went backwards, count as 0.
 inline void add(Histogram& h, std::int64_t ns) {
     const std::uint64_t value = std::min(static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)), h.most);
     ++h.counts[bin_of(value)];
@@ -55,25 +54,26 @@ inline void add(Histogram& h, const Histogram& other) {
     h.sum += other.sum;
 }
 
-// Seconds that a share of all values (0 … 1) did not exceed: never understated, overstated by a sixteenth at
-// most.
+// The duration, s, that a share (0 … 1) of all values does not exceed. Overestimates by at most 1/16, never
+// underestimates. 0 if the histogram is empty.
 inline double quantile(const Histogram& h, double share) {
     if (h.count == 0) return 0.0;
-    const double wanted = std::clamp(share, 0.0, 1.0) * static_cast<double>(h.count);
+    const double rank = std::clamp(share, 0.0, 1.0) * static_cast<double>(h.count);
     std::uint64_t below = 0;
     for (std::size_t i = 0; i < h.bins; ++i) {
         below += h.counts[i];
-        if (below > 0 && static_cast<double>(below) >= wanted)
+        if (below > 0 && static_cast<double>(below) >= rank)
             return 1e-9 * static_cast<double>(std::min(end_of(i) - 1, h.greatest));
     }
     return 1e-9 * static_cast<double>(h.greatest);
 }
 
+// s; 0 if the histogram is empty.
 inline double mean(const Histogram& h) {
     return h.count == 0 ? 0.0 : 1e-9 * h.sum / static_cast<double>(h.count);
 }
 
-// Share of the values that were longer than `seconds`; those in its own bin count as longer.
+// The share (0 … 1) of the values above `seconds`. Values in the same bin count as above.
 inline double share_above(const Histogram& h, double seconds) {
     if (h.count == 0) return 0.0;
     const double ns = std::clamp(seconds * 1e9, 0.0, static_cast<double>(h.most));

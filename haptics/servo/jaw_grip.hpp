@@ -1,11 +1,11 @@
-// The wrench on a nut where contact says how it sits: what is held follows from geometry alone (contact/
-// jaw.hpp), and how much it bears from the corners (joint/corner.hpp).
+// Grip of a wrench on a nut with contact simulation. Geometry alone determines whether the jaw holds the nut
+// (haptics/collision/jaw.hpp); the corners limit the torque that it can transmit (haptics/joint/corner.hpp).
 //
-// The hexagon turns with the jaw wherever that goes beyond its play, as far as contacts are concerned, and
-// contacts have no lever about the bolt: about its axis the joint law is all that is felt, with its implicit
-// step, and in the other five directions contacts are. The other choice, contacts that drive the nut, would
-// feel the law through the god-object's tolerance: a hundredth of a millimetre at a corner is 3 N·m of 100.
-// Nothing jumps where the nut begins to be held: the jaw is then within its play, law and lever are nothing.
+// For contacts the hexagon turns with the jaw beyond the play, and the contacts' moment about the bolt is
+// removed. So the joint law with its implicit step acts about the bolt's axis, and contacts act in the other
+// five directions. If contacts drove the nut instead, the law would pass through the god-object's tolerance,
+// and 0.01 mm at a corner is 3 N·m of 100 N·m. The force is continuous at engagement: inside the play both
+// the law's torque and the removed moment are zero.
 #pragma once
 
 #include <span>
@@ -14,22 +14,25 @@
 
 namespace bolt::servo {
 
-// The wrench's frame to the nut's.
-Pose on_nut(const NutPlace& nut, double nut_angle, const ToolPose& tool);
+// Pose of the wrench in the nut's frame.
+Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool);
 
-contact::HexagonPrism prism_of(const NutPlace& nut);
+collision::HexagonPrism prism_of(const NutGeometry& nut);
 
-// Takes hold where the jaw is around a hexagon that lies between its flats, by more than its bevel, and lets
-// go where it is not around it any more. `lost`: m of the flats that are rounded off, by joint.
+// One tick. Engages a nut if the jaw surrounds its hexagon by more than the jaw's bevel and is aligned within
+// the play; releases it if the jaw no longer surrounds it. `lost`, by joint: m of each flat that is rounded
+// off.
 void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> joints,
                      std::span<const double> lost, const ToolPose& tool, Engagement& engagement);
 
-// The handle that a held wrench is for its nut.
-joint::Handle jaw_handle(const Setup& setup, const NutPlace& nut, double lost, const Engagement& engagement);
+// The engaged wrench as the joint law's handle. `lost` in m.
+joint::Handle jaw_handle(const Setup& setup, const NutGeometry& nut, double lost,
+                         const Engagement& engagement);
 
-// After the nut's step: a jaw that is turned on beyond what the corners bear rounds them by the work that
-// this takes, bears less the further it goes, and at last lets go. True in the tick in which it does.
-bool round_corners(const Setup& setup, const NutPlace& nut, const joint::JointState& joint, double& lost,
+// Call after the joint's step. A jaw that turns beyond the corners' torque removes material in proportion to
+// the work, and transmits less torque the further it turns. Returns true in the tick in which it slips off
+// the nut.
+bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint, double& lost,
                    Engagement& engagement);
 
 }  // namespace bolt::servo

@@ -9,10 +9,10 @@ namespace bolt::servo {
 
 namespace {
 
-constexpr std::uint64_t tool_stream = 6789;  // the joints have theirs from 0 on
+constexpr std::uint64_t tool_stream = 6789;  // random stream of the wrench; the joints use the streams from 0
 
-NutPlace place(const joint::JointDesign& design) {
-    NutPlace nut;
+NutGeometry nut_geometry(const joint::JointDesign& design) {
+    NutGeometry nut;
     nut.seat = design.seat;
     nut.axis = glm::normalize(design.axis);
     const Vec3 helper = std::abs(nut.axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
@@ -30,41 +30,42 @@ NutPlace place(const joint::JointDesign& design) {
 
 }  // namespace
 
-Pose nut_pose(const NutPlace& nut, double nut_angle) {
+Pose nut_pose(const NutGeometry& nut, double nut_angle) {
     const double gap = std::max(0.0, nut.start_gap - nut.lead * nut_angle);
     const Quat seat = glm::normalize(glm::quat_cast(glm::dmat3(nut.e1, nut.e2, nut.axis)));
-    // Tightening turns about -axis.
+    // Tightening a right-hand thread turns about −axis.
     return {nut.seat + gap * nut.axis, seat * glm::angleAxis(-nut_angle, Vec3(0, 0, 1))};
 }
 
-Setup make_setup(const Description& d) {
+Setup make_setup(const SetupDescription& d) {
     Setup setup;
     setup.dt = d.dt;
     setup.group = d.law == joint::Law::mechanistic ? joint::make_group(d.joints, d.flange, d.seed)
                                                    : joint::make_published_group(d.published);
     double across_flats = 0.0;
     for (const joint::JointDesign& design : d.joints) {
-        setup.nuts.push_back(place(design));
+        setup.nuts.push_back(nut_geometry(design));
         across_flats = std::max(across_flats, design.thread.size.across_flats);
     }
     if (d.law == joint::Law::published)
-        for (NutPlace& nut : setup.nuts)
+        for (NutGeometry& nut : setup.nuts)
             nut.start_gap = nut.lead * to_radians(joint::published_boundaries(d.published).linearity);
 
     setup.wrench.head_angle = d.head_angle;
     setup.wrench.handle_length = d.handle_length;
-    setup.wrench.jaw = contact::make_jaw(d.jaw, d.head_angle, d.head_thickness, d.jaw_throat, d.jaw_tip);
+    setup.wrench.jaw = collision::make_jaw(d.jaw, d.head_angle, d.head_thickness, d.jaw_throat, d.jaw_tip);
     setup.wrench.half_play = joint::rounded_half_play(d.jaw, across_flats, 0.0);
     const double greatest = std::max(d.greatest_torque, 1.0);
     setup.wrench.stiffness =
-        greatest / to_radians(2.5);  // wrench and wrists give 2.5° at the greatest torque
+        greatest /
+        to_radians(2.5);  // modelling assumption: wrench and wrists yield 2.5° at the largest torque
 
     setup.wrench.click.swing = d.click_swing;
-    Random of_the_tool(d.seed, tool_stream);
-    setup.wrench.deviation = of_the_tool.uniform(-d.click_accuracy, d.click_accuracy);
+    Random random(d.seed, tool_stream);
+    setup.wrench.deviation = random.uniform(-d.click_accuracy, d.click_accuracy);
 
     setup.limits = d.limits;
-    // What a device cannot render must not count as stored by it.
+    // The energy of a spring that the device cannot render must not count as stored.
     if (d.limits.force <= 0.0) setup.hold_stiffness = 0.0;
     setup.torque = force::make_torque_rendering(d.limits, d.greatest_torque, d.handle_length);
     setup.guiding.greatest = std::min(3.0, 0.2 * d.limits.force);

@@ -36,7 +36,7 @@ struct MonotonicClock {
     }
     static void sleep_until(std::int64_t deadline) {
         const timespec t{deadline / second, deadline % second};
-        // A signal wakes it early; the deadline is absolute, so sleeping again loses nothing.
+        // A signal ends the sleep early; the deadline is absolute, so the call can be repeated.
         while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
         }
     }
@@ -51,44 +51,44 @@ bool may_lock_without_limit() {
     return (data[0].effective & (1U << CAP_IPC_LOCK)) != 0;
 }
 
-// What is mapped later is locked only where that has no limit: with one, a later allocation would fail
-// instead.
-void lock_memory(Granted& granted) {
-    const bool later = may_lock_without_limit();
-    if (later && mlockall(MCL_CURRENT | MCL_FUTURE) == 0) {
-        granted.memory_locked = true;
+// MCL_FUTURE is used only without a limit of locked memory: with a limit, later allocations would fail.
+void lock_memory(ThreadPrivileges& privileges) {
+    const bool unlimited = may_lock_without_limit();
+    if (unlimited && mlockall(MCL_CURRENT | MCL_FUTURE) == 0) {
+        privileges.memory_locked = true;
         return;
     }
-    const std::string why = later ? std::strerror(errno) : "the limit of locked memory is finite";
-    granted.refused.push_back(
-        fmt::format("memory is not locked ({}): a page that was swapped out costs milliseconds; \"memlock "
-                    "unlimited\" for this user in /etc/security/limits.d allows it",
-                    why));
+    const std::string why = unlimited ? std::strerror(errno) : "the limit of locked memory is finite";
+    privileges.refused.push_back(fmt::format(
+        "memory is not locked ({}), so a swapped page can delay a tick by milliseconds; expected \"memlock "
+        "unlimited\" for this user in /etc/security/limits.d",
+        why));
 }
 
-void ask_for_priority(int priority, Granted& granted) {
-    sched_param wanted{};
-    wanted.sched_priority = priority;
-    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
+void request_priority(int priority, ThreadPrivileges& privileges) {
+    sched_param parameter{};
+    parameter.sched_priority = priority;
+    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
     if (error == 0) {
-        granted.priority = priority;
+        privileges.priority = priority;
         return;
     }
-    granted.refused.push_back(fmt::format(
-        "no real-time priority ({}): other programs may hold it up; \"rtprio {}\" for this user in "
-        "/etc/security/limits.d allows it",
-        std::strerror(error), priority));
-    // Sleeps of ordinary threads end up to 50 µs late on purpose, to save power.
+    privileges.refused.push_back(
+        fmt::format("no real-time priority ({}), so other programs can delay a tick; expected \"rtprio {}\" "
+                    "for this user "
+                    "in /etc/security/limits.d",
+                    std::strerror(error), priority));
+    // By default Linux delays the wake-up of ordinary threads by up to 50 µs to save power; request 1 ns.
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
 
-// The pages of the stack that the tick will use, so that none is missing when it does.
-[[gnu::noinline]] void touch_stack(std::size_t bytes) {
+// Writes to the stack pages that the tick will use, so that no page fault delays a tick.
+[[gnu::noinline]] void prefault_stack(std::size_t bytes) {
     constexpr std::size_t page = 4096;
     volatile unsigned char here[page];
     for (std::size_t i = 0; i < page; i += 64) here[i] = 1;
-    if (bytes > page) touch_stack(bytes - page);
-    here[0] = here[page - 1];  // after the call, so that it is no tail call that reuses one page
+    if (bytes > page) prefault_stack(bytes - page);
+    here[0] = here[page - 1];  // a use after the call prevents a tail call, which would reuse one page
 }
 
 }  // namespace
@@ -97,28 +97,30 @@ struct Thread::Shared {
     ThreadOptions options;
     Tick tick;
     std::atomic<bool> stop{false}, running{true};
-    Granted granted;
-    Timing timing;  // the thread's own
-    TripleBuffer<Timing> told;
+    ThreadPrivileges privileges;
+    Timing timing;  // written by the servo thread only
+    TripleBuffer<Timing> published;
     std::promise<void> ready;
     std::thread thread;
 
     void run() {
-        if (options.priority > 0) ask_for_priority(options.priority, granted);
-        touch_stack(options.stack);
-        granted.flushes_denormals = FlushDenormals::supported();
+        if (options.priority > 0) request_priority(options.priority, privileges);
+        prefault_stack(options.stack);
+        privileges.flushes_denormals = FlushDenormals::supported();
         ready.set_value();
         {
             const FlushDenormals flush;
             MonotonicClock clock;
             run_loop(
                 clock, std::llround(1e9 / options.rate), timing,
-                [this](const Beat& beat) { return !stop.load(std::memory_order_relaxed) && tick(beat); },
+                [this](const Deadline& deadline) {
+                    return !stop.load(std::memory_order_relaxed) && tick(deadline);
+                },
                 [this](const Timing& now) {
-                    if (now.ticks % options.tell_every == 0) told.write(now);
+                    if (now.ticks % options.publish_every == 0) published.write(now);
                 });
         }
-        told.write(timing);
+        published.write(timing);
         running.store(false, std::memory_order_release);
     }
 };
@@ -134,39 +136,40 @@ Thread::~Thread() { stop(); }
 
 Result<Thread> Thread::start(const ThreadOptions& options, Tick tick) {
     if (!(options.rate >= 1.0 && options.rate <= 20'000.0))
-        return fail(ErrorCode::usage, fmt::format("a servo rate of {} per second", options.rate),
+        return fail(ErrorCode::usage, fmt::format("servo: the rate is {} per second", options.rate),
                     "1 to 20000");
     if (options.priority < 0 || options.priority > 99)
-        return fail(ErrorCode::usage, fmt::format("a real-time priority of {}", options.priority), "0 to 99");
+        return fail(ErrorCode::usage, fmt::format("servo: the real-time priority is {}", options.priority),
+                    "0 to 99");
     auto shared = std::make_unique<Shared>();
     shared->options = options;
-    shared->options.tell_every = std::max<std::uint64_t>(1, options.tell_every);
+    shared->options.publish_every = std::max<std::uint64_t>(1, options.publish_every);
     shared->tick = std::move(tick);
-    if (options.lock_memory) lock_memory(shared->granted);
+    if (options.lock_memory) lock_memory(shared->privileges);
     std::future<void> ready = shared->ready.get_future();
     try {
         shared->thread = std::thread([s = shared.get()] { s->run(); });
     } catch (const std::system_error& error) {
-        if (shared->granted.memory_locked) munlockall();
-        return fail(ErrorCode::failed, fmt::format("the servo thread does not start: {}", error.what()));
+        if (shared->privileges.memory_locked) munlockall();
+        return fail(ErrorCode::failed, fmt::format("servo: the thread cannot be created: {}", error.what()));
     }
     ready.wait();
     return Thread(std::move(shared));
 }
 
-const Granted& Thread::granted() const { return shared_->granted; }
+const ThreadPrivileges& Thread::privileges() const { return shared_->privileges; }
 bool Thread::running() const { return shared_->running.load(std::memory_order_acquire); }
 
 const Timing& Thread::timing() {
-    shared_->told.update();
-    return shared_->told.latest();
+    shared_->published.update();
+    return shared_->published.latest();
 }
 
 void Thread::stop() {
     if (!shared_ || !shared_->thread.joinable()) return;
     shared_->stop.store(true, std::memory_order_relaxed);
     shared_->thread.join();
-    if (shared_->granted.memory_locked) munlockall();
+    if (shared_->privileges.memory_locked) munlockall();
 }
 
 }  // namespace bolt::servo

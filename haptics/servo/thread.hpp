@@ -1,5 +1,5 @@
-// A thread that runs a tick at a fixed rate, with whatever real-time means the operating system allows. It
-// says what it got, so that nobody trains on a host that cannot keep time without knowing it.
+// A thread that runs a tick at a fixed rate with the real-time privileges that the operating system grants.
+// It reports them, so that a host that cannot keep time is not used unnoticed.
 #pragma once
 
 #include <functional>
@@ -12,33 +12,35 @@
 namespace bolt::servo {
 
 struct ThreadOptions {
-    double rate = 1000.0;            // 1/s
-    int priority = 80;               // of SCHED_FIFO, 1 … 99; 0: it is not asked for
-    bool lock_memory = true;         // the whole process, until the thread stops
-    std::size_t stack = 256 * 1024;  // bytes that are touched before the first tick
-    std::uint64_t tell_every = 100;  // ticks between two timings that timing() can see
+    double rate = 1000.0;               // 1/s
+    int priority = 80;                  // of SCHED_FIFO, 1 … 99; 0: none is requested
+    bool lock_memory = true;            // locks the memory of the whole process until the thread stops
+    std::size_t stack = 256 * 1024;     // bytes that are paged in before the first tick
+    std::uint64_t publish_every = 100;  // ticks between two updates of timing()
 };
 
 class Thread {
   public:
-    // Runs on the thread only, must neither throw nor wait; returns whether to go on. Denormals are flushed
-    // in it.
-    using Tick = std::function<bool(const Beat&)>;
+    // Runs on the servo thread with denormals flushed. Must neither throw nor wait. Returns false to end the
+    // thread.
+    using Tick = std::function<bool(const Deadline&)>;
 
-    // Returns when the thread has asked for its means and is about to wait for its first deadline.
+    // Returns once the thread has requested its privileges and is about to wait for its first deadline. Fails
+    // for a rate outside 1 … 20000 1/s, a priority outside 0 … 99, or if no thread can be created. Missing
+    // privileges are no failure; see privileges().
     static Result<Thread> start(const ThreadOptions& options, Tick tick);
 
     Thread(Thread&&) noexcept;
     Thread& operator=(Thread&&) noexcept;
     ~Thread();  // stops
 
-    [[nodiscard]] const Granted& granted() const;
+    [[nodiscard]] const ThreadPrivileges& privileges() const;
     [[nodiscard]] bool running() const;
 
-    // As told last; complete after stop(). For one caller at a time.
+    // The timing at the last update; complete after stop(). For one caller at a time.
     const Timing& timing();
 
-    // After the tick that runs now. The timing stays.
+    // Waits for the current tick to end. The timing remains available.
     void stop();
 
   private:

@@ -1,11 +1,11 @@
 // The servo tick: a pure step of fixed dt. No clock, lock, allocation or I/O; the same inputs give the same
 // bits.
 //
-//   1 hand pose → wrench pose, as far as obstacles allow   touch.hpp
-//   2 which nut is held, and how well                      engagement.hpp, jaw_grip.hpp
-//   3 nut and joint: angle, stage, torque                  joint/group.hpp
-//   4 what the nut does to the hand, or the guiding force on its way there   force/guide.hpp
-//   5 output stage: watchdog, passivity, limits                              force/output_stage.hpp
+//   1 device pose → wrench pose, constrained by obstacles   tool_contact.hpp
+//   2 engagement of a nut                                   engagement.hpp, jaw_grip.hpp
+//   3 nut and joint: angle, stage, torque                   joint/group.hpp
+//   4 force of the nut on the hand, or the guiding force    force/guide.hpp
+//   5 output stage: watchdog, passivity, limits             force/output_stage.hpp
 #pragma once
 
 #include <array>
@@ -17,19 +17,18 @@
 #include "haptics/servo/engagement.hpp"
 #include "haptics/servo/io.hpp"
 #include "haptics/servo/setup.hpp"
-#include "haptics/servo/touch.hpp"
+#include "haptics/servo/tool_contact.hpp"
 
 namespace bolt::servo {
 
-// Fingers that open, a hand that gives up its hold: what drew the tool to the nut goes within 50 ms, not at
-// once.
-struct Opening {
-    Vec3 drawn_to{0.0};
-    double share = 0.0;  // of the stiffness that is left
+// After a release the spring between tool and nut fades out within 50 ms instead of in one step.
+struct ReleaseFade {
+    Vec3 hold_target{0.0};
+    double share = 0.0;  // 0 … 1 of Setup::hold_stiffness that is left
 };
 
-// How nuts and joints stood once.
-struct Mark {
+// A stored state of all joints and nuts, for undo.
+struct Checkpoint {
     std::vector<joint::JointState> joints;
     std::vector<double> rounded;
 };
@@ -37,22 +36,24 @@ struct Mark {
 struct State {
     std::uint64_t tick = 0;
     std::vector<joint::JointState> joints;
-    std::vector<double> rounded;  // m of each nut's flats that slipping jaws took off
+    std::vector<double> rounded;  // by joint: m of each flat that slipping jaws have rounded off
     Engagement engagement;
-    Vec3 drawn_to{0.0};  // where an engaged tool is held, m
-    Opening opening;
-    force::OutputCommand helped;  // by the guiding force in the tick before
+    Vec3 hold_target{0.0};  // m, point to which the hold spring pulls an engaged tool
+    ReleaseFade release_fade;
+    force::OutputCommand guiding_command;  // guiding force and torque of the last tick
     force::GuideState guide;
     force::OutputStage output;
-    std::optional<Touch> touch;          // none: nothing is bumped into
-    std::array<Mark, most_marks> marks;  // a ring
-    std::uint32_t marked = 0;            // since the beginning
+    std::optional<ToolContact> tool_contact;              // none: no contact simulation
+    std::array<Checkpoint, max_checkpoints> checkpoints;  // ring buffer
+    std::uint32_t checkpoint_count = 0;  // saved since the beginning, less those that undo discarded
 };
 
 State initial_state(const Setup& setup);
 
-// `free`: whether the straight way between two points is, for the guiding force; without it every way is.
+// One tick. `free` returns true if the straight segment between two points is free; the guiding force plans
+// with it. The first overload queries State::tool_contact, so without contact simulation every segment is
+// free.
 Output tick(const Setup& setup, State& state, const Input& input);
-Output tick(const Setup& setup, State& state, const Input& input, force::Free free);
+Output tick(const Setup& setup, State& state, const Input& input, force::IsSegmentFree free);
 
 }  // namespace bolt::servo

@@ -1,4 +1,4 @@
-// How a servo loop kept its time, and whether a host that keeps it so is good enough to be felt.
+// Timing statistics of a servo loop, and the assessment of a host from them.
 #pragma once
 
 #include <string>
@@ -9,41 +9,44 @@
 namespace bolt::servo {
 
 struct Timing {
-    Histogram wake_up;  // from the deadline to the loop running again
-    Histogram compute;  // the tick
-    Histogram period;   // from one waking to the next
+    Histogram wake_up;  // from the deadline until the loop runs
+    Histogram compute;  // duration of the tick
+    Histogram period;   // from one wake-up to the next
     std::uint64_t ticks = 0;
-    std::uint64_t missed = 0;  // deadlines that passed while something else ran: skipped, never made up for
+    std::uint64_t missed = 0;  // deadlines that were skipped because the loop did not run in time
 };
 
-// What the operating system gave the thread of what it asked for.
-struct Granted {
-    int priority = 0;            // of SCHED_FIFO; 0: it shares the processor like any other thread
-    bool memory_locked = false;  // no page of this process is ever fetched from disk
+// The real-time privileges that the operating system granted to the thread.
+struct ThreadPrivileges {
+    int priority = 0;            // of SCHED_FIFO; 0: ordinary scheduling
+    bool memory_locked = false;  // no page of this process can be swapped out
     bool flushes_denormals = false;
-    std::vector<std::string> refused;  // in words: what was not given, why, and what would help
+    std::vector<std::string> refused;  // one message per refused privilege, with the reason and the remedy
 };
 
-// Above these a hand may feel the loop, or a device's own watchdog may let go. Shares are of a period.
-struct HostLimits {
-    double wake_up = 0.25;       // at the 99.9th percentile
-    double compute = 0.5;        // at the 99.9th percentile: the rest is for the device's transfer
-    double missed = 1e-3;        // of all deadlines
-    double stall = 0.02;         // s without a tick: the output stage is to be at zero by then
-    std::uint64_t ticks = 1000;  // fewer say nothing about a 99.9th percentile
+// Limits above which a hand may feel the loop's jitter or a device's own watchdog may trip. wake_up and
+// compute are shares of the period.
+struct HostRequirements {
+    double wake_up = 0.25;  // at the 99.9th percentile
+    double compute =
+        0.5;  // at the 99.9th percentile; the rest of the period is for the transfer to the device
+    double missed = 1e-3;        // share of all deadlines
+    double stall = 0.02;         // s without a tick; the output stage must have reached zero by then
+    std::uint64_t ticks = 1000;  // fewest ticks that give a 99.9th percentile
 };
 
-struct Verdict {
-    bool good = false;
-    std::vector<std::string> reasons;  // each a measured value beside its limit, worst news first
-    std::size_t against = 0;           // so many of them, the first, say that it is not
+struct HostAssessment {
+    bool adequate = false;
+    std::vector<std::string> reasons;  // a measured value with its limit each, violated limits first
+    std::size_t violations = 0;        // number of violated limits
 };
 
-// At `rate` (1/s), which need not be the one at which the timing was taken: what was late by more than a
-// period of `rate` would have missed deadlines there.
-Verdict judge_host(const Timing& timing, double rate, const HostLimits& limits = {});
+// `rate` (1/s) may differ from the rate at which the timing was measured: a wake-up later than a period of
+// `rate` counts as a missed deadline.
+HostAssessment assess_host(const Timing& timing, double rate, const HostRequirements& requirements = {});
 
-// Rows of text: one a histogram (median, p99, p99.9, greatest), then ticks and what was missed.
+// A table: one row per histogram (median, p99 and p99.9 in µs, greatest in ms), then ticks and missed
+// deadlines.
 std::string describe(const Timing& timing);
 
 }  // namespace bolt::servo

@@ -17,13 +17,14 @@ bool renders_torque(const Description& d) {
 
 Status check(const Layout& layout) {
     if (!layout.mover && !layout.wheel)
-        return fail(ErrorCode::no_device, "a station without a device", "one that moves the tool");
+        return fail(ErrorCode::no_device, "station: no device is selected", "a device that moves the tool");
     if (layout.mover && layout.mover->sensing == Sensing::turn)
-        return fail(ErrorCode::no_device, layout.mover->name + " turns about one axis and cannot move a tool",
-                    "it as the wheel, and another device or the mouse to move the tool");
+        return fail(ErrorCode::no_device,
+                    "station: " + layout.mover->name + " turns about one axis and cannot move the tool",
+                    "that device as the wheel, and another device or the mouse as the mover");
     if (layout.wheel && layout.wheel->sensing != Sensing::turn)
-        return fail(ErrorCode::no_device, layout.wheel->name + " is no wheel",
-                    "a device that turns about one axis; this one can move the tool");
+        return fail(ErrorCode::no_device, "station: " + layout.wheel->name + " is not a wheel",
+                    "a device that turns about one axis; this one can be the mover");
     return {};
 }
 
@@ -36,7 +37,7 @@ force::OutputLimits limits_of(const Layout& layout) {
         if (!renders_torque(*layout.mover)) mover.torque = 0.0;
         limits = force::in_assembly(layout.workspace, mover);
     }
-    limits.release -= way;
+    limits.release -= transport_delay;
     if (!layout.wheel) return limits;
     const force::OutputLimits& wheel = layout.wheel->limits;
     limits.torque = renders_torque(*layout.wheel) ? wheel.torque : 0.0;

@@ -1,16 +1,19 @@
 #include "haptics/station/station.hpp"
 
+#include <array>
 #include <atomic>
+#include <string>
 
 #include "engine/base/spsc_ring.hpp"
-#include "haptics/station/hand_line.hpp"
+#include "haptics/station/hand_thread.hpp"
 
 namespace bolt::station {
 
 namespace {
 
-constexpr double hangs = 0.5;              // s that no read and no write of a driver takes
-constexpr std::size_t kept_ticks = 32768;  // for a recorder to come by: half a minute at 1 kHz
+constexpr double driver_timeout = 0.5;         // s; no read or write of a driver blocks longer
+constexpr std::size_t recorded_ticks = 32768;  // 33 s at 1 kHz until the recorder must read them
+constexpr std::size_t commands_per_tick = 16;  // further ones wait for the next tick
 
 }  // namespace
 
@@ -18,43 +21,49 @@ struct Station::Shared {
     Layout layout;
     servo::Setup setup;
     servo::State state;
-    State mapped;
-    std::optional<device::Line> mover, wheel;
-    std::optional<glove::Driver> glove;
-    std::optional<HandLine> hand;
-    TripleBuffer<Wishes> wishes;
-    double age = 0.0;  // s, of the newest of them
-    TripleBuffer<Ticked> ticked;
-    Passed counted;
-    TripleBuffer<Passed> passed;
-    SpscRing<Ticked> ticks{kept_ticks};
-    std::atomic<std::uint64_t> lost{0};
-    std::optional<servo::Thread> thread;  // the last member: it stops first
+    State station;
+    std::optional<device::DeviceThread> mover, wheel;
+    std::optional<hand::GloveDriver> glove;
+    std::optional<HandThread> hand;
+    TripleBuffer<StationControls> controls;
+    double controls_age = 0.0;  // s since the last controls arrived
+    SpscRing<StationCommand> commands{command_queue_capacity};
+    TripleBuffer<TickRecord> latest_tick;
+    StationLinkStats stats;  // of the servo thread
+    TripleBuffer<StationLinkStats> link_stats;
+    SpscRing<TickRecord> ticks{recorded_ticks};
+    std::atomic<std::uint64_t> lost_ticks{0};
+    std::optional<servo::Thread> thread;  // last member: destroyed first, so it stops before the data go
 
-    bool tick(const servo::Beat& beat) {
-        Heard heard;
-        if (mover) heard.mover = mover->told();
-        if (wheel) heard.wheel = wheel->told();
-        age = wishes.update() ? 0.0 : age + setup.dt * (1.0 + static_cast<double>(beat.missed));
-        heard.wishes = wishes.latest();
-        heard.age = age;
-        if (hand) heard.hand = hand->grip();
-        heard.missed = beat.missed;
-        const bool works = !heard.wishes.pause;
-        const Answer answer = works ? station::tick(layout, setup, mapped, state, heard)
-                                    : station::pause(layout, setup, mapped, heard);
-        if (mover) mover->order(answer.mover, true);
-        if (wheel) wheel->order(answer.wheel, true);
-        count(counted.mover, mapped.mover, answer.mover);
-        count(counted.wheel, mapped.wheel, answer.wheel);
-        passed.write(counted);
+    bool tick(const servo::Deadline& deadline) {
+        StationInputs inputs;
+        if (mover) inputs.mover = mover->snapshot();
+        if (wheel) inputs.wheel = wheel->snapshot();
+        controls_age =
+            controls.update() ? 0.0 : controls_age + setup.dt * (1.0 + static_cast<double>(deadline.missed));
+        inputs.controls = controls.latest();
+        inputs.controls_age = controls_age;
+        std::array<StationCommand, commands_per_tick> received;
+        std::size_t count_received = 0;
+        while (count_received < received.size() && commands.pop(received[count_received])) ++count_received;
+        inputs.commands = std::span(received).first(count_received);
+        if (hand) inputs.hand_grip = hand->grip();
+        inputs.missed = deadline.missed;
+        const bool works = !inputs.controls.pause;
+        const DeviceCommands output = works ? station::tick(layout, setup, station, state, inputs)
+                                            : station::pause_tick(layout, setup, station, inputs);
+        if (mover) mover->command(output.mover, true);
+        if (wheel) wheel->command(output.wheel, true);
+        count(stats.mover, station.mover, output.mover);
+        count(stats.wheel, station.wheel, output.wheel);
+        link_stats.write(stats);
         if (hand)
-            hand->place(
-                {in_hand(layout, setup, mapped, heard.wishes), mapped.lies.value_or(mapped.output.tool)});
-        const Ticked now{beat.number,           mapped.input, mapped.output,
-                         mapped.workspace.tool, mapped.lies,  mapped.pressed};
-        ticked.write(now);
-        if (works && !ticks.push(now)) lost.fetch_add(1, std::memory_order_relaxed);
+            hand->set_tool({held_tool_pose(layout, setup, station, inputs.controls),
+                            station.wrench_rest.value_or(station.output.tool)});
+        const TickRecord now{deadline.number,        station.input,       station.output,
+                             station.workspace.tool, station.wrench_rest, station.dead_man_pressed};
+        latest_tick.write(now);
+        if (works && !ticks.push(now)) lost_ticks.fetch_add(1, std::memory_order_relaxed);
         return true;
     }
 };
@@ -66,100 +75,111 @@ Station::~Station() = default;
 
 namespace {
 
-Status open(const device::Open& opens, const Plan& plan, std::optional<device::Line>& line,
-            std::optional<device::Description>& description) {
-    if (!opens) return {};
-    Result<device::Line> started = device::Line::start(opens, plan.line);
-    if (!started) return fail(started.error());
-    line = std::move(*started);
-    auto found = line->await(plan.patience);
-    if (!found) return fail(found.error());
-    description = **found;
+Status open(const device::DeviceFactory& factory, const StationOptions& options,
+            std::optional<device::DeviceThread>& thread, std::optional<device::Description>& description) {
+    if (!factory) return {};
+    BOLT_TRY_ASSIGN(auto started, device::DeviceThread::start(factory, options.device_threads));
+    thread = std::move(started);
+    BOLT_TRY_ASSIGN(auto found, thread->wait_until_open(options.open_timeout));
+    description = *found;
     return {};
 }
 
 }  // namespace
 
-Result<Station> Station::start(Plan plan) {
+Result<Station> Station::start(StationOptions options) {
     auto shared = std::make_unique<Shared>();
     Shared& s = *shared;
-    s.layout.mover_buttons = plan.mover_buttons;
-    s.layout.wheel_buttons = plan.wheel_buttons;
-    s.layout.workspace = plan.workspace;
-    s.layout.home = plan.home;
-    if (Status ok = open(plan.mover, plan, s.mover, s.layout.mover); !ok) return fail(ok.error());
-    if (Status ok = open(plan.wheel, plan, s.wheel, s.layout.wheel); !ok) return fail(ok.error());
-    if (Status ok = check(s.layout); !ok) return fail(ok.error());
-    if (plan.hand && plan.glove.empty())
-        return fail(ErrorCode::no_device, "a hand without a glove", "the port that its glove is on");
-    if (plan.hand) s.layout.wrist = plan.hand->wrist;
-    if (plan.hand)
-        s.hand = HandLine::start(glove::Driver::start(plan.glove), std::move(*plan.hand));
-    else if (!plan.glove.empty())
-        s.glove = glove::Driver::start(plan.glove);
+    s.layout.mover_buttons = options.mover_buttons;
+    s.layout.wheel_buttons = options.wheel_buttons;
+    s.layout.workspace = options.workspace;
+    s.layout.home = options.home;
+    BOLT_TRY(open(options.mover, options, s.mover, s.layout.mover));
+    BOLT_TRY(open(options.wheel, options, s.wheel, s.layout.wheel));
+    BOLT_TRY(check(s.layout));
+    if (options.hand && options.glove.empty())
+        return fail(ErrorCode::no_device, "station: the gloved hand has no glove",
+                    "the serial port of the glove");
+    if (options.hand) s.layout.wrist = options.hand->wrist;
+    if (options.hand)
+        s.hand = HandThread::start(hand::GloveDriver::start(options.glove), std::move(*options.hand));
+    else if (!options.glove.empty())
+        s.glove = hand::GloveDriver::start(options.glove);
 
-    s.setup = plan.setup(limits_of(s.layout), 1.0 / plan.servo.rate);
-    if (plan.state) {
-        Result<servo::State> state = plan.state(s.setup);
-        if (!state) return fail(state.error());
-        s.state = std::move(*state);
+    s.setup = options.setup(limits_of(s.layout), 1.0 / options.servo.rate);
+    if (options.state) {
+        BOLT_TRY_ASSIGN(auto state, options.state(s.setup));
+        s.state = std::move(state);
     } else {
         s.state = servo::initial_state(s.setup);
     }
-    s.mapped = initial_state(s.layout);
-    s.wishes.write(plan.wishes);
+    s.station = initial_state(s.layout);
+    s.controls.write(options.controls);
 
-    Result<servo::Thread> thread =
-        servo::Thread::start(plan.servo, [&s](const servo::Beat& beat) { return s.tick(beat); });
-    if (!thread) return fail(thread.error());
-    s.thread = std::move(*thread);
+    BOLT_TRY_ASSIGN(auto thread, servo::Thread::start(options.servo, [&s](const servo::Deadline& deadline) {
+                        return s.tick(deadline);
+                    }));
+    s.thread = std::move(thread);
     return Station(std::move(shared));
 }
 
-void Station::wish(const Wishes& wishes) { shared_->wishes.write(wishes); }
+void Station::set_controls(const StationControls& controls) { shared_->controls.write(controls); }
 
-const Ticked& Station::newest() {
-    shared_->ticked.update();
-    return shared_->ticked.latest();
+Status Station::send(const StationCommand& command) {
+    if (shared_->commands.push(command)) return {};
+    return fail(ErrorCode::failed,
+                "station: the command queue is full: the servo thread has executed none of the last " +
+                    std::to_string(shared_->commands.capacity()) + " commands",
+                "a running servo thread");
 }
 
-bool Station::next(Ticked& tick) { return shared_->ticks.pop(tick); }
-std::uint64_t Station::lost() const { return shared_->lost.load(std::memory_order_relaxed); }
+const TickRecord& Station::latest_tick() {
+    shared_->latest_tick.update();
+    return shared_->latest_tick.latest();
+}
+
+bool Station::next_tick(TickRecord& tick) { return shared_->ticks.pop(tick); }
+std::uint64_t Station::lost_ticks() const { return shared_->lost_ticks.load(std::memory_order_relaxed); }
 
 std::vector<std::string> Station::troubles() {
-    std::vector<std::string> words;
-    for (auto* line : {&shared_->mover, &shared_->wheel}) {
-        if (!line->has_value()) continue;
-        const device::Report& report = (*line)->report();
-        if (!report.trouble.empty()) words.push_back(report.trouble);
-        if (report.state == device::State::usable && (*line)->away() > hangs)
-            words.push_back(report.description->name + " hangs: unplug it and plug it in again");
+    std::vector<std::string> messages;
+    for (auto* thread : {&shared_->mover, &shared_->wheel}) {
+        if (!thread->has_value()) continue;
+        const device::DeviceReport& report = (*thread)->report();
+        if (!report.trouble.empty()) messages.push_back(report.trouble);
+        if (report.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
+            messages.push_back(report.description->name + " hangs: unplug it and plug it in again");
     }
-    const Ticked& tick = newest();
-    // That a device is silent its line has said better.
+    const TickRecord& tick = latest_tick();
+    // The device's own report describes its silence better.
     const force::Fault fault = tick.output.fault;
-    if (tick.input.enabled && fault != force::Fault::none && (fault != force::Fault::silent || words.empty()))
-        words.emplace_back(force::name(fault));
+    if (tick.input.enabled && fault != force::Fault::none &&
+        (fault != force::Fault::silent || messages.empty()))
+        messages.emplace_back(force::name(fault));
     if (shared_->glove && shared_->glove->report().trouble[0] != '\0')
-        words.emplace_back(shared_->glove->report().trouble.data());
+        messages.emplace_back(shared_->glove->report().trouble.data());
     if (shared_->hand)
-        for (std::string& trouble : shared_->hand->troubles()) words.push_back(std::move(trouble));
-    return words;
+        for (std::string& trouble : shared_->hand->troubles()) messages.push_back(std::move(trouble));
+    return messages;
 }
 
-const device::Report* Station::mover() { return shared_->mover ? &shared_->mover->report() : nullptr; }
-const device::Report* Station::wheel() { return shared_->wheel ? &shared_->wheel->report() : nullptr; }
-const glove::Report* Station::gloved() {
+const device::DeviceReport* Station::mover_report() {
+    return shared_->mover ? &shared_->mover->report() : nullptr;
+}
+const device::DeviceReport* Station::wheel_report() {
+    return shared_->wheel ? &shared_->wheel->report() : nullptr;
+}
+const hand::GloveReport* Station::glove_report() {
     return shared_->hand ? &shared_->hand->report() : shared_->glove ? &shared_->glove->report() : nullptr;
 }
-const Passed& Station::passed() {
-    shared_->passed.update();
-    return shared_->passed.latest();
+const StationLinkStats& Station::link_stats() {
+    shared_->link_stats.update();
+    return shared_->link_stats.latest();
 }
-const ShownHand* Station::hand() { return shared_->hand ? &shared_->hand->shown() : nullptr; }
+const DisplayedHand* Station::hand() { return shared_->hand ? &shared_->hand->displayed() : nullptr; }
 const Layout& Station::layout() const { return shared_->layout; }
 const servo::Setup& Station::setup() const { return shared_->setup; }
-glove::Driver* Station::glove() { return shared_->glove ? &*shared_->glove : nullptr; }
+hand::GloveDriver* Station::glove() { return shared_->glove ? &*shared_->glove : nullptr; }
 servo::Thread& Station::servo() { return *shared_->thread; }
 void Station::stop() { shared_->thread->stop(); }
 

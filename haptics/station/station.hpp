@@ -1,74 +1,78 @@
-// A station at work: devices on their lines, a glove on its own, and the servo's thread between them. Others
-// look on and wish; nobody who does either holds up a tick.
+// A running station: the threads of the devices, of the glove and of the servo between them. Other threads
+// read its state and send controls and commands; none of these calls delays a tick.
 #pragma once
 
 #include <filesystem>
 
-#include "haptics/glove/driver.hpp"
+#include "haptics/hand/glove_driver.hpp"
 #include "haptics/servo/thread.hpp"
-#include "haptics/station/hand.hpp"
-#include "haptics/station/traffic.hpp"
+#include "haptics/station/gloved_hand.hpp"
+#include "haptics/station/link_stats.hpp"
 
 namespace bolt::station {
 
-struct Plan {
-    device::Open mover, wheel;  // empty: none
+struct StationOptions {
+    device::DeviceFactory mover, wheel;  // empty: no such device
     Buttons mover_buttons, wheel_buttons;
     force::Workspace workspace;
     Pose home;
-    std::filesystem::path glove;       // its port; empty: none
-    std::optional<HandPlan> hand;      // that wears it; none: nobody does, and what is gripped is wished
-    double patience = 3.0;             // s for the devices to open
-    device::LineOptions line{{}, 70};  // below the servo's priority
-    Wishes wishes;                     // until somebody wishes otherwise
+    std::filesystem::path glove;    // serial port; empty: no glove
+    std::optional<HandSetup> hand;  // wearer of the glove; none: the controls determine the grip
+    double open_timeout = 3.0;      // s, per device
+    device::DeviceThreadOptions device_threads{{}, 70};  // priority below the servo's
+    StationControls controls;                            // initial
     servo::ThreadOptions servo;
-    // What is worked on, for what the devices render and the servo's dt; and how it stands at the beginning.
+    // Build the servo's setup from the devices' limits and dt, and its initial state.
     std::function<servo::Setup(const force::OutputLimits& limits, double dt)> setup;
-    std::function<Result<servo::State>(const servo::Setup& setup)> state;  // empty: as servo::initial_state
+    std::function<Result<servo::State>(const servo::Setup& setup)> state;  // empty: servo::initial_state
 };
 
-// A tick, for who records all of them.
-struct Ticked {
-    std::uint64_t number = 0;  // deadlines that had no tick are counted
+// One tick, for recording.
+struct TickRecord {
+    std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
     servo::Input input;
     servo::Output output;
-    Pose tool;                 // where the hand has it
-    std::optional<Pose> lies;  // where the wrench lies that is in no hand (Wishes::rest)
-    bool pressed = false;      // the button that closes a hand, of a device
+    Pose tool;  // pose commanded by the hand, in the assembly's frame
+    std::optional<Pose>
+        wrench_rest;  // pose of the wrench while no hand holds it (StationControls::wrench_rest)
+    bool dead_man_pressed = false;  // by a button of a device
 };
 
 class Station {
   public:
-    // Waits for the devices; an error says which one does not come and what to do. Those that are lost later
-    // are waited for at work.
-    static Result<Station> start(Plan plan);
+    // Opens the devices and starts the threads. Fails if a device does not open in time, cannot take its
+    // role, or a thread cannot be created. A device that is lost later is reopened in the background.
+    static Result<Station> start(StationOptions options);
 
     Station(Station&&) noexcept;
     Station& operator=(Station&&) noexcept;
-    ~Station();  // stops; the devices are left without force
+    ~Station();  // stops; the devices are left at zero force
 
-    // For one caller each; newest() and troubles() for the same one.
-    void wish(const Wishes& wishes);
-    const Ticked& newest();
-    bool next(Ticked& tick);                   // every one in turn; false: no more for now
-    [[nodiscard]] std::uint64_t lost() const;  // ticks that nobody took in time
+    // Each of the following is for one calling thread; latest_tick() and troubles() for the same one.
+    void set_controls(const StationControls& controls);
+    // Queues a command for the next tick. Fails if the queue is full, which means that the servo thread does
+    // not run; the command is then not queued.
+    [[nodiscard]] Status send(const StationCommand& command);
+    const TickRecord& latest_tick();
+    bool next_tick(TickRecord& tick);  // all ticks in order, without those of a pause; false: no more yet
+    [[nodiscard]] std::uint64_t lost_ticks() const;  // not read in time and dropped
 
-    // The gloved hand as it is now; null: none. For one caller.
-    const ShownHand* hand();
+    // The gloved hand for display; null: none. For one calling thread.
+    const DisplayedHand* hand();
 
-    // What is wrong, in words, worst first; empty: nothing. As it was at most a tenth of a second ago.
+    // Messages on present problems, worst first, at most 0.1 s old.
     std::vector<std::string> troubles();
 
-    // How it goes with each device and with the glove, gloved hand or not; null: there is none. Of the
-    // traffic the newest tick's. For the caller of troubles().
-    const device::Report* mover();
-    const device::Report* wheel();
-    const glove::Report* gloved();
-    const Passed& passed();
+    // Reports of the devices and the glove, null if absent, and the link statistics of the latest tick. For
+    // the thread that calls troubles().
+    const device::DeviceReport* mover_report();
+    const device::DeviceReport* wheel_report();
+    const hand::GloveReport* glove_report();
+    const StationLinkStats& link_stats();
 
     [[nodiscard]] const Layout& layout() const;
     [[nodiscard]] const servo::Setup& setup() const;
-    [[nodiscard]] glove::Driver* glove();  // null: none, or a hand is in it
+    [[nodiscard]] hand::GloveDriver* glove();  // null: no glove, or a gloved hand uses it
     [[nodiscard]] servo::Thread& servo();
     void stop();
 

@@ -1,4 +1,4 @@
-// Accessors of every kind, with numbers that can be checked by hand.
+// Accessors of every type, with values that can be checked by hand.
 #include <doctest/doctest.h>
 
 #include "tests/assets/document.hpp"
@@ -27,7 +27,7 @@ const Primitive& primitive(const Model& model) { return model.meshes.at(0).primi
 
 }  // namespace
 
-TEST_CASE("a plain triangle") {
+TEST_CASE("Accessors: a plain triangle") {
     const Model model = read(triangle_document());
     const Primitive& p = primitive(model);
     CHECK(p.topology == Topology::triangles);
@@ -38,7 +38,7 @@ TEST_CASE("a plain triangle") {
     CHECK(model.roots == std::vector<int>{0});
 }
 
-TEST_CASE("indices of 8, 16 and 32 bits, and none") {
+TEST_CASE("Accessors: indices of 8, 16 and 32 bits, and none") {
     for (const int component : {5121, 5123, 5125}) {
         json document = triangle_document();
         Bytes bytes;
@@ -55,7 +55,7 @@ TEST_CASE("indices of 8, 16 and 32 bits, and none") {
     CHECK(primitive(read(document)).indices.empty());
 }
 
-TEST_CASE("normalised integers: 255 and 65535 are one") {
+TEST_CASE("Accessors: normalised integers, 255 and 65535 are one") {
     const auto u8 =
         with_attribute("TEXCOORD_0", {{"componentType", 5121}, {"normalized", true}, {"type", "VEC2"}},
                        Bytes().add<std::uint8_t>({0, 255, 51, 102, 255, 0, 0, 0}));
@@ -64,12 +64,13 @@ TEST_CASE("normalised integers: 255 and 65535 are one") {
     const auto u16 =
         with_attribute("COLOR_0", {{"componentType", 5123}, {"normalized", true}, {"type", "VEC3"}},
                        Bytes().add<std::uint16_t>({65535, 0, 13107, 0, 0, 0, 65535, 65535, 65535, 0}));
-    // Three components get an alpha of one.
+    // RGB colours get an alpha of one.
     CHECK(primitive(read(u16)).colors ==
           std::vector<glm::vec4>{{1.0F, 0.0F, 13107.0F / 65535.0F, 1.0F}, {0, 0, 0, 1}, {1, 1, 1, 1}});
 }
 
-TEST_CASE("KHR_mesh_quantization: bytes and shorts, signed, normalised or not, where it is required") {
+TEST_CASE(
+    "Accessors: KHR_mesh_quantization, bytes and shorts, signed, normalised or not, if it is required") {
     auto document =
         with_attribute("NORMAL", {{"componentType", 5120}, {"normalized", true}, {"type", "VEC3"}},
                        Bytes().add<std::int8_t>({127, 0, -127, 0, 0, 127, -128, 0, 0, 0, 0, 0}));
@@ -77,7 +78,7 @@ TEST_CASE("KHR_mesh_quantization: bytes and shorts, signed, normalised or not, w
         {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 12}, {"byteStride", 4}});
     document["accessors"][1]["bufferView"] = 1;
     document["accessors"][1]["byteOffset"] = 0;
-    // Elements are four bytes apart, three of them used.
+    // Elements are four bytes apart, and three bytes are used.
     CHECK(refusal(document).pointer == "/meshes/0/primitives/0/attributes/NORMAL");
     document["extensionsUsed"] = {"KHR_mesh_quantization"};
     document["extensionsRequired"] = {"KHR_mesh_quantization"};
@@ -95,7 +96,7 @@ TEST_CASE("KHR_mesh_quantization: bytes and shorts, signed, normalised or not, w
     CHECK(primitive(read(shorts)).positions[1] == glm::vec3(1.0F, -1.0F, 1.0F / 32767.0F));
 }
 
-TEST_CASE("interleaved positions and normals") {
+TEST_CASE("Accessors: interleaved positions and normals") {
     json document = triangle_document();
     set_buffer(document, Bytes().add({0.F, 1.F, 2.F, 0.F, 0.F, 1.F, 3.F, 4.F, 5.F, 0.F, 1.F, 0.F, 6.F, 7.F,
                                       8.F, 1.F, 0.F, 0.F}));
@@ -109,7 +110,7 @@ TEST_CASE("interleaved positions and normals") {
     CHECK(primitive(model).normals == std::vector<glm::vec3>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}});
 }
 
-TEST_CASE("sparse accessors replace some elements, of a view or of zeros") {
+TEST_CASE("Accessors: sparse accessors replace some elements of a view or of zeros") {
     json document = triangle_document();
     set_buffer(document, Bytes()
                              .add({0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
@@ -125,14 +126,14 @@ TEST_CASE("sparse accessors replace some elements, of a view or of zeros") {
     CHECK(primitive(read(document)).positions == std::vector<glm::vec3>{{5, 6, 7}, {0, 0, 0}, {8, 9, 10}});
 }
 
-TEST_CASE("an accessor without a view is zeros, indices too") {
+TEST_CASE("Accessors: without a view all values are zero, also indices") {
     json document = triangle_document();
     document["accessors"][1].erase("bufferView");
     document["accessors"][1].erase("byteOffset");
     CHECK(primitive(read(document)).indices == std::vector<std::uint32_t>{0, 0, 0});
 }
 
-TEST_CASE("an integer may be written as 3.0") {
+TEST_CASE("Accessors: an integer may be written as 3.0") {
     json document = triangle_document();
     document["accessors"][0]["count"] = 3.0;
     document["meshes"][0]["primitives"][0]["indices"] = 1.0;
@@ -141,7 +142,7 @@ TEST_CASE("an integer may be written as 3.0") {
     CHECK(refusal(document).pointer == "/accessors/0/count");
 }
 
-TEST_CASE("morph targets with positions, normals and tangents; weights of mesh and node") {
+TEST_CASE("Morph targets: positions, normals and tangents; weights of mesh and node") {
     json document = triangle_document();
     document["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}, {{"NORMAL", 0}, {"TANGENT", 0}}};
     document["meshes"][0]["weights"] = {0.25, 0.5};
@@ -155,7 +156,7 @@ TEST_CASE("morph targets with positions, normals and tangents; weights of mesh a
     CHECK(model.nodes[0].weights == std::vector<float>{1.0F, 0.0F});
 }
 
-TEST_CASE("of eight influences the four strongest stay, and their sum") {
+TEST_CASE("Skins: the four strongest of eight influences stay, with their sum") {
     json document = triangle_document();
     Bytes bytes;
     bytes.add({0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F});
@@ -177,7 +178,7 @@ TEST_CASE("of eight influences the four strongest stay, and their sum") {
     }
     const Model model = read(document);
     CHECK(primitive(model).joints[2] == glm::u16vec4(6, 1, 5, 7));
-    // 0.375, 0.25, 0.125 and 0.125 are kept of a sum of one.
+    // 0.375, 0.25, 0.125 and 0.125 remain of a sum of one.
     CHECK(primitive(model).weights[2].x == doctest::Approx(0.375 / 0.875));
     CHECK(primitive(model).weights[2].w == doctest::Approx(0.125 / 0.875));
     document["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_1");

@@ -1,4 +1,4 @@
-// glTF documents made by hand: JSON with the buffer in it.
+// Hand-made glTF documents: JSON with an embedded buffer.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace bolt::assets {
 
 using nlohmann::json;
 
-// Bytes to be, in little-endian order.
+// A little-endian byte buffer.
 class Bytes {
   public:
     template <class T>
@@ -34,19 +34,19 @@ class Bytes {
 
 std::string base64(const std::vector<std::uint8_t>& bytes);
 
-// Puts the bytes into the document as its only buffer, with one view over all of it.
+// Embeds the bytes as the document's only buffer, with one view of all of it.
 void set_buffer(json& document, const Bytes& bytes);
 
 // One triangle (0,0,0), (1,0,0), (0,1,0): positions as accessor 0, indices 0, 1, 2 (16 bits) as accessor 1.
 json triangle_document();
 
-// A .glb of it, with `chunk` as binary chunk if not empty.
+// Returns the document as a .glb, with `chunk` as the binary chunk if it is not empty.
 std::string glb(const json& document, const std::string& chunk);
 
-// Reads the document; fails the test where that fails.
+// Reads the document; the test fails if that fails.
 Model read(const json& document);
 
-// The error of a document that must not be read.
+// Returns the error of an invalid document.
 Error refusal(const json& document);
 
 }  // namespace bolt::assets

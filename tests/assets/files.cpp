@@ -1,4 +1,4 @@
-// Files beside the document, and what writing refuses.
+// External files of a document, and models that cannot be written.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ Result<Model> read_beside(const Folder& folder, const std::string& uri) {
 
 }  // namespace
 
-TEST_CASE("a buffer in a file beside or below the document, its name percent-encoded") {
+TEST_CASE("Files: a buffer beside or below the document, with a percent-encoded name") {
     const Folder folder;
     REQUIRE(write_file(folder.path / "model" / "sub" / "two words+ü.bin", triangle_bytes() + "more"));
     const auto model = read_beside(folder, "sub/two%20words+%C3%BC.bin");
@@ -50,7 +50,7 @@ TEST_CASE("a buffer in a file beside or below the document, its name percent-enc
     CHECK(model->meshes[0].primitives[0].positions[1] == glm::vec3(1, 0, 0));
 }
 
-TEST_CASE("a buffer that is not there is an error with its name") {
+TEST_CASE("Files: a missing buffer is an error with its name") {
     const Folder folder;
     const auto model = read_beside(folder, "missing.bin");
     REQUIRE_FALSE(model);
@@ -59,19 +59,19 @@ TEST_CASE("a buffer that is not there is an error with its name") {
     CHECK(model.error().file == (folder.path / "model" / "a.gltf").string());
 }
 
-TEST_CASE("a link out of the folder is not followed") {
+TEST_CASE("Files: a link out of the folder is not followed") {
     const Folder folder;
     REQUIRE(write_file(folder.path / "outside.bin", triangle_bytes()));
     std::filesystem::create_symlink(folder.path / "outside.bin", folder.path / "model" / "link.bin");
     const auto model = read_beside(folder, "link.bin");
     REQUIRE_FALSE(model);
     CHECK(model.error().pointer == "/buffers/0/uri");
-    // The same file is read where it may be.
+    // The same file inside the folder is read.
     std::filesystem::rename(folder.path / "outside.bin", folder.path / "model" / "inside.bin");
     CHECK(read_beside(folder, "inside.bin"));
 }
 
-TEST_CASE("a document named without a folder finds its buffers beside it") {
+TEST_CASE("Files: a document named without a folder finds its buffers beside it") {
     const Folder folder;
     REQUIRE(write_file(folder.path / "model" / "b.bin", triangle_bytes()));
     REQUIRE(write_file(folder.path / "outside.bin", triangle_bytes()));
@@ -88,12 +88,12 @@ TEST_CASE("a document named without a folder finds its buffers beside it") {
     CHECK_MESSAGE(model, model.error().message());
 }
 
-TEST_CASE("a file that is not there, or a folder, is an error") {
+TEST_CASE("Files: a missing file or a folder is an error") {
     CHECK(read_gltf("nowhere/a.glb").error().file == "nowhere/a.glb");
     CHECK_FALSE(read_gltf(std::filesystem::temp_directory_path()));
 }
 
-TEST_CASE("what is no model is not written") {
+TEST_CASE("Files: an invalid model is not written") {
     const auto refused = [](const auto& spoil) {
         Model model = sample_model();
         spoil(model);
@@ -120,7 +120,7 @@ TEST_CASE("what is no model is not written") {
     CHECK(refused([](Model& m) { m.images[0].pixels.pop_back(); }) == "/images/0");
 }
 
-TEST_CASE("quantised files are smaller and near") {
+TEST_CASE("Quantization: files are smaller, and values are close") {
     Model model = sample_model();
     Primitive& many = model.meshes[0].primitives[0];
     const auto repeat = [](auto& stream) {
@@ -148,14 +148,14 @@ TEST_CASE("quantised files are smaller and near") {
         CHECK(glm::distance(a.normals[i], b.normals[i]) < 3e-5F);
         CHECK(glm::distance(a.tangents[i], b.tangents[i]) < 3e-5F);
         CHECK(glm::distance(a.texcoords[0][i], b.texcoords[0][i]) < 1e-5F);
-        CHECK(a.texcoords[1][i] == b.texcoords[1][i]);  // beyond [0, 1]: left as floats
+        CHECK(a.texcoords[1][i] == b.texcoords[1][i]);  // outside [0, 1]: kept as floats
         const float sum = a.weights[i].x + a.weights[i].y + a.weights[i].z + a.weights[i].w;
         CHECK(std::abs(sum - 1.0F) < 1e-6F);
         CHECK(glm::distance(a.weights[i], b.weights[i]) < 2e-5F);
     }
 }
 
-TEST_CASE("indices take 16 bits as long as the largest stays below the restart value") {
+TEST_CASE("Writing: indices take 16 bits if the largest is below the restart value") {
     const auto size = [](std::uint32_t vertices) {
         Model model;
         Primitive p;

@@ -1,4 +1,4 @@
-// Files that lie: each ends in an error that names the place.
+// Hostile files: each gives an error that names the place.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -338,21 +338,21 @@ Error refused(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("hostile structure is refused with its pointer") { try_all(structure); }
-TEST_CASE("hostile hierarchies are refused with their pointer") { try_all(hierarchy); }
-TEST_CASE("hostile bytes are refused with their pointer") { try_all(bytes); }
+TEST_CASE("Hostile files: invalid structure is an error with its pointer") { try_all(structure); }
+TEST_CASE("Hostile files: invalid hierarchies are errors with their pointer") { try_all(hierarchy); }
+TEST_CASE("Hostile files: invalid bytes are errors with their pointer") { try_all(bytes); }
 
-TEST_CASE("an extension that is required and not read is named") {
+TEST_CASE("Hostile files: an unsupported required extension is named") {
     json document = triangle_document();
     document["extensionsRequired"] = {"EXT_meshopt_compression"};
     CHECK(refusal(document).what.find("EXT_meshopt_compression") != std::string::npos);
-    // One that is merely used is left alone.
+    // An extension that is used but not required is ignored.
     document.erase("extensionsRequired");
     document["extensionsUsed"] = {"EXT_meshopt_compression"};
     CHECK(parse_gltf(document.dump(), "used.gltf"));
 }
 
-TEST_CASE("text that is no JSON is refused with its line") {
+TEST_CASE("Hostile files: invalid JSON is an error with its line") {
     CHECK(refused("").what.find("no valid JSON") != std::string::npos);
     CHECK(refused("{\n\"asset\": {},\n!}").line == 3);
     CHECK(refused("{\"asset\": \"\xFF\"}").line == 1);
@@ -360,7 +360,7 @@ TEST_CASE("text that is no JSON is refused with its line") {
     CHECK(refused("null").what.find("null") != std::string::npos);
 }
 
-TEST_CASE("nesting ends before any parser's stack does") {
+TEST_CASE("Hostile files: the nesting limit protects the parser's stack") {
     CHECK(refused(std::string(1000000, '[')).what.find("deeper") != std::string::npos);
     std::string text = R"({"asset":{"version":"2.0","extras":)";
     text += std::string(100, '[') + std::string(100, ']') + "}}";
@@ -368,7 +368,7 @@ TEST_CASE("nesting ends before any parser's stack does") {
     CHECK(parse_gltf(R"({"asset":{"version":"2.0","generator":"[[[[[[\"[["}})", "brackets.gltf"));
 }
 
-TEST_CASE("a .glb that is cut anywhere is refused or whole") {
+TEST_CASE("Hostile files: a truncated .glb is an error or complete") {
     json document = triangle_document();
     document["buffers"][0].erase("uri");
     std::string chunk(44, '\0');
@@ -382,7 +382,7 @@ TEST_CASE("a .glb that is cut anywhere is refused or whole") {
         CHECK_FALSE(parse_gltf(whole.substr(0, size), "cut.glb"));
 }
 
-TEST_CASE("a .glb whose lengths lie is refused") {
+TEST_CASE("Hostile files: a .glb with wrong lengths is an error") {
     json document = triangle_document();
     document["buffers"][0].erase("uri");
     const std::string whole = glb(document, std::string(44, '\0'));
@@ -397,7 +397,7 @@ TEST_CASE("a .glb whose lengths lie is refused") {
     CHECK_FALSE(refused(with(8, 12)).what.empty());
     CHECK_FALSE(refused(with(12, 0xFFFFFFFCU)).what.empty());
     CHECK_FALSE(refused(with(16, 0x004E4942U)).what.empty());
-    // The chunk says that it is eight bytes longer than the file, or shorter than its buffer.
+    // The chunk claims eight bytes more than the file has, or fewer than its buffer.
     CHECK_FALSE(refused(with(second, 52)).what.empty());
     CHECK(refused(with(second, 40)).pointer == "/buffers/0/byteLength");
     CHECK(refused(with(second + 4, 0)).pointer == "/buffers/0");

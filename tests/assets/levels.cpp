@@ -1,4 +1,4 @@
-// Levels of detail of shapes of which all is known.
+// Levels of detail of simple shapes.
 #include "engine/assets/levels.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ struct Mesh {
     std::vector<std::uint32_t> indices;
 };
 
-// A profile of points with normals, drawn out along z in steps.
+// Extrudes a profile of points with normals along z in steps.
 Mesh extruded(const std::vector<std::pair<glm::vec2, glm::vec2>>& profile, std::uint32_t steps) {
     Mesh mesh;
     const auto columns = static_cast<std::uint32_t>(profile.size());
@@ -37,7 +37,7 @@ Mesh extruded(const std::vector<std::pair<glm::vec2, glm::vec2>>& profile, std::
     return mesh;
 }
 
-// Two flats at a right angle with a round of this radius between them: the first looks up, the second to +x.
+// Two flats at a right angle with a fillet of this radius: the first faces up, the second +x.
 Mesh filleted(float radius) {
     std::vector<std::pair<glm::vec2, glm::vec2>> profile;
     for (int i = 0; i < 12; ++i) profile.push_back({{static_cast<float>(i) / 12.0F - 1.0F, 0.0F}, {0, 1}});
@@ -52,7 +52,7 @@ Mesh filleted(float radius) {
     return extruded(profile, 24);
 }
 
-// The same with a hard edge: its vertices stand there twice.
+// The same with a hard edge, whose vertices are duplicated.
 Mesh edged() {
     std::vector<std::pair<glm::vec2, glm::vec2>> profile;
     for (int i = 0; i <= 12; ++i) profile.push_back({{static_cast<float>(i) / 12.0F - 1.0F, 0.0F}, {0, 1}});
@@ -64,7 +64,7 @@ struct Corner {
     glm::vec3 position, normal;
 };
 
-Corner corner(const Mesh& mesh, const Level& level, std::uint32_t index) {
+Corner corner(const Mesh& mesh, const LevelOfDetail& level, std::uint32_t index) {
     if (index < mesh.positions.size()) return {mesh.positions[index], mesh.normals[index]};
     const AddedVertex& added = level.added.at(index - mesh.positions.size());
     return {mesh.positions.at(added.of), added.normal};
@@ -74,12 +74,12 @@ double angle_between(const glm::vec3& a, const glm::vec3& b) {
     return std::acos(std::clamp(glm::dot(glm::dvec3(a), glm::dvec3(b)), -1.0, 1.0));
 }
 
-// The largest turn of a normal against its triangle, where that lies in one of the flats; and elsewhere.
+// The largest angle between a normal and its triangle, for triangles on the flats and for others.
 struct Turned {
     double flats = 0.0, round = 0.0;
     std::size_t in_flats = 0;
 };
-Turned turned(const Mesh& mesh, const Level& level) {
+Turned turned(const Mesh& mesh, const LevelOfDetail& level) {
     Turned result;
     for (std::size_t i = 0; i < level.indices.size(); i += 3) {
         const Corner a = corner(mesh, level, level.indices[i]), b = corner(mesh, level, level.indices[i + 1]),
@@ -100,13 +100,13 @@ Turned turned(const Mesh& mesh, const Level& level) {
 
 }  // namespace
 
-TEST_CASE("flats beside a round stay flat at every level, and what is left of the round is smooth") {
+TEST_CASE("Levels of detail: flats beside a fillet stay flat at every level, and the fillet stays smooth") {
     const Mesh mesh = filleted(0.05F);
-    const std::vector<Level> levels = coarser_levels(mesh.positions, mesh.normals, mesh.indices);
+    const std::vector<LevelOfDetail> levels = coarser_levels(mesh.positions, mesh.normals, mesh.indices);
     REQUIRE(levels.size() >= 3);
     std::size_t before = mesh.indices.size();
     float error = 0.0F;
-    for (const Level& level : levels) {
+    for (const LevelOfDetail& level : levels) {
         CHECK(level.indices.size() * 4 <= before * 3);
         CHECK(level.error >= error);
         before = level.indices.size();
@@ -118,11 +118,11 @@ TEST_CASE("flats beside a round stay flat at every level, and what is left of th
     }
 }
 
-TEST_CASE("a hard edge stays hard") {
+TEST_CASE("Levels of detail: a hard edge stays hard") {
     const Mesh mesh = edged();
-    const std::vector<Level> levels = coarser_levels(mesh.positions, mesh.normals, mesh.indices);
+    const std::vector<LevelOfDetail> levels = coarser_levels(mesh.positions, mesh.normals, mesh.indices);
     REQUIRE_FALSE(levels.empty());
-    for (const Level& level : levels) {
+    for (const LevelOfDetail& level : levels) {
         CHECK(level.added.empty());
         CHECK(turned(mesh, level).flats < 1e-3);
         CHECK(level.error < 1e-4F);
@@ -130,33 +130,34 @@ TEST_CASE("a hard edge stays hard") {
     CHECK(levels.back().indices.size() < mesh.indices.size() / 4);
 }
 
-TEST_CASE("what is not welded keeps its seams, and flats stay flat there, too") {
+TEST_CASE("Levels of detail: without welding seams are kept, and flats stay flat") {
     const Mesh mesh = edged();
-    const std::vector<Level> levels =
+    const std::vector<LevelOfDetail> levels =
         coarser_levels(mesh.positions, mesh.normals, mesh.indices, {.weld = false});
     REQUIRE_FALSE(levels.empty());
-    for (const Level& level : levels) CHECK(turned(mesh, level).flats < 1e-3);
+    for (const LevelOfDetail& level : levels) CHECK(turned(mesh, level).flats < 1e-3);
     const Mesh round = filleted(0.05F);
-    for (const Level& level : coarser_levels(round.positions, round.normals, round.indices, {.weld = false}))
+    for (const LevelOfDetail& level :
+         coarser_levels(round.positions, round.normals, round.indices, {.weld = false}))
         CHECK(turned(round, level).flats < 0.11);
 }
 
-TEST_CASE("without normals there are index lists only, and no corner changes sides of an edge") {
+TEST_CASE("Levels of detail: without normals only indices change, and no corner crosses an edge") {
     const Mesh mesh = edged();
-    const std::vector<Level> levels = coarser_levels(mesh.positions, {}, mesh.indices);
+    const std::vector<LevelOfDetail> levels = coarser_levels(mesh.positions, {}, mesh.indices);
     REQUIRE_FALSE(levels.empty());
-    for (const Level& level : levels) {
+    for (const LevelOfDetail& level : levels) {
         CHECK(level.added.empty());
         for (const std::uint32_t index : level.indices) REQUIRE(index < mesh.positions.size());
         CHECK(turned(mesh, level).flats < 1e-3);
     }
 }
 
-TEST_CASE("what is small, or nothing, has no levels") {
+TEST_CASE("Levels of detail: small and empty meshes have none") {
     CHECK(coarser_levels({}, {}, {}).empty());
     const Mesh mesh = extruded({{{0, 0}, {0, 1}}, {{1, 0}, {0, 1}}}, 4);
     CHECK(coarser_levels(mesh.positions, mesh.normals, mesh.indices).empty());
-    // A thousand triangles without any area.
+    // A thousand degenerate triangles.
     const std::vector<glm::vec3> points(9, glm::vec3(1, 2, 3)), normals(9, glm::vec3(0, 1, 0));
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 3000; ++i) indices.push_back(i % 9);

@@ -1,4 +1,4 @@
-// Nodes, cameras, lights, skins, animations, materials: what the JSON says, in the model.
+// Nodes, cameras, lights, skins, animations and materials are converted from JSON to the model.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,7 +8,7 @@
 using namespace bolt;
 using namespace bolt::assets;
 
-TEST_CASE("a matrix becomes translation, rotation and scale; a mirror image too") {
+TEST_CASE("Nodes: a matrix becomes translation, rotation and scale; a reflection too") {
     json document = triangle_document();
     // Rotated by 90° about Z, scaled by 2, 3, 4, moved to 5, 6, 7; by columns.
     document["nodes"][0]["matrix"] = {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1};
@@ -24,7 +24,7 @@ TEST_CASE("a matrix becomes translation, rotation and scale; a mirror image too"
 }
 
 TEST_CASE(
-    "without a scene the roots are the nodes that are no children; the default scene is the named one") {
+    "Nodes: without a scene the roots are the nodes without a parent; the default scene is the named one") {
     json document = triangle_document();
     document["nodes"] = {{{"name", "a"}}, {{"name", "b"}, {"children", {0}}}, {{"name", "c"}}};
     document.erase("scenes");
@@ -36,13 +36,13 @@ TEST_CASE(
     CHECK(read(document).roots == std::vector<int>{2});
 }
 
-TEST_CASE("extras of nodes are kept as JSON") {
+TEST_CASE("Nodes: extras are kept as JSON") {
     json document = triangle_document();
     document["nodes"][0]["extras"] = {{"joint", "B1"}, {"torque_Nm", 210.5}};
     CHECK(json::parse(read(document).nodes[0].extras) == document["nodes"][0]["extras"]);
 }
 
-TEST_CASE("cameras: perspective without end, orthographic") {
+TEST_CASE("Cameras: perspective with an infinite far plane, and orthographic") {
     json document = triangle_document();
     document["cameras"] = {
         {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.125}}}},
@@ -60,7 +60,7 @@ TEST_CASE("cameras: perspective without end, orthographic") {
     CHECK(model.nodes[0].camera == 1);
 }
 
-TEST_CASE("KHR_lights_punctual: types, defaults and the node's reference") {
+TEST_CASE("Lights: types, defaults and the node's reference") {
     json document = triangle_document();
     document["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 3.5}, {"color", {1.0, 0.5, 0.25}}},
@@ -79,7 +79,7 @@ TEST_CASE("KHR_lights_punctual: types, defaults and the node's reference") {
     CHECK(model.nodes[0].light == 1);
 }
 
-TEST_CASE("a material's extensions, and the defaults of what is not said") {
+TEST_CASE("Materials: extensions and defaults") {
     json document = triangle_document();
     document["images"] = {{{"uri", "data:image/png;base64,iVBORw0KGgo="}}};
     document["textures"] = {{{"source", 0}}};
@@ -98,7 +98,7 @@ TEST_CASE("a material's extensions, and the defaults of what is not said") {
     CHECK(m.clearcoat == 0.5F);
     CHECK(m.clearcoat_roughness == 0.25F);
     CHECK(m.clearcoat_texture.texture == 0);
-    CHECK(m.clearcoat_texture.texcoord == 0);  // the transform's comes first
+    CHECK(m.clearcoat_texture.texcoord == 0);  // the transform's value takes precedence
     CHECK(m.clearcoat_texture.offset == glm::vec2(0.5F, 0.75F));
     CHECK(m.clearcoat_texture.rotation == 0.125F);
     CHECK(m.clearcoat_texture.scale == glm::vec2(2.0F, 4.0F));
@@ -118,7 +118,7 @@ TEST_CASE("a material's extensions, and the defaults of what is not said") {
     CHECK(plain.normal_scale == 1.0F);
 }
 
-TEST_CASE("skins: inverse bind matrices by columns, or none") {
+TEST_CASE("Skins: inverse bind matrices by columns, or none") {
     json document = triangle_document();
     Bytes bytes;
     bytes.add({0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F});
@@ -135,7 +135,7 @@ TEST_CASE("skins: inverse bind matrices by columns, or none") {
     CHECK(model.skins[1].inverse_bind.empty());
 }
 
-TEST_CASE("animations: a channel a target; those without a node belong to extensions") {
+TEST_CASE("Animations: one channel per target; channels without a node are ignored") {
     json document = triangle_document();
     // The positions serve as two outputs, their count as three keys.
     Bytes bytes;
@@ -162,7 +162,7 @@ TEST_CASE("animations: a channel a target; those without a node belong to extens
     CHECK(channel.values == std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
 }
 
-TEST_CASE("a rotation that is nearly of unit length becomes one, and can be written again") {
+TEST_CASE("Nodes: a nearly unit rotation is normalised and can be written again") {
     json document = triangle_document();
     document["nodes"][0]["rotation"] = {0.0, 0.0, 0.6, 0.805};
     const Model model = read(document);
@@ -170,7 +170,7 @@ TEST_CASE("a rotation that is nearly of unit length becomes one, and can be writ
     CHECK(encode_glb(model));
 }
 
-TEST_CASE("an image of an extension that is not required does no harm") {
+TEST_CASE("Images: an image of an optional extension is ignored") {
     json document = triangle_document();
     document["images"] = {{{"uri", "data:application/octet-stream;base64,UklGRg=="}},
                           {{"uri", "data:image/png;base64,iVBORw0KGgo="}}};

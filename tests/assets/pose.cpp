@@ -1,4 +1,4 @@
-// Animation and skins against what can be worked out by hand.
+// Animations and skins, compared with values computed by hand.
 #include "engine/assets/pose.hpp"
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// About the y axis.
+// A rotation about the y axis.
 std::vector<float> turn(float angle) { return {0.0F, std::sin(angle / 2), 0.0F, std::cos(angle / 2)}; }
 
 Channel rotation(const std::vector<float>& from, const std::vector<float>& to) {
@@ -43,24 +43,24 @@ double difference(const glm::mat4& a, const glm::mat4& b) {
 
 }  // namespace
 
-TEST_CASE("a rotation turns evenly: after any part of the time it has done that part of the angle") {
+TEST_CASE("Animation: a rotation has constant angular velocity") {
     const Channel channel = rotation(turn(0.3F), turn(2.1F));
     for (const float t : {0.0F, 0.1F, 0.25F, 0.5F, 0.9F, 1.0F}) {
         CAPTURE(t);
         check_near(sample(channel, 1.0F + 2.0F * t), turn(0.3F + t * 1.8F), 1e-6);
     }
-    SUBCASE("the shorter way, whichever sign the keys have") {
+    SUBCASE("the shorter arc, for every sign of the keys") {
         std::vector<float> end = turn(2.1F);
         for (float& x : end) x = -x;
         check_near(sample(rotation(turn(0.3F), end), 2.0F), turn(1.2F), 1e-6);
     }
-    SUBCASE("keys that are nearly or exactly the same divide by nothing") {
+    SUBCASE("nearly equal keys cause no division by zero") {
         check_near(sample(rotation(turn(0.3F), turn(0.3F)), 2.0F), turn(0.3F), 1e-6);
         check_near(sample(rotation(turn(0.3F), turn(0.3001F)), 2.0F), turn(0.30005F), 1e-6);
     }
 }
 
-TEST_CASE("steps hold their value, lines join their keys, and nothing goes on outside of the keys") {
+TEST_CASE("Animation: steps, linear interpolation, and constant values outside the keys") {
     Channel channel{.node = 0, .times = {0.5F, 1.0F, 2.0F}, .values = {1, 2, 3, 5, 6, 7, -1, -2, -3}};
     check_near(sample(channel, 0.0F), {1, 2, 3}, 0.0);
     check_near(sample(channel, 0.5F), {1, 2, 3}, 0.0);
@@ -74,8 +74,8 @@ TEST_CASE("steps hold their value, lines join their keys, and nothing goes on ou
     check_near(sample(channel, 1.999F), {5, 6, 7}, 0.0);
 }
 
-TEST_CASE("a cubic spline through keys of a cubic is that cubic") {
-    // Values and slopes of x³ − 2x² + 3x − 4 in three unequal steps: a spline of third degree has no choice.
+TEST_CASE("Animation: a cubic spline through keys of a cubic reproduces it") {
+    // Values and slopes of x³ − 2x² + 3x − 4 at three unequal steps determine the cubic spline.
     const auto f = [](double x) { return ((x - 2.0) * x + 3.0) * x - 4.0; };
     const auto slope = [](double x) { return (3.0 * x - 4.0) * x + 3.0; };
     Channel channel{.node = 0, .interpolation = Interpolation::cubic, .times = {0.0F, 0.5F, 2.0F, 2.25F}};
@@ -88,8 +88,8 @@ TEST_CASE("a cubic spline through keys of a cubic is that cubic") {
         const auto y = static_cast<float>(f(x));
         check_near(sample(channel, static_cast<float>(x)), {y, -y, 2.0F * y}, 2e-5);
     }
-    SUBCASE("a key's two tangents are told apart") {
-        // Leaves the first key at slope 4, comes into the second at slope 0: p = 4 (t³ − 2t² + t).
+    SUBCASE("a key's in- and out-tangents differ") {
+        // Slope 4 after the first key, slope 0 before the second: p = 4 (t³ − 2t² + t).
         const Channel one{.node = 0,
                           .path = Path::weights,
                           .interpolation = Interpolation::cubic,
@@ -97,7 +97,7 @@ TEST_CASE("a cubic spline through keys of a cubic is that cubic") {
                           .values = {7, 0, 4, 0, 0, 9}};
         check_near(sample(one, 0.5F), {0.5F}, 1e-6);
     }
-    SUBCASE("rotations come out as unit quaternions") {
+    SUBCASE("rotations are unit quaternions") {
         Channel q{
             .node = 0, .path = Path::rotation, .interpolation = Interpolation::cubic, .times = {0.0F, 1.0F}};
         for (const float angle : {0.0F, 1.0F}) {
@@ -112,7 +112,7 @@ TEST_CASE("a cubic spline through keys of a cubic is that cubic") {
     }
 }
 
-TEST_CASE("an animation moves what it names and leaves the rest at rest") {
+TEST_CASE("Animation: moves its targets and leaves the rest at rest") {
     Model model;
     model.nodes.resize(2);
     model.nodes[0] = {.name = "arm", .translation = {0, 1, 0}, .children = {1}};
@@ -126,12 +126,12 @@ TEST_CASE("an animation moves what it names and leaves the rest at rest") {
                      {.node = 1, .path = Path::weights, .times = {0.0F, 4.0F}, .values = {0, 1, 1, 0}}};
     CHECK(duration(wave) == 4.0F);
 
-    Pose pose = rest_pose(model);
+    ModelPose pose = rest_pose(model);
     CHECK(difference(world_transforms(model, pose)[1], world_transforms(model)[1]) == 0.0);
     check_near(pose[1].weights, {0, 0}, 0.0);
     apply(wave, 3.0F, pose);
     check_near(pose[1].weights, {0.75F, 0.25F}, 1e-6);
-    // A quarter turn about y takes x to −z.
+    // A quarter turn about y takes x to -z.
     const glm::vec4 hand = world_transforms(model, pose)[1] * glm::vec4(0, 0, 0, 1);
     CHECK(glm::distance(glm::vec3(hand), glm::vec3(0, 1, -2)) < 1e-6F);
 
@@ -140,7 +140,7 @@ TEST_CASE("an animation moves what it names and leaves the rest at rest") {
     check_near(model.nodes[1].weights, {0.75F, 0.25F}, 1e-6);
 }
 
-TEST_CASE("joints that stand where they were bound move nothing; joints moved together move all alike") {
+TEST_CASE("Skins: joints in the bind pose move nothing; joints moved together move everything equally") {
     Random random(3);
     Model model;
     Skin skin;
@@ -154,7 +154,7 @@ TEST_CASE("joints that stand where they were bound move nothing; joints moved to
         if (i > 0) model.nodes[static_cast<std::size_t>(i) / 2].children.push_back(i);
         skin.joints.push_back(i);
     }
-    Pose pose = rest_pose(model);
+    ModelPose pose = rest_pose(model);
     for (const glm::mat4& world : world_transforms(model, pose))
         skin.inverse_bind.push_back(glm::inverse(world));
     for (const glm::mat4& m : joint_matrices(skin, world_transforms(model, pose)))

@@ -31,7 +31,7 @@ bool same(const TextureRef& a, const TextureRef& b) {
 
 }  // namespace
 
-TEST_CASE("a model comes back from a .glb bit for bit: nodes") {
+TEST_CASE("Round trip: nodes are bit-identical after writing and reading a .glb") {
     const Model model = sample_model();
     const Model read = through_file(model);
     CHECK(read.generator == model.generator);
@@ -56,7 +56,7 @@ TEST_CASE("a model comes back from a .glb bit for bit: nodes") {
     }
 }
 
-TEST_CASE("a model comes back from a .glb bit for bit: meshes and skins") {
+TEST_CASE("Round trip: meshes and skins are bit-identical") {
     const Model model = sample_model();
     const Model read = through_file(model);
     REQUIRE(read.meshes.size() == model.meshes.size());
@@ -87,7 +87,7 @@ TEST_CASE("a model comes back from a .glb bit for bit: meshes and skins") {
     CHECK(read.skins[0].inverse_bind == model.skins[0].inverse_bind);
 }
 
-TEST_CASE("a model comes back from a .glb bit for bit: materials") {
+TEST_CASE("Round trip: materials are bit-identical") {
     const Model model = sample_model();
     const Model read = through_file(model);
     REQUIRE(read.materials.size() == 2);
@@ -129,7 +129,7 @@ TEST_CASE("a model comes back from a .glb bit for bit: materials") {
     CHECK(plain.base_color_texture.texture == -1);
 }
 
-TEST_CASE("a model comes back from a .glb bit for bit: images, lights, cameras, animations") {
+TEST_CASE("Round trip: images, lights, cameras and animations are bit-identical") {
     const Model model = sample_model();
     Model read = through_file(model);
     REQUIRE(read.images.size() == 1);
@@ -173,7 +173,7 @@ TEST_CASE("a model comes back from a .glb bit for bit: images, lights, cameras, 
     }
 }
 
-TEST_CASE("the same model gives the same bytes, and another model others") {
+TEST_CASE("Round trip: the same model gives the same bytes, and another model other bytes") {
     Model model = sample_model();
     const std::string bytes = bytes_of(model);
     CHECK(bytes == bytes_of(sample_model()));

@@ -28,7 +28,7 @@ Primitive skinned() {
     return p;
 }
 
-// Not quadratic, so that no axis can be mistaken for another: 2 × 1 pixels.
+// Not square, so that the axes cannot be confused: 2 × 1 pixels.
 Image image() {
     Image image;
     image.name = "paint";

@@ -1,4 +1,4 @@
-// A model that uses everything that the writer can write, with numbers that are easy to tell apart.
+// A model that uses every feature of the writer, with distinct values.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace bolt::assets {
 
 Model sample_model();
 
-// A file of its own in the folder for temporary files, removed with the guard.
+// A temporary file that the guard removes.
 struct TemporaryFile {
     explicit TemporaryFile(const std::string& name) : path(folder / name) {}
     test::Folder folder;

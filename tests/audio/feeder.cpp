@@ -1,4 +1,4 @@
-// What happens to samples when sound devices come and go, in a time of the test's own.
+// Feeding samples while sound devices appear and disappear, in simulated time.
 
 #include "engine/audio/feeder.hpp"
 
@@ -12,7 +12,7 @@ using namespace bolt::audio;
 
 namespace {
 
-// What somebody heard, and a card that can be pulled out.
+// A simulated sound card that can be unplugged, and the samples that it played.
 struct Room {
     bool there = true, plugged = true;
     std::size_t free = in_queue;
@@ -25,7 +25,7 @@ class Card final : public Sink {
   public:
     explicit Card(Room& room) : room_(room) {
         room_.free = in_queue;
-        room_.volume = -1.0;  // a new one knows nothing
+        room_.volume = -1.0;  // a new device has no volume yet
     }
     [[nodiscard]] std::string name() const override { return "card"; }
     Result<std::size_t> room() override {
@@ -56,7 +56,7 @@ OpenSink card_in(Room& room) {
     };
 }
 
-// Samples that count.
+// Samples with increasing values.
 struct Counter {
     float next = 0.0F;
     Fill fill() {
@@ -68,26 +68,27 @@ struct Counter {
 
 }  // namespace
 
-TEST_CASE("a sink gets as much as it has room for, every sample once and in order") {
+TEST_CASE("Feeder: fills the sink with every sample once and in order") {
     Room room;
     Counter counter;
     Feeder feeder(card_in(room), counter.fill());
-    feeder.turn(0.0, 0.5);
-    CHECK(feeder.report().playing);
-    CHECK(feeder.report().device == "card");
+    feeder.update(0.0, 0.5);
+    CHECK(feeder.status().playing);
+    CHECK(feeder.status().device == "card");
     CHECK(room.heard.size() == in_queue * block);
     CHECK(room.volume == 0.5);
-    feeder.turn(0.01, 0.5);
+    feeder.update(0.01, 0.5);
     CHECK(room.heard.size() == in_queue * block);  // no room, no samples
     room.free = 2;
-    feeder.turn(0.02, 7.0);
+    feeder.update(0.02, 7.0);
     CHECK(room.volume == 1.0);
     REQUIRE(room.heard.size() == (in_queue + 2) * block);
     for (std::size_t i = 0; i < room.heard.size(); ++i) REQUIRE(room.heard[i] == static_cast<float>(i));
-    CHECK(feeder.report().blocks == in_queue + 2);
+    CHECK(feeder.status().blocks == in_queue + 2);
 }
 
-TEST_CASE("without a device nothing is asked for, the reason is known, and it is tried less and less often") {
+TEST_CASE(
+    "Feeder: without a device no samples are requested, the reason is reported, and attempts become rarer") {
     Room room;
     room.there = false;
     Counter counter;
@@ -95,55 +96,54 @@ TEST_CASE("without a device nothing is asked for, the reason is known, and it is
     std::vector<double> tried;
     for (double now = 0.0; now < 600.0; now += 0.25) {
         const int before = room.attempts;
-        feeder.turn(now, 1.0);
+        feeder.update(now, 1.0);
         if (room.attempts != before) tried.push_back(now);
     }
-    CHECK_FALSE(feeder.report().playing);
-    CHECK(feeder.report().trouble.find("no card") != std::string::npos);
+    CHECK_FALSE(feeder.status().playing);
+    CHECK(feeder.status().problem.find("no card") != std::string::npos);
     CHECK(counter.next == 0.0F);
     const std::vector<double> expected{0, 1, 3, 7, 15, 31, 63, 127, 191, 255, 319, 383, 447, 511, 575};
     CHECK(tried == expected);
     room.there = true;
-    feeder.turn(700.0, 1.0);
-    CHECK(feeder.report().playing);
-    CHECK(feeder.report().trouble.empty());
+    feeder.update(700.0, 1.0);
+    CHECK(feeder.status().playing);
+    CHECK(feeder.status().problem.empty());
     CHECK(room.heard.front() == 0.0F);
 }
 
-TEST_CASE(
-    "a device that is pulled out is opened again when it is back, at the volume that is wished by then") {
+TEST_CASE("Feeder: an unplugged device is reopened when it returns, at the current volume") {
     Room room;
     Counter counter;
     Feeder feeder(card_in(room), counter.fill());
-    feeder.turn(0.0, 1.0);
+    feeder.update(0.0, 1.0);
     room.plugged = false;
     room.there = false;
-    feeder.turn(1.0, 1.0);
-    CHECK_FALSE(feeder.report().playing);
-    CHECK(feeder.report().losses == 1);
-    CHECK(feeder.report().trouble.find("pulled out") != std::string::npos);
-    for (double now = 1.0; now < 5.0; now += 0.1) feeder.turn(now, 1.0);
+    feeder.update(1.0, 1.0);
+    CHECK_FALSE(feeder.status().playing);
+    CHECK(feeder.status().losses == 1);
+    CHECK(feeder.status().problem.find("pulled out") != std::string::npos);
+    for (double now = 1.0; now < 5.0; now += 0.1) feeder.update(now, 1.0);
     room.plugged = room.there = true;
-    for (double now = 5.0; now < 9.0; now += 0.1) feeder.turn(now, 0.3);
-    CHECK(feeder.report().playing);
-    CHECK(feeder.report().openings == 2);
+    for (double now = 5.0; now < 9.0; now += 0.1) feeder.update(now, 0.3);
+    CHECK(feeder.status().playing);
+    CHECK(feeder.status().openings == 2);
     CHECK(room.volume == 0.3);
     room.plugged = false;
-    feeder.turn(9.0, 0.3);
+    feeder.update(9.0, 0.3);
     room.plugged = true;
-    feeder.turn(11.0, 0.3);
-    CHECK(feeder.report().openings == 3);
+    feeder.update(11.0, 0.3);
+    CHECK(feeder.status().openings == 3);
     CHECK(room.volume == 0.3);
-    // Nothing was made while nobody listened.
+    // No samples were requested without a device.
     CHECK(room.heard.size() == 3 * in_queue * block);
     CHECK(room.heard.back() == static_cast<float>(3 * in_queue * block - 1));
 }
 
-TEST_CASE("a device that opens and fails at once is not asked all the time") {
+TEST_CASE("Feeder: a device that fails right after opening is not reopened continuously") {
     Room room;
     room.plugged = false;
     Counter counter;
     Feeder feeder(card_in(room), counter.fill());
-    for (double now = 0.0; now < 60.0; now += 0.005) feeder.turn(now, 1.0);
+    for (double now = 0.0; now < 60.0; now += 0.005) feeder.update(now, 1.0);
     CHECK(room.attempts == 6);  // at 0, 1, 3, 7, 15, 31
 }

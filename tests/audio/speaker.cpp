@@ -1,4 +1,5 @@
-// The thread and OpenAL under it, each in a process of its own: OpenAL reads what drivers it may use once.
+// The speaker thread and OpenAL, each test in its own process, because OpenAL reads its driver selection
+// once.
 
 #include "engine/audio/speaker.hpp"
 
@@ -13,7 +14,7 @@
 #include <vector>
 
 #include "engine/audio/openal.hpp"
-#include "engine/audio/pcm.hpp"
+#include "engine/audio/sink.hpp"
 #include "engine/base/file.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/folder.hpp"
@@ -22,7 +23,7 @@ using namespace bolt;
 using namespace bolt::audio;
 
 #if defined(__SANITIZE_THREAD__)
-// OpenAL is built without the sanitizer, which therefore does not see how its threads agree.
+// OpenAL is built without the sanitizer, which therefore cannot see its thread synchronisation.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() { return "race:libopenal.so\n"; }
 #endif
@@ -34,7 +35,7 @@ struct Ended {
     std::string wrote;  // to stderr
 };
 
-// What `work` returns, and what it and the libraries under it write to the console.
+// Returns the result of `work`, and the console output of it and its libraries.
 template <class Work>
 Ended in_child(const char* drivers, const char* config, const Work& work) {
     std::array<int, 2> pipe_ends{};
@@ -67,8 +68,8 @@ Fill silence() {
 
 }  // namespace
 
-TEST_CASE("a speaker's thread keeps a sink full, and tells what becomes of it") {
-    // A card that is pulled out when somebody wants that.
+TEST_CASE("Speaker: the thread keeps a sink full and publishes its status") {
+    // A simulated card that is unplugged on request.
     struct Card final : Sink {
         explicit Card(std::atomic<bool>& there) : plugged(there) {}
         [[nodiscard]] std::string name() const override { return "card"; }
@@ -93,39 +94,39 @@ TEST_CASE("a speaker's thread keeps a sink full, and tells what becomes of it") 
                                           return std::make_unique<Card>(plugged);
                                       });
         REQUIRE(speaker);
-        CHECK(test::eventually([&] { return speaker->report().blocks > 20; }));
-        CHECK(speaker->news() == "sound: card");
-        CHECK_FALSE(speaker->news());
+        CHECK(test::eventually([&] { return speaker->status().blocks > 20; }));
+        CHECK(speaker->status_change() == "sound: card");
+        CHECK_FALSE(speaker->status_change());
         speaker->set_volume(0.5);
         plugged = false;
-        CHECK(test::eventually([&] { return speaker->report().losses == 1; }));
-        CHECK(speaker->news() == "no sound: pulled out");
-        CHECK(test::eventually([&] { return speaker->report().trouble == "no card"; }));
-        CHECK_FALSE(speaker->news());  // said already
+        CHECK(test::eventually([&] { return speaker->status().losses == 1; }));
+        CHECK(speaker->status_change() == "no sound: pulled out");
+        CHECK(test::eventually([&] { return speaker->status().problem == "no card"; }));
+        CHECK_FALSE(speaker->status_change());  // reported already
         plugged = true;
-        CHECK(test::eventually([&] { return speaker->report().openings == 2; }));
-        CHECK(speaker->news() == "sound: card");
+        CHECK(test::eventually([&] { return speaker->status().openings == 2; }));
+        CHECK(speaker->status_change() == "sound: card");
     }
-    CHECK(filled > 20);  // and nobody fills any more
+    CHECK(filled > 20);  // and no more samples are requested
 }
 
-TEST_CASE("a speaker plays through OpenAL, block after block, and says so once") {
+TEST_CASE("Speaker: plays through OpenAL block after block and reports it once") {
     const Ended ended = in_child("null", "/dev/null", [] {
         auto speaker = Speaker::start(silence());
         if (!speaker) return 1;
         std::optional<std::string> news;
-        if (!test::eventually([&] { return (news = speaker->news()).has_value(); })) return 2;
+        if (!test::eventually([&] { return (news = speaker->status_change()).has_value(); })) return 2;
         if (news->rfind("sound: ", 0) != 0) return 3;
-        if (!test::eventually([&] { return speaker->report().blocks > 3 * in_queue; })) return 4;
+        if (!test::eventually([&] { return speaker->status().blocks > 3 * in_queue; })) return 4;
         speaker->set_volume(0.0);
-        const std::uint64_t then = speaker->report().blocks;
-        if (!test::eventually([&] { return speaker->report().blocks > then + in_queue; })) return 5;
-        return speaker->news() ? 6 : 0;
+        const std::uint64_t then = speaker->status().blocks;
+        if (!test::eventually([&] { return speaker->status().blocks > then + in_queue; })) return 5;
+        return speaker->status_change() ? 6 : 0;
     });
     CHECK(ended.status == 0);
 }
 
-TEST_CASE("what is heard is what was filled in") {
+TEST_CASE("Speaker: the output contains the samples that were filled in") {
     const test::Folder folder;
     const auto heard = folder / "heard.wav", config = folder / "alsoft.conf";
     REQUIRE(write_file(config,
@@ -133,21 +134,20 @@ TEST_CASE("what is heard is what was filled in") {
                        "output-limiter=false\n[wave]\nfile=" +
                            heard.string() + "\n"));
     const Ended ended = in_child("wave", config.c_str(), [] {
-        // A staircase: every block at a height of its own.
+        // A staircase: every block has its own level.
         int blocks = 0;
         auto speaker = Speaker::start([&](std::span<float> samples) {
             std::fill(samples.begin(), samples.end(), 0.01F * static_cast<float>(1 + blocks++ % 50));
         });
         if (!speaker) return 1;
-        return test::eventually([&] { return speaker->report().blocks > 60; }) ? 0 : 2;
+        return test::eventually([&] { return speaker->status().blocks > 60; }) ? 0 : 2;
     });
     CHECK(ended.status == 0);
     const auto bytes = read_file(heard, 1U << 26U, ErrorCode::failed);
     std::filesystem::remove(heard);
     std::filesystem::remove(config);
     REQUIRE(bytes);
-    // Every stair is there for its whole length; a machine that is too busy may leave gaps of silence
-    // between.
+    // Every step has its full length; a busy machine may insert gaps of silence.
     std::vector<int> lengths(51, 0);
     for (std::size_t i = 60; i + 1 < bytes->size(); i += 2) {
         const auto value = static_cast<std::int16_t>(static_cast<unsigned char>((*bytes)[i]) |
@@ -162,32 +162,32 @@ TEST_CASE("what is heard is what was filled in") {
     }
 }
 
-TEST_CASE("without a device the reason is said once, by us alone, and the program goes on") {
+TEST_CASE("Speaker: without a device the reason is reported once, without output of libraries") {
     for (const char* drivers : {"none", "alsa"}) {
         CAPTURE(drivers);
         const Ended ended = in_child(drivers, "/dev/null", [] {
-            setenv("ALSA_CONFIG_PATH", "/dev/null", 1);  // whatever this machine has, ALSA finds nothing
-            auto speaker = Speaker::start([](std::span<float>) { _exit(9); });  // nobody asks for samples
+            setenv("ALSA_CONFIG_PATH", "/dev/null", 1);  // ALSA finds no device on any machine
+            auto speaker = Speaker::start([](std::span<float>) { _exit(9); });  // no samples are requested
             if (!speaker) return 1;
             std::optional<std::string> news;
-            if (!test::eventually([&] { return (news = speaker->news()).has_value(); })) return 2;
+            if (!test::eventually([&] { return (news = speaker->status_change()).has_value(); })) return 2;
             if (news->rfind("no sound: ", 0) != 0) return 3;
-            return speaker->news() ? 4 : 0;
+            return speaker->status_change() ? 4 : 0;
         });
         CHECK(ended.status == 0);
         CHECK(ended.wrote.find("ALSA lib") == std::string::npos);
     }
 }
 
-TEST_CASE("a speaker ends while its device works, and one that is moved plays on") {
+TEST_CASE("Speaker: stops while its device plays, and continues after a move") {
     const Ended ended = in_child("null", "/dev/null", [] {
         for (int i = 0; i < 5; ++i)
             if (!Speaker::start(silence())) return 1;
         auto first = Speaker::start(silence());
-        auto second = Speaker::start(silence());  // each with a context of its own
+        auto second = Speaker::start(silence());  // each with its own context
         if (!first || !second) return 2;
         *first = std::move(*second);
-        return test::eventually([&] { return first->report().blocks > 2 * in_queue; }) ? 0 : 3;
+        return test::eventually([&] { return first->status().blocks > 2 * in_queue; }) ? 0 : 3;
     });
     CHECK(ended.status == 0);
 }

@@ -1,4 +1,4 @@
-// Files of samples: what is in them, and that there is never half of one.
+// WAV files: their contents, and that no incomplete file appears.
 
 #include "engine/audio/wav.hpp"
 
@@ -39,7 +39,7 @@ std::string contents(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("a WAV file says what it holds and holds it, in blocks of whatever size") {
+TEST_CASE("WavWriter: header and samples are correct for every block size") {
     const Folder folder;
     const auto path = folder / "a.wav";
     const float inf = std::numeric_limits<float>::infinity();
@@ -47,7 +47,7 @@ TEST_CASE("a WAV file says what it holds and holds it, in blocks of whatever siz
         0.0F, 0.5F, -0.5F, 1.0F, -1.0F, 2.0F, -inf, std::numeric_limits<float>::quiet_NaN(), 1.0F / 32767.0F};
     auto wav = WavWriter::create(path, 48000);
     REQUIRE(wav);
-    CHECK_FALSE(std::filesystem::exists(path));  // not before it is whole
+    CHECK_FALSE(std::filesystem::exists(path));  // only after finish()
     REQUIRE(wav->write(std::span(samples).first(2)));
     REQUIRE(wav->write(std::span(samples).subspan(2, 0)));
     REQUIRE(wav->write(std::span(samples).subspan(2)));
@@ -59,19 +59,19 @@ TEST_CASE("a WAV file says what it holds and holds it, in blocks of whatever siz
     CHECK(bytes.substr(8, 8) == "WAVEfmt ");
     CHECK(number(bytes, 20, 2) == 1);      // PCM
     CHECK(number(bytes, 22, 2) == 1);      // channels
-    CHECK(number(bytes, 24, 4) == 48000);  // a second
-    CHECK(number(bytes, 28, 4) == 96000);  // bytes a second
-    CHECK(number(bytes, 32, 2) == 2);      // bytes a sample
+    CHECK(number(bytes, 24, 4) == 48000);  // samples per second
+    CHECK(number(bytes, 28, 4) == 96000);  // bytes per second
+    CHECK(number(bytes, 32, 2) == 2);      // bytes per sample
     CHECK(number(bytes, 34, 2) == 16);     // bits
     CHECK(bytes.substr(36, 4) == "data");
     CHECK(number(bytes, 40, 4) == 2 * samples.size());
     const std::vector<int> expected{0, 16384, -16384, 32767, -32767, 32767, -32767, 0, 1};
     for (std::size_t i = 0; i < samples.size(); ++i) CHECK(sample(bytes, i) == expected[i]);
     CHECK_FALSE(std::filesystem::exists(folder / "a.wav.part"));
-    CHECK_FALSE(wav->write(samples));  // finished is finished
+    CHECK_FALSE(wav->write(samples));  // no writes after finish()
 }
 
-TEST_CASE("a WAV file that is not finished leaves what was there before, and nothing else") {
+TEST_CASE("WavWriter: without finish() the previous file stays, and nothing else") {
     const Folder folder;
     const auto path = folder / "a.wav";
     REQUIRE(write_file(path, "the one before"));
@@ -84,7 +84,7 @@ TEST_CASE("a WAV file that is not finished leaves what was there before, and not
     CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
 }
 
-TEST_CASE("what cannot be written is said with the file's name, and again at every later call") {
+TEST_CASE("WavWriter: errors name the file and are repeated by later calls") {
     const Folder folder;
     const auto nowhere = WavWriter::create(folder.path() / "no" / "a.wav", 48000);
     REQUIRE_FALSE(nowhere);
@@ -98,7 +98,7 @@ TEST_CASE("what cannot be written is said with the file's name, and again at eve
     CHECK_FALSE(full->finish());
 }
 
-TEST_CASE("what is no file is written to as it is, and stays what it is") {
+TEST_CASE("WavWriter: a pipe or device is written to directly and not replaced") {
     auto wav = WavWriter::create("/dev/null", 48000);
     REQUIRE(wav);
     REQUIRE(wav->write(std::vector<float>(1000)));

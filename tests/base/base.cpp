@@ -5,6 +5,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/file.hpp"
+#include "engine/base/hash.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/nearest.hpp"
 #include "engine/base/random.hpp"
@@ -12,39 +13,42 @@
 
 using namespace bolt;
 
-TEST_CASE(
-    "an error says file, line, column, pointer, what and expected, and leaves out what it does not know") {
+TEST_CASE("Error: the message has file, line, column, pointer, what and expected, without unknown parts") {
     Error error;
     error.what = "is wrong";
     CHECK(error.message() == "is wrong");
     error.expected = "a number";
-    CHECK(error.message() == "is wrong; a number");
+    CHECK(error.message() == "is wrong; expected a number");
     error.file = "a.json";
-    CHECK(error.message() == "a.json: is wrong; a number");
+    CHECK(error.message() == "a.json: is wrong; expected a number");
     error.line = 3;
     error.column = 7;
     error.pointer = "/joints/0/id";
-    CHECK(error.message() == "a.json:3:7: /joints/0/id: is wrong; a number");
+    CHECK(error.message() == "a.json:3:7: /joints/0/id: is wrong; expected a number");
+    error.expected = "expected a number";  // complete texts are not prefixed
+    CHECK(error.message() == "a.json:3:7: /joints/0/id: is wrong; expected a number");
+    error.expected = "did you mean \"name\"?";
+    CHECK(error.message() == "a.json:3:7: /joints/0/id: is wrong; did you mean \"name\"?");
 }
 
-TEST_CASE("edit distance: closed cases") {
+TEST_CASE("Edit distance: known values") {
     CHECK(edit_distance("", "abc") == 3);
     CHECK(edit_distance("kitten", "sitting") == 3);
     CHECK(edit_distance("M16", "m16") == 0);
-    CHECK(edit_distance("pitch", "ptich") == 1);  // a swap is one slip
+    CHECK(edit_distance("pitch", "ptich") == 1);  // a transposition counts once
 }
 
-TEST_CASE("nearest finds a slip of the finger and nothing when nothing is near") {
+TEST_CASE("Nearest name: finds a typing error, and nothing if no name is near") {
     const std::vector<std::string> names = {"friction_thread", "friction_bearing", "size"};
     CHECK(nearest("frction_thread", names) == "friction_thread");
     CHECK(nearest("sise", names) == "size");
     CHECK(nearest("gasket", names).empty());
     const std::vector<std::string> sizes = {"M4", "M5", "M8"};
-    CHECK(nearest("M9", sizes).empty());  // any of them
+    CHECK(nearest("M9", sizes).empty());  // a tie
     CHECK(nearest(std::string(10'000, 'x'), names).empty());
 }
 
-TEST_CASE("the generator is PCG32: its published first outputs") {
+TEST_CASE("Random: the first outputs are those published for PCG32") {
     // pcg32-demo of the reference implementation, seed 42, stream 54, round 1.
     Random random(42, 54);
     const std::uint32_t published[] = {0xa15c02b7, 0x7b47f409, 0xba1d3330,
@@ -52,7 +56,7 @@ TEST_CASE("the generator is PCG32: its published first outputs") {
     for (const std::uint32_t value : published) CHECK(random.bits() == value);
 }
 
-TEST_CASE("uniform and normal have the moments they should") {
+TEST_CASE("Random: uniform and normal have the expected moments") {
     Random random(1);
     double sum = 0.0, squares = 0.0;
     constexpr int n = 200'000;
@@ -76,9 +80,9 @@ TEST_CASE("uniform and normal have the moments they should") {
     CHECK(most > 2.99);
 }
 
-TEST_CASE("files: written whole or not at all, read with a reason when not") {
-    const test::Folder kept;
-    const std::filesystem::path& folder = kept.path();
+TEST_CASE("Files: written completely or not at all, and errors give the reason") {
+    const test::Folder temporary;
+    const std::filesystem::path& folder = temporary.path();
     REQUIRE(write_file(folder / "a", "one\n").has_value());
     CHECK(read_file(folder / "a", 100, ErrorCode::failed).value() == "one\n");
     CHECK_FALSE(read_file(folder / "a", 2, ErrorCode::failed).has_value());
@@ -88,18 +92,34 @@ TEST_CASE("files: written whole or not at all, read with a reason when not") {
     CHECK(missing.error().code == ErrorCode::bad_content);
     CHECK(missing.error().file == (folder / "b").string());
     CHECK_FALSE(write_file(folder / "none" / "c", "x").has_value());
-    // A full disk leaves what stood there before.
+    // Overwriting leaves no temporary file.
     REQUIRE(write_file(folder / "a", "two\n").has_value());
     CHECK_FALSE(std::filesystem::exists(folder / "a.part"));
-    // What is no regular file stays what it is.
+    // A device is written to and not replaced.
     std::filesystem::create_symlink("/dev/null", folder / "null");
     CHECK(write_file(folder / "null", "x").has_value());
     CHECK(std::filesystem::is_symlink(folder / "null"));
-    CHECK_FALSE(keep_apart(folder / "a", folder / "." / "a").has_value());
-    CHECK(keep_apart(folder / "a", folder / "b").has_value());
+    CHECK_FALSE(require_different_files(folder / "a", folder / "." / "a").has_value());
+    CHECK(require_different_files(folder / "a", folder / "b").has_value());
 }
 
-TEST_CASE("wrap reduces an angle to half a period on either side") {
+TEST_CASE("Fnv1a: the published test values") {
+    // Noll's test vectors of the 64-bit FNV-1a hash.
+    const auto hash = [](std::string_view text) {
+        Fnv1a fnv;
+        fnv.add(text);
+        return fnv.value();
+    };
+    CHECK(hash("") == 0xcbf29ce484222325ULL);
+    CHECK(hash("a") == 0xaf63dc4c8601ec8cULL);
+    CHECK(hash("foobar") == 0x85944171f73967e8ULL);
+    const std::byte bytes[] = {std::byte{'a'}};
+    Fnv1a fnv;
+    fnv.add(bytes);
+    CHECK(fnv.value() == hash("a"));
+}
+
+TEST_CASE("Wrap: reduces an angle to half a period on either side") {
     CHECK(wrap(7.0 * pi / 2.0, 2.0 * pi) == doctest::Approx(-pi / 2.0));
     CHECK(wrap(to_radians(50.0), pi / 3.0) == doctest::Approx(to_radians(-10.0)));
 }

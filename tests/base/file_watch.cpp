@@ -6,7 +6,6 @@
 #include "tests/support/folder.hpp"
 
 using namespace bolt;
-using namespace bolt;
 namespace fs = std::filesystem;
 using test::Folder;
 
@@ -16,7 +15,7 @@ void write(const fs::path& file, std::string_view text) { REQUIRE(write_file(fil
 
 }  // namespace
 
-TEST_CASE("a change is told once, when the file has been left alone for a while") {
+TEST_CASE("FileWatch: a change is reported once, after the file has stayed unchanged for a while") {
     const Folder folder;
     const fs::path a = folder / "a.json", b = folder / "b.glb";
     write(a, "one");
@@ -25,11 +24,11 @@ TEST_CASE("a change is told once, when the file has been left alone for a while"
     watch.watch({b, a, b});
     CHECK(watch.changed(0.0).empty());
     write(a, "three");
-    CHECK(watch.changed(1.0).empty());  // seen now
+    CHECK(watch.changed(1.0).empty());  // detected now
     CHECK(watch.changed(1.1).empty());  // too soon
     CHECK(watch.changed(1.25) == std::vector{a});
     CHECK(watch.changed(1.3).empty());
-    // Somebody writes on and on.
+    // Continuous writing delays the report.
     for (int i = 0; i < 10; ++i) {
         write(a, std::string(static_cast<std::size_t>(10 + i), 'x'));
         CHECK(watch.changed(2.0 + 0.1 * i).empty());
@@ -41,7 +40,7 @@ TEST_CASE("a change is told once, when the file has been left alone for a while"
     CHECK(watch.changed(5.0) == std::vector{a, b});
 }
 
-TEST_CASE("a file that is renamed over, goes and comes is a change, even with the same size") {
+TEST_CASE("FileWatch: replacing, removing and creating a file are changes, even with the same size") {
     const Folder folder;
     const fs::path a = folder / "a.json", late = folder / "late.json";
     write(a, "same");
@@ -51,7 +50,7 @@ TEST_CASE("a file that is renamed over, goes and comes is a change, even with th
     const auto old = fs::last_write_time(a);
     write(folder / "new", "SAME");
     fs::rename(folder / "new", a);
-    fs::last_write_time(a, old);  // as some tools keep it
+    fs::last_write_time(a, old);  // as some tools preserve it
     CHECK(watch.changed(1.0) == std::vector{a});
     fs::remove(a);
     CHECK(watch.changed(2.0) == std::vector{a});
@@ -59,7 +58,7 @@ TEST_CASE("a file that is renamed over, goes and comes is a change, even with th
     write(a, "same");
     write(late, "first");
     CHECK(watch.changed(4.0) == std::vector{a, late});
-    // Back to what was told before it was quiet: nothing has changed.
+    // The file returned to its reported state before it had settled: no change.
     FileWatch slow(1.0);
     slow.watch({a});
     fs::rename(a, folder / "aside");
@@ -68,7 +67,7 @@ TEST_CASE("a file that is renamed over, goes and comes is a change, even with th
     CHECK(slow.changed(7.0).empty());
 }
 
-TEST_CASE("another list keeps what is known of files that stay in it") {
+TEST_CASE("FileWatch: a new list keeps the state of files that were watched before") {
     const Folder folder;
     const fs::path a = folder / "a", b = folder / "b";
     write(a, "1");

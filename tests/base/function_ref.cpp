@@ -17,7 +17,7 @@ struct Scale {
 
 }  // namespace
 
-TEST_CASE("a function reference calls lambdas with what they hold, const objects and pointers to functions") {
+TEST_CASE("FunctionRef: calls lambdas with captures, const objects and function pointers") {
     int calls = 0;
     CHECK(twice([&calls](int x) { return ++calls, x + 3; }, 1) == 7);
     CHECK(calls == 2);
@@ -27,7 +27,7 @@ TEST_CASE("a function reference calls lambdas with what they hold, const objects
     CHECK(twice(negate, 4) == 4);
 }
 
-TEST_CASE("a function reference refers: what it calls is not copied, and what moves only passes through") {
+TEST_CASE("FunctionRef: does not copy the callable, and forwards move-only arguments") {
     Scale scale{2};
     const FunctionRef<int(int)> first(scale);
     const FunctionRef<int(int)> second = first;

@@ -1,6 +1,5 @@
-// The mailboxes between the servo and everything else. With real threads; what passes or fails does not
-// depend on their speed. Run under ThreadSanitizer, which sees a missing release or acquire: BOLT_TEST=tsan
-// ./test -R base
+// Mailboxes with real threads; the results do not depend on the threads' speed. ThreadSanitizer detects a
+// missing release or acquire: BOLT_TEST=tsan ./test -R base
 #include <doctest/doctest.h>
 
 #include <array>
@@ -16,7 +15,7 @@ using namespace bolt;
 
 namespace {
 
-// Large enough that it cannot be copied at once, and whole or not: every word is made from the first.
+// Too large for an atomic copy. Every word is computed from the first, so that a torn copy is detectable.
 struct Message {
     std::array<std::uint64_t, 40> words{};
 };
@@ -27,83 +26,84 @@ Message message(std::uint64_t n) {
     return m;
 }
 
-bool whole(const Message& m) { return m.words == message(m.words[0]).words; }
+bool complete(const Message& m) { return m.words == message(m.words[0]).words; }
 
 }  // namespace
 
-TEST_CASE("triple buffer: nothing new at first, then the latest, once") {
-    TripleBuffer<int> box(7);
-    CHECK_FALSE(box.update());
-    CHECK(box.latest() == 7);
-    box.write(1);
-    CHECK(box.latest() == 7);  // what the reader holds changes only when it asks
-    CHECK(box.update());
-    CHECK(box.latest() == 1);
-    CHECK_FALSE(box.update());
-    for (int i = 2; i <= 10; ++i) box.write(i);
-    CHECK(box.update());
-    CHECK(box.latest() == 10);
-    CHECK_FALSE(box.update());
-    CHECK(box.latest() == 10);
+TEST_CASE("TripleBuffer: no update at first, then the latest value, once") {
+    TripleBuffer<int> buffer(7);
+    CHECK_FALSE(buffer.update());
+    CHECK(buffer.latest() == 7);
+    buffer.write(1);
+    CHECK(buffer.latest() == 7);  // the reader's value changes only in update()
+    CHECK(buffer.update());
+    CHECK(buffer.latest() == 1);
+    CHECK_FALSE(buffer.update());
+    for (int i = 2; i <= 10; ++i) buffer.write(i);
+    CHECK(buffer.update());
+    CHECK(buffer.latest() == 10);
+    CHECK_FALSE(buffer.update());
+    CHECK(buffer.latest() == 10);
 }
 
-TEST_CASE("triple buffer: a slot being filled is not seen before it is published") {
-    TripleBuffer<int> box(0);
-    box.slot() = 5;
-    CHECK_FALSE(box.update());
-    CHECK(box.latest() == 0);
-    box.publish();
-    CHECK(box.update());
-    CHECK(box.latest() == 5);
+TEST_CASE("TripleBuffer: a slot is not visible before it is published") {
+    TripleBuffer<int> buffer(0);
+    buffer.slot() = 5;
+    CHECK_FALSE(buffer.update());
+    CHECK(buffer.latest() == 0);
+    buffer.publish();
+    CHECK(buffer.update());
+    CHECK(buffer.latest() == 5);
 }
 
-TEST_CASE("triple buffer: any order of looks and writes gives the last one written before the look") {
+TEST_CASE("TripleBuffer: in any order of polls and writes, a poll gives the last value written before it") {
     Random random(1);
-    TripleBuffer<int> box(0);
+    TripleBuffer<int> buffer(0);
     int written = 0, seen = 0;
     for (int i = 0; i < 100'000; ++i) {
         if (random.chance(0.5)) {
-            box.write(++written);
+            buffer.write(++written);
         } else {
-            REQUIRE(box.update() == (written != seen));
+            REQUIRE(buffer.update() == (written != seen));
             seen = written;
-            REQUIRE(box.latest() == seen);
+            REQUIRE(buffer.latest() == seen);
         }
     }
 }
 
-TEST_CASE("triple buffer: a reader on another thread sees whole values, never an older one after a newer") {
+TEST_CASE("TripleBuffer: a reader on another thread sees complete values in order") {
     constexpr std::uint64_t last = 20'000;
-    TripleBuffer<Message> box(message(0));
-    std::thread writer([&box] {
-        for (std::uint64_t n = 1; n <= last; ++n) box.write(message(n));
+    TripleBuffer<Message> buffer(message(0));
+    std::thread writer([&buffer] {
+        for (std::uint64_t n = 1; n <= last; ++n) buffer.write(message(n));
     });
     std::uint64_t seen = 0, torn = 0, back = 0;
     while (seen < last) {
-        if (!box.update()) {
+        if (!buffer.update()) {
             std::this_thread::yield();
             continue;
         }
-        const Message& m = box.latest();
-        torn += whole(m) ? 0U : 1U;
+        const Message& m = buffer.latest();
+        torn += complete(m) ? 0U : 1U;
         back += m.words[0] > seen ? 0U : 1U;
         seen = m.words[0];
     }
     writer.join();
     CHECK(torn == 0);
     CHECK(back == 0);
-    CHECK_FALSE(box.update());
+    CHECK_FALSE(buffer.update());
 }
 
-TEST_CASE("ring: first in, first out; full and empty are told, and a value refused is not half taken") {
+TEST_CASE(
+    "SpscRing: first in, first out; a push into a full ring and a pop from an empty one change nothing") {
     SpscRing<int> ring(5);
-    CHECK(ring.room() == 8);
+    CHECK(ring.capacity() == 8);
     int value = -1;
     CHECK_FALSE(ring.pop(value));
     CHECK(value == -1);
     for (int i = 0; i < 8; ++i) CHECK(ring.push(i));
     CHECK_FALSE(ring.push(99));
-    CHECK(ring.waiting() == 8);
+    CHECK(ring.size() == 8);
     CHECK(ring.pop(value));
     CHECK(value == 0);
     CHECK(ring.push(8));
@@ -113,10 +113,10 @@ TEST_CASE("ring: first in, first out; full and empty are told, and a value refus
         CHECK(value == i);
     }
     CHECK_FALSE(ring.pop(value));
-    CHECK(ring.waiting() == 0);
+    CHECK(ring.size() == 0);
 }
 
-TEST_CASE("ring: a room of one, and of what was never asked for") {
+TEST_CASE("SpscRing: capacity of one, and of zero rounded up to one") {
     SpscRing<int> one(1);
     int value = 0;
     for (int i = 0; i < 100; ++i) {
@@ -125,19 +125,19 @@ TEST_CASE("ring: a room of one, and of what was never asked for") {
         REQUIRE(one.pop(value));
         REQUIRE(value == i);
     }
-    CHECK(SpscRing<int>(0).room() == 1);
+    CHECK(SpscRing<int>(0).capacity() == 1);
 }
 
 TEST_CASE(
-    "ring: between threads every value arrives, once, in order and whole; what is refused is sent again") {
+    "SpscRing: between threads every value arrives once, in order and complete; rejected ones are retried") {
     constexpr std::uint64_t last = 20'000;
     SpscRing<Message> ring(16);
-    std::uint64_t refused = 0;
+    std::uint64_t rejected = 0;
     std::thread writer([&] {
         for (std::uint64_t n = 1; n <= last; ++n) {
             const Message m = message(n);
             while (!ring.push(m)) {
-                ++refused;
+                ++rejected;
                 std::this_thread::yield();
             }
         }
@@ -149,11 +149,11 @@ TEST_CASE(
             std::this_thread::yield();
             continue;
         }
-        wrong += whole(m) && m.words[0] == seen + 1 ? 0U : 1U;
+        wrong += complete(m) && m.words[0] == seen + 1 ? 0U : 1U;
         seen = m.words[0];
     }
     writer.join();
     CHECK(wrong == 0);
     CHECK_FALSE(ring.pop(m));
-    MESSAGE("refused and sent again: ", refused);
+    MESSAGE("rejected and retried: ", rejected);
 }

@@ -3,6 +3,7 @@
 set -uo pipefail
 bin=$1
 sources=$2
+. "$sources/tests/support/skip.sh" "$(basename "$0" .sh)"
 export BOLTWRIGHT_CONTENT=$sources/content
 work=$(mktemp -d)
 player=  # a program that somebody is at

@@ -27,7 +27,11 @@ expect 1 'cannot be written' bash -c "'$bin/bolt-author' curve zq350 --joint B1 
 expect 0 '^$' "$bin/bolt-author" curve zq350 --joint F1 --svg torque-angle.svg
 check "the README's picture is what the program draws" cmp torque-angle.svg "$sources/docs/torque-angle.svg"
 
-if sanitized; then reducer=(); else reducer=(zq350); fi
+reducer=(zq350)
+if sanitized; then
+    skip_part "validate zq350: takes minutes under a sanitizer"
+    reducer=()
+fi
 expect 0 'no mistakes' "$bin/bolt-author" validate "${reducer[@]}" cover-m8
 expect 0 'variant stainless' "$bin/bolt-author" validate zq350 --variant stainless
 expect 3 'did you mean|nearest' "$bin/bolt-author" validate zq35
@@ -129,8 +133,8 @@ expect 1 'm8_releasable|loosen' "$bin/boltwright" compare a/session.boltwright "
 printf 'angle,torque\n1,2\n' > wrong.csv
 expect 3 'wrong.csv:1' "$bin/boltwright" compare a/session.boltwright wrong.csv
 
-expect 2 'is what is being read' "$bin/boltwright" report a/session.boltwright --html a/session.boltwright
-expect 2 'is what is being read' "$bin/boltwright" export a/session.boltwright --csv ./a/session.boltwright
+expect 2 'is also the input' "$bin/boltwright" report a/session.boltwright --html a/session.boltwright
+expect 2 'is also the input' "$bin/boltwright" export a/session.boltwright --csv ./a/session.boltwright
 expect 0 'b/session' "$bin/boltwright" report a/session.boltwright --html b/session.html
 expect 2 'whole number' "$bin/boltwright" train --no-pictures --seed -1
 expect 2 'whole number' "$bin/boltwright" train --no-pictures --seed 18446744073709551616
@@ -158,8 +162,8 @@ expect 0 '^Devices: [0-9]+ by USB' "${draw[@]}" doctor --seconds 0
 expect 0 'its button is held' "$bin/boltwright" doctor --help
 
 # A station that is tried: what is wrong before it begins.
-expect 4 'no device 256f:0000; one that .boltwright devices. lists' "$bin/boltwright" doctor --device 256f:0000
-expect 4 'no serial port' "$bin/boltwright" doctor cover-m8 --glove /dev/null
+expect 4 'no device 256f:0000; expected one that .boltwright devices. lists' "$bin/boltwright" doctor --device 256f:0000
+expect 4 'not a serial port' "$bin/boltwright" doctor cover-m8 --glove /dev/null
 expect 4 'is the glove.s adapter plugged in' "$bin/boltwright" doctor cover-m8 --glove /dev/ttyNONE
 echo '{"format": "boltwright rig 1", "most_torque_Nm": 400}' > rig.json
 expect 3 '^rig.json:1:[0-9]+: ' "$bin/boltwright" doctor --device 256f:0000 --rig rig.json
@@ -169,9 +173,9 @@ expect 2 'requires --glove' "$bin/boltwright" doctor --trainee Ada
 
 # Devices: with nothing plugged in, with a glove that is emulated, without permission, with something that is no glove.
 expect 0 'CyberGlove may be on' "$bin/boltwright" devices
-expect 4 'there is no device 256f:0000; one that' "$bin/boltwright" devices --device 256f:0000
+expect 4 'there is no device 256f:0000; expected one that' "$bin/boltwright" devices --device 256f:0000
 expect 4 'is the glove.s adapter plugged in' "$bin/boltwright" devices --glove /dev/ttyNONE
-expect 4 'no serial port' "$bin/boltwright" devices --glove /dev/null
+expect 4 'not a serial port' "$bin/boltwright" devices --glove /dev/null
 expect 2 '' "$bin/boltwright" devices --seconds -1
 glove() {  # an emulated one with these options, on the port ./port
     "$bin/bolt-emulate" glove "$@" --link "$work/port" > /dev/null &
@@ -184,8 +188,8 @@ nobody=(setpriv --reuid=65534 --regid=65534 --clear-groups)
 if [[ $(id -u) -eq 0 ]] && "${nobody[@]}" "$bin/boltwright" --version > /dev/null 2>&1; then
     tty=$(readlink port)
     chgrp dialout "$tty" && chmod 660 "$tty"
-    expect 4 'Permission denied; a user of the group dialout: sudo usermod' "${nobody[@]}" "$bin/boltwright" devices --glove "$tty"
-    expect 4 'Permission denied; a user of the group dialout' "${nobody[@]}" "$bin/boltwright" doctor cover-m8 --glove "$tty"
+    expect 4 'Permission denied; expected a user of the group dialout: sudo usermod' "${nobody[@]}" "$bin/boltwright" devices --glove "$tty"
+    expect 4 'Permission denied; expected a user of the group dialout' "${nobody[@]}" "$bin/boltwright" doctor cover-m8 --glove "$tty"
 fi
 kill $emulated && wait $emulated
 expect 4 'plugged in' "$bin/boltwright" devices --glove port
@@ -195,7 +199,7 @@ check "train draws every view" test -s seen/view-front.png
 expect 0 'score' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json \
     "${draw[@]}" train cover-m8 --no-obstacles --headless --quiet --out unseen
 check "without a GPU everything else is there" test -s unseen/report.html
-expect 0 'none: there is no desktop.*DISPLAY' env -u DISPLAY -u WAYLAND_DISPLAY "${draw[@]}" doctor --seconds 0
+expect 0 'none: .*there is no display.*DISPLAY' env -u DISPLAY -u WAYLAND_DISPLAY "${draw[@]}" doctor --seconds 0
 expect 0 'pictures/cover-front.png' "${draw[@]}" render cover-m8 --view top --view front --size 96x64 --validate \
     --png pictures/cover.png
 check "a picture for each view" test -s pictures/cover-top.png -a -s pictures/cover-front.png
@@ -233,7 +237,7 @@ expect 2 'same point' "${draw[@]}" render cover-m8 --eye 1,2,3 --target 1,2,3 --
 expect 2 'no named views' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" --view top --png never.png
 expect 3 'nowhere.glb' "${draw[@]}" render nowhere.glb --png never.png
 expect 3 'names no model' "${draw[@]}" render plain --png never.png
-expect 4 'not the one asked for' "${draw[@]}" render cover-m8 --gpu voodoo --png never.png
+expect 4 'does not match' "${draw[@]}" render cover-m8 --gpu voodoo --png never.png
 expect 1 'null' "${draw[@]}" render cover-m8 --size 8x8 --png /dev/null/picture.png
 check "nothing was drawn where something was wrong" test ! -e never.png
 
@@ -256,7 +260,7 @@ head -8 "$sources/tests/fuzz/corpus/hand.cal" > short.cal
 expect 3 '^(boltwright: |error: )?short.cal:[0-9]+' "$bin/boltwright" glove import short.cal --trainee Ada --folder gloves
 sed 's/"gain": /"gian": /' gloves/_41da_20_4c_2e.right.glove.json > misspelt.json
 expect 3 'misspelt.json:13:7: .*did you mean "gain"' "$bin/boltwright" glove show misspelt.json --port /dev/null
-expect 4 'no serial port' "$bin/boltwright" glove calibrate --trainee Ada --port /dev/null --folder gloves
+expect 4 'not a serial port' "$bin/boltwright" glove calibrate --trainee Ada --port /dev/null --folder gloves
 expect 2 'trainee is required' "$bin/boltwright" glove calibrate --port /dev/null
 # Somebody in an emulated glove does what is asked, and is measured then.
 mkfifo asked

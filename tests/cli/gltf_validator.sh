@@ -4,10 +4,10 @@
 set -uo pipefail
 bin=$1
 sources=$2
+. "$sources/tests/support/skip.sh" gltf_validator
 runner=$sources/tools/gltf-validator
 if [[ ! -d $runner/node_modules/gltf-validator ]] || ! command -v node >/dev/null; then
-    echo "left out: tools/install-node-tools.sh has not installed the validator"
-    exit 77
+    skip_all "the glTF validator is not installed; expected tools/install-node-tools.sh to have installed it"
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

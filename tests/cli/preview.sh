@@ -56,13 +56,13 @@ check "... and the comparison can fail" bash -c '! "$1" front.png pictures/cover
     "$bin/bolt-imagediff"
 expect 2 '"top"' "$bin/bolt-author" preview cover-m8 --view topp
 expect 2 'no size' "$bin/bolt-author" preview cover-m8 --size 320
-expect 2 'not called "shaders"' "$bin/bolt-author" preview cover-m8 --shaders "$sources/engine" --png never.png
+expect 2 'not named "shaders"' "$bin/bolt-author" preview cover-m8 --shaders "$sources/engine" --png never.png
 expect 3 'nowhere.glb' "$bin/bolt-author" preview nowhere.glb
-expect 4 'not the one asked for' "$bin/bolt-author" preview cover-m8 --gpu voodoo
+expect 4 'does not match' "$bin/bolt-author" preview cover-m8 --gpu voodoo
 check "nothing was drawn where something was wrong" test ! -e never.png
 
 expect 0 'sRGB' "$bin/boltwright" doctor --seconds 0
-expect 0 'images, of at least' "$bin/boltwright" doctor --seconds 0
+expect 0 'images, the minimum is' "$bin/boltwright" doctor --seconds 0
 
 # Look around.
 start cover-m8 --size 320x200

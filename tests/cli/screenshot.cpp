@@ -10,7 +10,7 @@
 namespace {
 
 bolt::Status take(const char* file, unsigned x, unsigned y, unsigned width, unsigned height) {
-    const auto screen = bolt::test::look_at_screen();
+    const auto screen = bolt::test::read_screen();
     if (!screen) return bolt::fail(screen.error());
     if (x + width > screen->width || y + height > screen->height)
         return bolt::fail(bolt::ErrorCode::usage, "that is not all on the screen");
@@ -32,5 +32,5 @@ int main(int argc, char** argv) {
         return static_cast<unsigned>(std::strtoul(words[i], nullptr, 10));
     };
     const bolt::Status taken = take(words[1], number(2), number(3), number(4), number(5));
-    return taken ? 0 : bolt::complain(taken.error());
+    return taken ? 0 : bolt::print_error(taken.error());
 }

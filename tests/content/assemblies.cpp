@@ -34,7 +34,7 @@ std::vector<std::string> ids(const Assembly& assembly, const std::vector<std::si
 
 }  // namespace
 
-TEST_CASE("every shipped assembly loads in every variant, in three languages") {
+TEST_CASE("Assemblies: every shipped assembly loads in every variant, in three languages") {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(content::content_folder() / "assemblies")) {
         const std::string name = entry.path().filename().string();
@@ -120,6 +120,17 @@ TEST_CASE("ZQ350 in carbon steel: the paper's 72 N·m is where yield begins") {
     }
 }
 
+TEST_CASE(
+    "ZQ350: under the published law the target lies in the last degrees before T_max, where yield is felt") {
+    const Assembly a = load("zq350");
+    REQUIRE(a.published_targets);
+    const joint::PublishedParameters& law = a.published;
+    CHECK(a.published_targets->torque.target < law.T_max_Nm);
+    CHECK(joint::published_yield_torque(law, law.theta_max_deg - 5.0) < a.published_targets->torque.target);
+    // Two thirds of the yield stage lie below the lowest torque that is judged OK.
+    CHECK(joint::published_yield_torque(law, law.theta_max_deg - 30.0) < a.published_targets->torque.low);
+}
+
 TEST_CASE("ZQ350 in stainless steel: the same torque stays elastic") {
     const Assembly a = load("zq350", "stainless");
     CHECK(a.variant == "stainless");
@@ -136,7 +147,7 @@ TEST_CASE("ZQ350 in stainless steel: the same torque stays elastic") {
     CHECK(a.joints[11].spec.angle.low == doctest::Approx(to_radians(2.0)));
 }
 
-TEST_CASE("the cover is far from yield and within what hand tools hold") {
+TEST_CASE("Assemblies: the cover is far from yield and within what hand tools hold") {
     const Assembly a = load("cover-m8");
     REQUIRE(a.joints.size() == 4);
     for (const AssemblyJoint& j : a.joints) {
@@ -148,7 +159,7 @@ TEST_CASE("the cover is far from yield and within what hand tools hold") {
     CHECK(a.variant.empty());
 }
 
-TEST_CASE("every value of a file arrives in SI") {
+TEST_CASE("Assemblies: every value of a file arrives in SI") {
     const auto loaded = content::parse_assembly(content_test::everything(), "there/f.json", "weak");
     REQUIRE(loaded.ok());
     const Assembly& a = loaded.assembly;
@@ -158,6 +169,11 @@ TEST_CASE("every value of a file arrives in SI") {
     CHECK(a.law == joint::Law::published);
     CHECK(a.published.theta_max_deg == doctest::Approx(7218.0));
     CHECK(a.published.spring_rates_1e6[6] == 1.42);
+    REQUIRE(a.published_targets);
+    CHECK(a.published_targets->torque.target == 71.0);
+    CHECK(a.published_targets->torque.low == 68.0);
+    CHECK(a.published_targets->torque.high == 73.0);
+    CHECK(a.published_targets->snug_torque == 18.0);
     CHECK(a.wrench.handle_length == doctest::Approx(0.18));
     CHECK(a.flange.thickness == doctest::Approx(0.02));
     CHECK(a.flange.E == doctest::Approx(70e9));
@@ -209,7 +225,7 @@ TEST_CASE("every value of a file arrives in SI") {
     CHECK(second.spec.snug_torque == 20.0);
 }
 
-TEST_CASE("what a file leaves out has the stated default") {
+TEST_CASE("Assemblies: what a file leaves out has the stated default") {
     std::string text = content_test::shipped("cover-m8");
     for (const char* line :
          {"        \"torque_tolerance_percent\": 10,\n", "        \"snug_torque_Nm\": 5,\n",

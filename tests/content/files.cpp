@@ -72,7 +72,8 @@ std::string only(const content::Loaded& loaded) {
 
 }  // namespace
 
-TEST_CASE("the files of an assembly are found from its folder, those of a tool in content/tools") {
+TEST_CASE(
+    "Model files: the files of an assembly are found from its folder, those of a tool in content/tools") {
     const World world;
     const auto loaded = with(
         world.inside, R"("model": "pump.glb", "model_far": "../shared.glb", "contact_model": "./pump.glb", )",
@@ -89,7 +90,7 @@ TEST_CASE("the files of an assembly are found from its folder, those of a tool i
     CHECK(with(world.outside, R"("model": "bracket.glb", )").ok());
 }
 
-TEST_CASE("a file that is not there: where it is named, and the nearest that is") {
+TEST_CASE("Model files: a file that is not there: where it is named, and the nearest that is") {
     const World world;
     CHECK(only(with(world.inside, R"("model": "bump.glb", )")) ==
           R"(2:12: /model: there is no file "bump.glb" in the assembly's folder; did you mean "pump.glb"?)");
@@ -106,7 +107,7 @@ TEST_CASE("a file that is not there: where it is named, and the nearest that is"
     CHECK_FALSE(with(world.inside, R"("model": "folder.glb", )").ok());
 }
 
-TEST_CASE("nothing outside is named") {
+TEST_CASE("Model files: nothing outside is named") {
     const World world;
     CHECK(
         only(with(world.inside, R"("model": "../../../far.glb", )")) ==
@@ -130,7 +131,7 @@ TEST_CASE("nothing outside is named") {
         R"(2:12: /model: "pump.step" is no .glb file; expected a binary glTF file: bolt-author import-step makes one from STEP)");
 }
 
-TEST_CASE("a text that is read from elsewhere than its folder names its files all the same") {
+TEST_CASE("Model files: a text that is read from elsewhere than its folder names its files all the same") {
     const auto loaded = content::parse_assembly(content_test::everything(), "there/f.json");
     REQUIRE(loaded.ok());
     CHECK(loaded.assembly.models.model == "there/bracket.glb");
@@ -139,7 +140,7 @@ TEST_CASE("a text that is read from elsewhere than its folder names its files al
     CHECK(loaded.assembly.wrench.model == "tools/wrench_18.glb");
 }
 
-TEST_CASE("a new assembly brings its models with it, and names none that is not there") {
+TEST_CASE("Model files: a new assembly brings its models with it, and names none that is not there") {
     const World world;
     const auto made = [&](const char* name) {
         REQUIRE(content::create_assembly(world.root / "content" / "assemblies" / name, name));
@@ -175,7 +176,9 @@ TEST_CASE("a new assembly brings its models with it, and names none that is not 
     CHECK(copied == count);
 }
 
-TEST_CASE("the jaw's measures are read in millimetres; a nut has to fit between its tips and its bottom") {
+TEST_CASE(
+    "Model files: the jaw's measures are read in millimetres; a nut has to fit between its tips and its "
+    "bottom") {
     const World world;
     const auto given =
         with(world.inside, "", R"("head_thickness_mm": 7.6, "jaw_depth_mm": 8, "jaw_tip_mm": 9.5, )");

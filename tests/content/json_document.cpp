@@ -47,7 +47,7 @@ void check_places(std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("every key and value is found where it stands") {
+TEST_CASE("JSON document: every key and value is found where it stands") {
     check_places(content_test::shipped("zq350"));
     check_places(content_test::everything());
     check_places("[]");
@@ -57,7 +57,7 @@ TEST_CASE("every key and value is found where it stands") {
         "\"µ\":null}");
 }
 
-TEST_CASE("a place that is not there is that of the nearest parent") {
+TEST_CASE("JSON document: a place that is not there is that of the nearest parent") {
     std::vector<bolt::Error> errors;
     const auto document = JsonDocument::parse("{\n \"a\": {\"b\": [1,\n 2]}}", "f", errors);
     REQUIRE(document);
@@ -70,13 +70,13 @@ TEST_CASE("a place that is not there is that of the nearest parent") {
           "f:3:2: /a/b/1: odd; expected 3");
 }
 
-TEST_CASE("JSON pointers are escaped as RFC 6901 has it") {
+TEST_CASE("JSON document: JSON pointers are escaped as RFC 6901 has it") {
     CHECK(pointer_token("a/b~c") == "a~1b~0c");
     CHECK(pointer_tokens("/a~1b~0c/0//x") == std::vector<std::string>{"a/b~c", "0", "", "x"});
     CHECK(pointer_tokens("").empty());
 }
 
-TEST_CASE("whole numbers beyond 2^53 are numbers like any other") {
+TEST_CASE("JSON document: whole numbers beyond 2^53 are numbers like any other") {
     std::vector<bolt::Error> errors;
     const auto document =
         JsonDocument::parse("[18446744073709551615, -9223372036854775808, 9007199254740992]", "f", errors);

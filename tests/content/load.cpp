@@ -64,7 +64,7 @@ Error only_error(const fs::path& where, std::string_view variant = {}) {
 
 }  // namespace
 
-TEST_CASE("an assembly is loaded by its name, its folder or its file") {
+TEST_CASE("Load: an assembly is loaded by its name, its folder or its file") {
     const fs::path folder = content::content_folder() / "assemblies" / "cover-m8";
     for (const fs::path& where : {fs::path("cover-m8"), folder, folder / "", folder / "assembly.json"}) {
         CAPTURE(where.string());
@@ -76,27 +76,27 @@ TEST_CASE("an assembly is loaded by its name, its folder or its file") {
     }
 }
 
-TEST_CASE("an assembly that is not there: the nearest, and all that are") {
+TEST_CASE("Load: an assembly that is not there: the nearest, and all that are") {
     const std::string near = only_error("zq530").message(), far = only_error("gearbox").message();
     CHECK(near.starts_with(
-        "zq530: there is no such folder, file or assembly; did you mean \"zq350\"? there are: "));
-    CHECK(far.starts_with("gearbox: there is no such folder, file or assembly; there are: "));
+        "zq530: there is no such folder, file or assembly; did you mean \"zq350\"? expected one of "));
+    CHECK(far.starts_with("gearbox: there is no such folder, file or assembly; expected one of "));
     CHECK(far.find("cover-m8, ") != std::string::npos);
     CHECK(far.find("zq350") != std::string::npos);
     CHECK(only_error("").what == "there is no such folder, file or assembly");
 }
 
-TEST_CASE("a folder without the file, a file that cannot be read") {
+TEST_CASE("Load: a folder without the file, a file that cannot be read") {
     const Folder folder;
     CHECK(only_error(folder.path()).message() ==
           folder.path().string() + ": this folder has no assembly.json; expected a folder of an assembly");
     fs::create_directories(folder.path() / "sub" / "assembly.json");
-    CHECK(only_error(folder / "sub").what == "this is a folder, not a file");
+    CHECK(only_error(folder / "sub").what == "is a folder");
     fs::create_symlink("nowhere", folder / "assembly.json");
     CHECK(content::load_assembly(folder.path()).errors.size() == 1);
 }
 
-TEST_CASE("a session is told from an assembly, however large it is") {
+TEST_CASE("Load: a session is told from an assembly, however large it is") {
     const Folder folder;
     std::string session("SQLite format 3", 16);
     for (const std::size_t size : {std::size_t{16}, std::size_t{5U << 20U}}) {
@@ -111,30 +111,30 @@ TEST_CASE("a session is told from an assembly, however large it is") {
     CHECK(only_error(folder / "text").what == "unknown word \"SQLite\"");
 }
 
-TEST_CASE("a variant that is not there") {
+TEST_CASE("Load: a variant that is not there") {
     CHECK(only_error("zq350", "stainles").expected == "did you mean \"stainless\"?");
     CHECK(only_error("zq350", "wood").expected == "expected one of carbon_steel, stainless");
     CHECK(only_error("cover-m8", "wood").expected == "expected none: the file has no variants");
 }
 
-TEST_CASE("BOLTWRIGHT_CONTENT says where content/ is") {
+TEST_CASE("Load: BOLTWRIGHT_CONTENT says where content/ is") {
     const fs::path found = content::content_folder();
     REQUIRE_FALSE(found.empty());
     {
         const ContentVariable variable("/nowhere");
         CHECK(content::content_folder().empty());
-        CHECK(only_error("zq350").expected == "no content/ was found: BOLTWRIGHT_CONTENT says where it is");
+        CHECK(only_error("zq350").expected == "a content folder; BOLTWRIGHT_CONTENT names it");
     }
     const ContentVariable variable(found.c_str());
     CHECK(content::content_folder() == found);
 }
 
-TEST_CASE("without it content/ is found from the program") {
+TEST_CASE("Load: without it content/ is found from the program") {
     const ContentVariable variable(nullptr);
     CHECK(fs::exists(content::content_folder() / "schema" / "assembly.schema.json"));
 }
 
-TEST_CASE("a new assembly loads without a mistake and carries its name") {
+TEST_CASE("Load: a new assembly loads without a mistake and carries its name") {
     const Folder folder;
     for (const char* name : {"pump", "a \"quoted\" pump", "Pumpe für Öl", "broken \xFF name"}) {
         CAPTURE(name);
@@ -151,7 +151,7 @@ TEST_CASE("a new assembly loads without a mistake and carries its name") {
     }
 }
 
-TEST_CASE("a new assembly never overwrites anything") {
+TEST_CASE("Load: a new assembly never overwrites anything") {
     const Folder folder;
     REQUIRE(write_file(folder / "kept", "x"));
     const Status over_folder = content::create_assembly(folder.path(), "pump");
@@ -169,7 +169,7 @@ TEST_CASE("a new assembly never overwrites anything") {
     CHECK(fs::exists(folder.path() / "empty" / "assembly.json"));
 }
 
-TEST_CASE("a new assembly that cannot be written leaves nothing behind") {
+TEST_CASE("Load: a new assembly that cannot be written leaves nothing behind") {
     const Folder folder;
     fs::create_directories(folder / "empty");
     // The limit on the size of a file stands for a disk that is full: the small file fits, the schema does
@@ -185,7 +185,7 @@ TEST_CASE("a new assembly that cannot be written leaves nothing behind") {
     CHECK(content::create_assembly(folder.path() / "new" / "below", "pump"));
 }
 
-TEST_CASE("beside the other assemblies the common schema is used") {
+TEST_CASE("Load: beside the other assemblies the common schema is used") {
     const Folder folder;
     fs::create_directories(folder / "schema");
     fs::create_directories(folder / "assemblies");

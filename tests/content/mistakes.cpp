@@ -18,9 +18,9 @@ struct Mistake {
 // clang-format off
 const Mistake mistakes[] = {
     {R"("size": "M8")", R"("size": "M9")",
-     {R"(22:15: /joint_types/M8x30/size: "M9" is no thread size that we know; one of M4 to M39, a fine pitch as in "M16x1.5")"}},
+     {R"(22:15: /joint_types/M8x30/size: "M9" is no thread size that we know; expected one of M4 to M39, a fine pitch as in "M16x1.5")"}},
     {R"("size": "M8")", R"("size": "M8x1.2")",
-     {R"(22:15: /joint_types/M8x30/size: "M8x1.2" is no thread that we know; pitches of M8 in mm: 1.25, 1, 0.75)"}},
+     {R"(22:15: /joint_types/M8x30/size: "M8x1.2" is no thread that we know; expected pitches of M8 in mm: 1.25, 1, 0.75)"}},
     {R"("size": "M8")", R"("size": 8)",
      {R"(22:15: /joint_types/M8x30/size: the number 8 cannot stand here; expected a text in double quotes)"}},
     {R"("size": "M8")", R"("sise": "M8")",
@@ -30,7 +30,7 @@ const Mistake mistakes[] = {
     {R"("class": "8.8")", R"("class": "8,8")",
      {R"(23:16: /joint_types/M8x30/class: "8,8" is no property class that we know; did you mean "8.8"?)"}},
     {R"("class": "8.8")", R"("class": "hard")",
-     {R"(23:16: /joint_types/M8x30/class: "hard" is no property class that we know; one of 4.6, 4.8, 5.6, 5.8, 6.8, 8.8, 10.9, 12.9, A2-50, A2-70, A2-80, A4-50, A4-70, A4-80)"}},
+     {R"(23:16: /joint_types/M8x30/class: "hard" is no property class that we know; expected one of 4.6, 4.8, 5.6, 5.8, 6.8, 8.8, 10.9, 12.9, A2-50, A2-70, A2-80, A4-50, A4-70, A4-80)"}},
     {R"("bolt_length_mm": 30)", R"("bolt_length_mm": 25)",
      {R"(24:25: /joint_types/M8x30/bolt_length_mm: a bolt of 25 mm is too short for a grip of 19.2 mm and a nut of 6.8 mm; expected at least 27.25 mm)"}},
     {R"("bolt_length_mm": 30)", R"("bolt_length_mm": 60)",
@@ -137,7 +137,7 @@ const Mistake mistakes[] = {
      {R"(18:25: /tool/handle_length_mm: 0.14 is too small; expected a number >= 30 and <= 2000 (mm))"}},
     {R"("id": "B2")", R"("id": "B1")",
      {R"(47:13: /joints/1/id: "B1" is the "id" of another joint too; expected a name of its own; it is used first in line 46)",
-      R"(51:25: /order/2: "B2" is no joint of this file; is it the joint in line 47, whose id is another's too?)"}},
+      R"(51:25: /order/2: "B2" is no joint of this file; did you mean the joint in line 47, whose id is a repetition?)"}},
     {R"("id": "B2")", R"("id": "")",
      {R"(47:13: /joints/1/id: this text is empty; expected at least one letter)"}},
     {R"("node": "joint_B2")", R"("node": "joint_B1")",
@@ -175,7 +175,7 @@ const Mistake mistakes[] = {
     {R"({ "kind": "tighten", "percent": 50 })", R"({ "kind": "tighten", "percent": 0.5, "order": ["B1", "B2", "B3"] })",
      {R"(54:51: /passes/1/order: "B4" is missing in this order; expected every joint once)"}},
     {R"({ "kind": "tighten", "percent": 50 })", R"({ "kind": "run_down", "percent": 50 })",
-     {R"(54:38: /passes/1/percent: only a pass of kind "tighten" has a share of the target; remove it)"}},
+     {R"(54:38: /passes/1/percent: only a pass of kind "tighten" has a share of the target; expected no "percent" here)"}},
     {R"({ "kind": "tighten", "percent": 100 })", R"({ "kind": "tighten", "percent": 40 })",
      {R"(55:37: /passes/2/percent: 40 percent after 50 percent; expected shares that do not fall, and 100 in the last pass)"}},
     {R"({ "kind": "tighten", "percent": 100 })", R"({ "kind": "tighten", "percent": 90 })",
@@ -204,6 +204,18 @@ const Mistake mistakes[] = {
      {R"(14:36: /published: the nut would be on its seat 16 degrees before it is started; expected a larger theta_max_turns or narrower stages)"}},
     {R"("tool": {)", R"("law": "published", "published": {"D1_mm": 10}, "tool": {)",
      {R"(14:36: /published: D1 of 10 mm is no larger than D2; expected more than 14.7 mm)"}},
+    {R"("tool": {)", R"("published": {"target_torque_Nm": 72.1}, "tool": {)", {}},
+    {R"("tool": {)", R"("published": {"target_torque_Nm": 78}, "tool": {)",
+     {R"(14:37: /published/target_torque_Nm: 78 N·m is never reached: the published law ends at a T_max of 72.126 N·m; expected at most 72.126 N·m)"}},
+    {R"("tool": {)", R"("published": {"target_torque_Nm": 78, "T_max_Nm": 80}, "tool": {)", {}},
+    {R"("tool": {)", R"("published": {"snug_torque_Nm": 20}, "tool": {)",
+     {R"(14:17: /published/snug_torque_Nm: "snug_torque_Nm" without "target_torque_Nm"; expected the target too, or neither)"}},
+    {R"("tool": {)", R"("published": {"target_torque_Nm": 72, "snug_torque_Nm": 70}, "tool": {)",
+     {R"(14:59: /published/snug_torque_Nm: a snug torque of 70 N·m is no less than what is judged OK; expected less than 64.8 N·m)"}},
+    {R"("tool": {)", R"("published": {"target_torque_Nm": 72, "min_torque_Nm": 70}, "tool": {)",
+     {R"(14:41: /published/min_torque_Nm: "min_torque_Nm" without "max_torque_Nm"; expected both or neither)"}},
+    {R"("tool": {)", R"("published": {"target_torque": 72}, "tool": {)",
+     {R"(14:17: /published/target_torque: unknown property "target_torque"; did you mean "target_torque_Nm"?)"}},
     {R"("tool": {)", R"("published": {"kappa1_Nm_per_deg2": 0.1}, "tool": {)",
      {R"(14:16: /published: the torque would be -737.9 N·m where yield begins; expected a smaller kappa1_Nm_per_deg2 or yield_width_deg, or a larger T_max_Nm)"}},
     {R"("tool": {)", R"("flange": {"thickness_mm": 20, "E_GPa": 110, "poisson": 0.5}, "tool": {)",
@@ -220,10 +232,10 @@ const Mistake mistakes[] = {
      {R"(14:11: /tool: required property "handle_length_mm" is missing; expected a number >= 30 and <= 2000: mm, from the middle of the jaw to the middle of the grip.)",
       R"(14:11: /tool: required property "jaw_mm" is missing; expected a number >= 3 and <= 150: mm; the width across flats of the nuts and up to 0.6 mm more.)",
       R"(14:11: /tool: required property "kind" is missing; expected one of open_end_wrench, click_torque_wrench: Kind of wrench.)",
-      R"(14:15: /tool: "tool" is given twice; it is given first in line 14)"}},
+      R"(14:15: /tool: "tool" is given twice; expected one value; the first is in line 14)"}},
     {R"("tool": {)", R"("law": 1, "title": [], "tool": {)",
      {R"(14:10: /law: the number 1 cannot stand here; expected one of mechanistic, published)",
-      R"(14:13: /title: "title" is given twice; it is given first in line 3)"}},
+      R"(14:13: /title: "title" is given twice; expected one value; the first is in line 3)"}},
     {R"("en": "Cover with four M8 bolts",)", R"()",
      {R"(3:12: /title: required property "en" is missing; expected a text in double quotes: English text, shown where a language is missing.)"}},
     {R"("en": "Cover with four M8 bolts",)", R"("en": "",)",
@@ -262,7 +274,7 @@ const Mistake mistakes[] = {
 
 }  // namespace
 
-TEST_CASE("every mistake is told where it stands and what was expected") {
+TEST_CASE("Errors: every mistake is told where it stands and what was expected") {
     const std::string good = cover();
     for (const Mistake& c : mistakes) {
         CAPTURE(std::string(c.from));
@@ -274,7 +286,7 @@ TEST_CASE("every mistake is told where it stands and what was expected") {
     }
 }
 
-TEST_CASE("all mistakes of a file are told in one run, in the order of the file") {
+TEST_CASE("Errors: all mistakes of a file are told in one run, in the order of the file") {
     std::string text = cover();
     const auto edit = [&](const char* from, const char* to) { text = edited(std::move(text), from, to); };
     edit("\"jaw_mm\": 13.2", "\"jaw_mm\": 17");
@@ -317,7 +329,7 @@ TEST_CASE("all mistakes of a file are told in one run, in the order of the file"
     CHECK(messages(text) == expected);
 }
 
-TEST_CASE("a repeated id hides nothing that an order has wrong") {
+TEST_CASE("Errors: a repeated id hides nothing that an order has wrong") {
     const std::string good = edited(cover(), "\"id\": \"B2\"", "\"id\": \"B1\"");
     const std::string twice =
         "47:13: /joints/1/id: \"B1\" is the \"id\" of another joint too; expected a name of its own; it is "
@@ -334,10 +346,11 @@ TEST_CASE("a repeated id hides nothing that an order has wrong") {
     CHECK(given("[\"B1\", \"B3\", \"B1\", \"B4\"]").empty());
     CHECK(given("[\"B1\", \"B3\", \"B4\"]").empty());
     CHECK(given("[\"B1\", \"Q99\", \"B2\", \"B4\"]") ==
-          Messages{"51:19: /order/1: \"Q99\" is no joint of this file; is it the joint in line 47, whose id "
-                   "is another's too? If not, expected \"B3\"",
-                   "51:26: /order/2: \"B2\" is no joint of this file; is it the joint in line 47, whose id "
-                   "is another's too? If not, did you mean \"B3\"?"});
+          Messages{
+              "51:19: /order/1: \"Q99\" is no joint of this file; did you mean the joint in line 47, whose "
+              "id is a repetition? If not, expected \"B3\"",
+              "51:26: /order/2: \"B2\" is no joint of this file; did you mean the joint in line 47, whose "
+              "id is a repetition? If not, did you mean \"B3\"?"});
     CHECK(given("[\"B1\", \"B1\", \"B3\"]") ==
           Messages{"51:12: /order: \"B4\" is missing in this order; expected every joint once"});
     CHECK(given("[\"B1\", \"B3\", \"B4\", \"B4\"]") ==
@@ -346,7 +359,7 @@ TEST_CASE("a repeated id hides nothing that an order has wrong") {
               "in line 51"});
 }
 
-TEST_CASE("a joint without a usable id stands for one unknown name of an order, not for two") {
+TEST_CASE("Errors: a joint without a usable id stands for one unknown name of an order, not for two") {
     const std::string good = edited(cover(), "\"id\": \"B2\"", "\"id\": 2");
     CHECK(messages(good).size() == 1);
     const auto all = messages(edited(good, "\"B1\", \"B3\",", "\"B1\", \"Q99\","));
@@ -354,7 +367,7 @@ TEST_CASE("a joint without a usable id stands for one unknown name of an order, 
     CHECK(all[1] == "51:19: /order/1: \"Q99\" is no joint of this file; expected \"B3\"");
 }
 
-TEST_CASE("what was refused keeps only those checks from being made that need it") {
+TEST_CASE("Errors: what was refused keeps only those checks from being made that need it") {
     const auto with = [](const char* from, const char* to) {
         const std::string text = edited(cover(), from, to);
         return messages(edited(edited(text, "\"bolt_length_mm\": 30", "\"bolt_length_mm\": 20"),
@@ -372,7 +385,8 @@ TEST_CASE("what was refused keeps only those checks from being made that need it
     CHECK(with("\"spec\": {", "\"specs\": {").size() == 2);
 }
 
-TEST_CASE("a thread that is written another way is told as it should be, and never as another diameter") {
+TEST_CASE(
+    "Errors: a thread that is written another way is told as it should be, and never as another diameter") {
     const auto expected = [](const std::string& size) {
         const auto loaded =
             bolt::content::parse_assembly(edited(cover(), "\"M8\",", "\"" + size + "\","), "f");
@@ -399,7 +413,7 @@ TEST_CASE("a thread that is written another way is told as it should be, and nev
     }
 }
 
-TEST_CASE("a mistake that only a variant makes is told, and once however many variants share it") {
+TEST_CASE("Errors: a mistake that only a variant makes is told, and once however many variants share it") {
     std::string text = shipped("zq350");
     text = edited(std::move(text), "\"class\": \"A2-70\"", "\"class\": \"A2-71\"");
     REQUIRE(messages(text).size() == 1);
@@ -410,10 +424,10 @@ TEST_CASE("a mistake that only a variant makes is told, and once however many va
     CHECK(messages(text).size() == 1);
 }
 
-TEST_CASE("a file with hundreds of mistakes is cut short") {
+TEST_CASE("Errors: a file with hundreds of mistakes is cut short") {
     std::string joints;
     for (int i = 0; i < 400; ++i) joints += "{\"id\": 1},\n";
     const auto all = messages(edited(cover(), "\"joints\": [", "\"joints\": [" + joints));
     CHECK(all.size() == 201);
-    CHECK(all.back().find("are not shown; mend these first") != std::string::npos);
+    CHECK(all.back().find("are not shown: fix those above first") != std::string::npos);
 }

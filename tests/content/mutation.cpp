@@ -46,7 +46,7 @@ std::string mutated(std::string text, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a damaged file loads or gives errors that point into it") {
+TEST_CASE("Errors: a damaged file loads or gives errors that point into it") {
     const std::string good = shipped("zq350");
     int refused = 0;
     for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
@@ -74,12 +74,12 @@ TEST_CASE("a damaged file loads or gives errors that point into it") {
     CHECK(refused > 800);
 }
 
-TEST_CASE("loading the same bytes gives the same messages") {
+TEST_CASE("Errors: loading the same bytes gives the same messages") {
     const std::string text = mutated(shipped("zq350"), 7);
     CHECK(messages(text) == messages(text));
 }
 
-TEST_CASE("a file cut at any byte gives one error near its end") {
+TEST_CASE("Errors: a file cut at any byte gives one error near its end") {
     const std::string good = cover();
     const std::size_t end = good.find_last_not_of("\n");
     for (std::size_t size = 0; size < end; size += 7) {

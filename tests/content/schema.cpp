@@ -68,7 +68,7 @@ void each_property_schema(const json& node,
 
 }  // namespace
 
-TEST_CASE("the schema in the program is the schema in content/") {
+TEST_CASE("Schema: the schema in the program is the schema in content/") {
     const auto file = bolt::read_file(content_folder() / "schema" / "assembly.schema.json", 1U << 20U,
                                       bolt::ErrorCode::failed);
     REQUIRE(file);
@@ -76,7 +76,7 @@ TEST_CASE("the schema in the program is the schema in content/") {
     CHECK(schema_json()["$schema"] == "http://json-schema.org/draft-07/schema#");
 }
 
-TEST_CASE("the schema helps an editor: every property is titled and described, every object closed") {
+TEST_CASE("Schema: the schema helps an editor: every property is titled and described, every object closed") {
     each_property_schema(schema_json(), [](const std::string& name, const json& property) {
         CAPTURE(name);
         const json* at = &property;
@@ -93,7 +93,7 @@ TEST_CASE("the schema helps an editor: every property is titled and described, e
     }
 }
 
-TEST_CASE("every number in the schema has bounds, and its unit in its name") {
+TEST_CASE("Schema: every number in the schema has bounds, and its unit in its name") {
     each_property_schema(schema_json(), [](const std::string& name, const json& property) {
         CAPTURE(name);
         if (property.value("type", "") != "number") return;
@@ -103,7 +103,8 @@ TEST_CASE("every number in the schema has bounds, and its unit in its name") {
 }
 
 TEST_CASE(
-    "the file that uses everything has no mistake, and the loader reads every name of the schema, no other") {
+    "Schema: the file that uses everything has no mistake, and the loader reads every name of the schema, no "
+    "other") {
     std::vector<bolt::Error> errors;
     const auto document = JsonDocument::parse(everything(), "f", errors);
     REQUIRE(document);
@@ -121,7 +122,7 @@ TEST_CASE(
     for (const std::string& name : read) CHECK_MESSAGE(in_schema.contains(name), name);
 }
 
-TEST_CASE("the file that uses everything leaves no property of the schema out") {
+TEST_CASE("Schema: the file that uses everything leaves no property of the schema out") {
     const json document = json::parse(everything());
     std::vector<std::string> place;
     std::set<std::string> used, known;
@@ -133,7 +134,7 @@ TEST_CASE("the file that uses everything leaves no property of the schema out") 
     CHECK(used == known);
 }
 
-TEST_CASE("every required property, left out, gives exactly one error, which names it") {
+TEST_CASE("Schema: every required property, left out, gives exactly one error, which names it") {
     const json document = json::parse(everything());
     std::vector<std::string> place;
     int count = 0;
@@ -155,7 +156,7 @@ TEST_CASE("every required property, left out, gives exactly one error, which nam
     CHECK(count > 30);
 }
 
-TEST_CASE("every property, misspelt, gives exactly one error, which has the right name") {
+TEST_CASE("Schema: every property, misspelt, gives exactly one error, which has the right name") {
     const json document = json::parse(everything());
     std::vector<std::string> place;
     int count = 0;
@@ -181,7 +182,7 @@ TEST_CASE("every property, misspelt, gives exactly one error, which has the righ
     CHECK(count > 250);
 }
 
-TEST_CASE("every value of a wrong type gives exactly one error at its place") {
+TEST_CASE("Schema: every value of a wrong type gives exactly one error at its place") {
     const json document = json::parse(everything());
     std::vector<std::string> place;
     each_object(document, place, [&](const std::vector<std::string>& at, const json& schema) {

@@ -37,7 +37,8 @@ std::string_view everything() {
     "d2_mm": 14.7, "D1_mm": 24, "D2_mm": 14.7, "r_t_mm": 14.7, "r_b_mm": 24, "E1_GPa": 117, "E2_GPa": 117,
     "nu1": 0.25, "nu2": 0.25, "kappa": 2, "spring_rates_MN_per_mm": [1.47, 1.46, 1.51, 1.53, 1.40, 1.38, 1.42],
     "T_max_Nm": 72.126, "kappa1_Nm_per_deg2": 0.0015, "theta_max_turns": 20.05, "yield_width_deg": 90,
-    "transition_width_deg": 30, "contact_end_mm2": 0.01
+    "transition_width_deg": 30, "contact_end_mm2": 0.01,
+    "target_torque_Nm": 71, "min_torque_Nm": 68, "max_torque_Nm": 73, "snug_torque_Nm": 18
   },
   "tool": {"kind": "open_end_wrench", "jaw_mm": 18.1, "head_thickness_mm": 9, "jaw_depth_mm": 11, "jaw_tip_mm": 12.5, "head_angle_deg": 15, "handle_length_mm": 180, "model": "wrench_18.glb"}, "more_tools": {"clicker": {"title": {"en": "Torque wrench"}, "kind": "click_torque_wrench", "jaw_mm": 18.1, "handle_length_mm": 400, "click_swing_deg": 5, "accuracy_percent": 3}},
   "flange": {"thickness_mm": 20, "E_GPa": 70, "poisson": 0.33, "interface_stiffness_GPa_per_m": 500},

@@ -19,7 +19,7 @@ constexpr const char* clicker =
 
 }  // namespace
 
-TEST_CASE("a torque wrench beside the usual wrench: it is there, and used when it is chosen") {
+TEST_CASE("Tools: a torque wrench beside the usual wrench: it is there, and used when it is chosen") {
     content::Loaded loaded = content::parse_assembly(with(clicker), "f");
     for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
     content::Assembly& a = loaded.assembly;
@@ -36,7 +36,7 @@ TEST_CASE("a torque wrench beside the usual wrench: it is there, and used when i
     CHECK(a.wrench.click_swing == 0.0);
 }
 
-TEST_CASE("a tool that there is not is named, with the nearest that there is") {
+TEST_CASE("Tools: a tool that there is not is named, with the nearest that there is") {
     content::Loaded loaded = content::parse_assembly(with(clicker), "f");
     REQUIRE(loaded.ok());
     const Status chosen = content::choose_tool(loaded.assembly, "cliker");
@@ -46,7 +46,7 @@ TEST_CASE("a tool that there is not is named, with the nearest that there is") {
     CHECK(loaded.assembly.tool == "wrench");
 }
 
-TEST_CASE("mistakes of a tool are told, each with its place") {
+TEST_CASE("Tools: mistakes of a tool are told, each with its place") {
     const auto one = [](const std::string& text) {
         const std::vector<std::string> all = messages(text);
         REQUIRE(all.size() == 1);
@@ -67,7 +67,8 @@ TEST_CASE("mistakes of a tool are told, each with its place") {
           "/more_tools/wrench: \"wrench\" is what \"tool\" is called; expected another name");
 }
 
-TEST_CASE("every assembly that is shipped has a torque wrench, and a name for each tool in each language") {
+TEST_CASE(
+    "Tools: every assembly that is shipped has a torque wrench, and a name for each tool in each language") {
     for (const char* name : {"zq350", "dn200-pn16", "cover-m8"}) {
         CAPTURE(name);
         content::Loaded loaded = content::load_assembly(name);

@@ -12,7 +12,7 @@ constexpr double fastest_hand = 0.03;  // m in a tick, beyond which the servo wo
 
 }  // namespace
 
-Desk::Desk(play::Course& c, Watch& w) : course(c), watch(w) {
+Desk::Desk(session::Course& c, Watch& w) : course(c), watch(w) {
     player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
     last.device = servo::sample_of(player.hand.pose);
 }
@@ -48,9 +48,9 @@ void Desk::frame(trainer::Wish wish, std::optional<std::size_t> takes_back, bool
             room = hand.room - std::abs(hand.handle - hand.begun_at);
         double leap = glm::distance(before, hand.pose.position);
         // Off a nut that it did not get onto it goes on from where the wrench was held up.
-        if (course.state().touch && hand.wrench)
-            leap = std::min(
-                leap, glm::distance(course.state().touch->god_object.tool.position, hand.pose.position));
+        if (course.state().tool_contact && hand.wrench)
+            leap = std::min(leap, glm::distance(course.state().tool_contact->god_object.tool.position,
+                                                hand.pose.position));
         if (!(leap < fastest_hand))
             watch.trouble(fmt::format("a hand at a mouse leaps by {:.1f} mm, doing {}", 1e3 * leap,
                                       static_cast<int>(hand.doing)));

@@ -1,9 +1,9 @@
-// Somebody competent takes over, from whatever has become of the lesson.
+// A competent trainee takes over and finishes the lesson from its present state.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "game/operators/operator.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tests/dead_ends/desk.hpp"
 
 namespace dead_ends {
@@ -35,7 +35,7 @@ struct Patience {
     double since = 0.0, furthest = 0.0, tightest = 0.0;
     double lasts = patience;  // s
 
-    bool over(const play::Course& course) {
+    bool over(const session::Course& course) {
         const lesson::Step* due = course.lesson().due();
         if (due == nullptr) {  // a mistake in the last step is to be taken back
             if (std::exchange(step, course.lesson().current) != step) since = course.time();
@@ -55,7 +55,7 @@ struct Patience {
         return course.time() - since > lasts;
     }
     // The step anew, then one back, then more.
-    std::size_t back(const play::Course& course, int restarts) {
+    std::size_t back(const session::Course& course, int restarts) {
         since = course.time();
         return std::min<std::size_t>(static_cast<std::size_t>(restarts - 1), course.lesson().current);
     }
@@ -107,17 +107,18 @@ int finish_at_mouse(Desk& desk) {
 }
 
 int finish_at_device(Desk& desk, std::uint64_t seed) {
-    const operators::Profile expert = operators::find_profile("expert").value();
+    const trainees::Profile expert = trainees::find_profile("expert").value();
     const servo::Setup& setup = desk.course.setup();
     Vec3 rest(0.0, 0.3, 0.4);
-    for (const servo::NutPlace& nut : setup.nuts) rest += nut.seat / static_cast<double>(setup.nuts.size());
+    for (const servo::NutGeometry& nut : setup.nuts)
+        rest += nut.seat / static_cast<double>(setup.nuts.size());
     int restarts = 0;
     Patience patient;
     patient.lasts = experts_patience;
     while (!desk.over() && !desk.stuck()) {
         come_to_rest(desk, rest);
         if (restarts > 0) desk.course.go_back(patient.back(desk.course, restarts));
-        operators::Operator trainee(expert, seed + static_cast<std::uint64_t>(restarts), setup);
+        trainees::Operator trainee(expert, seed + static_cast<std::uint64_t>(restarts), setup);
         bool wrench = false;
         while (!desk.over() && !desk.stuck() && !patient.over(desk.course)) {
             const servo::Input input = trainee.act(setup, desk.course.state(), desk.course.lesson());

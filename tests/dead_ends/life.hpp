@@ -1,5 +1,4 @@
-// Somebody who does anything at all to a lesson, and somebody competent who then takes over and has to be
-// able to finish it.
+// The life of a lesson: a random trainee damages it, then a competent one must be able to finish it.
 #pragma once
 
 #include "tests/dead_ends/watch.hpp"
@@ -10,29 +9,29 @@ struct Person {
     std::uint64_t seed = 0;
     std::string assembly = "cover-m8";
     std::string variant;
-    play::CourseOptions course;
-    std::string tool;       // empty: the usual one
-    double sets = 1.0;      // a torque wrench to this share of what is right
+    session::CourseOptions course;
+    std::string tool;       // empty: the default
+    double sets = 1.0;      // the setting of a torque wrench, as a share of the right one
     bool at_mouse = true;   // else at a device: poses and grips
-    double span = 10.0;     // s of doing anything
-    bool rough = false;     // pulls at one nut for long, and hard
-    bool overdoes = false;  // knows how it is done, and not when it is enough
+    double span = 10.0;     // s of random actions
+    bool rough = false;     // pulls long and hard at one nut
+    bool overdoes = false;  // uses the tools correctly, but tightens too far
 };
 
-// Anybody, by their number. The same number is the same person.
+// A random person; the same seed gives the same person.
 Person person(std::uint64_t seed);
 std::string describe(const Person& person);
 
 struct Life {
-    std::vector<std::string> troubles;  // none: all is well
+    std::vector<std::string> troubles;  // empty if the lesson was finished
     double random_time = 0.0, rescue_time = 0.0;
-    int restarts = 0;  // of steps, that the rescue needed
+    int restarts = 0;  // of steps, while finishing
     bool done_by_random = false;
 };
 
 Life live(const Person& person, const content::Assembly& assembly, Met& met);
 
-// The assembly of a person, with a lesson of not more than a few joints.
+// The assembly of a person; its lesson is reduced to a few joints.
 content::Assembly assembly_of(const Person& person);
 
 }  // namespace dead_ends

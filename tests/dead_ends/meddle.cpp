@@ -1,9 +1,9 @@
-// People who do anything. Nothing that they do is meant.
+// Trainees who do random things.
 #include <cmath>
 #include <limits>
 
 #include "engine/base/random.hpp"
-#include "game/operators/mind.hpp"
+#include "game/trainees/trainee_state.hpp"
 #include "tests/dead_ends/desk.hpp"
 
 namespace dead_ends {
@@ -16,7 +16,7 @@ double any_size(Random& random, double least, double most) {
     return least * std::pow(most / least, random.uniform());
 }
 
-// What somebody at a mouse is about: a press on something, for a while.
+// A random action at the mouse: a press on something, until a time.
 struct Whim {
     trainer::Wish wish;
     double until = 0.0;  // s
@@ -26,7 +26,7 @@ struct Whim {
     bool asks = false;
 };
 
-void press_nut(Whim& whim, Random& random, const play::Course& course, bool rough) {
+void press_nut(Whim& whim, Random& random, const session::Course& course, bool rough) {
     const lesson::Lesson& lesson = course.lesson();
     const bool right = random.chance(0.4) && lesson.due() != nullptr;
     whim.wish.nut = right ? lesson.due()->joint : any(random, course.setup().nuts.size());
@@ -40,7 +40,7 @@ void press_nut(Whim& whim, Random& random, const play::Course& course, bool roug
     whim.until += any_size(random, 0.05, rough ? 6.0 : 4.0);
 }
 
-Whim whim_of(Random& random, const play::Course& course, bool rough) {
+Whim whim_of(Random& random, const session::Course& course, bool rough) {
     Whim whim;
     whim.until = course.time();
     whim.press = true;
@@ -65,10 +65,10 @@ Whim whim_of(Random& random, const play::Course& course, bool rough) {
     return whim;
 }
 
-// Somebody at a device.
+// A random action at a device.
 struct Grab {
     servo::Grip grip = servo::Grip::none;
-    Pose about;  // m, what the hand is at
+    Pose about;  // the target of the hand
     std::optional<std::size_t> nut;
     double handle = 0.0, rate = 0.0;  // rad, rad/s
     bool flipped = false;
@@ -78,13 +78,13 @@ struct Grab {
 };
 
 Pose anywhere(Random& random, const servo::Setup& setup) {
-    const servo::NutPlace& nut = setup.nuts[any(random, setup.nuts.size())];
+    const servo::NutGeometry& nut = setup.nuts[any(random, setup.nuts.size())];
     const Vec3 off(random.normal(), random.normal(), random.normal());
     const Vec3 spun(random.normal(), random.normal(), random.normal());
     return {nut.seat + off * any_size(random, 0.003, 0.3), rotation(spun * random.uniform(0.0, 2.0))};
 }
 
-Grab grab_of(Random& random, const play::Course& course, bool rough) {
+Grab grab_of(Random& random, const session::Course& course, bool rough) {
     const servo::Setup& setup = course.setup();
     Grab grab;
     grab.until = course.time() + any_size(random, 0.01, rough ? 5.0 : 3.0);
@@ -106,13 +106,13 @@ Grab grab_of(Random& random, const play::Course& course, bool rough) {
     return grab;
 }
 
-// Where the hand is meant to be, from where it is: not faster than a hand goes, most of the time.
-Pose onward(const Grab& grab, Random& random, const play::Course& course, const Pose& hand, bool leaps) {
+// The next pose of the hand on its way to the target, at the speed of a hand unless it `leaps`.
+Pose onward(const Grab& grab, Random& random, const session::Course& course, const Pose& hand, bool leaps) {
     Pose to = grab.about;
     if (grab.nut) {
-        const servo::NutPlace& nut = course.setup().nuts[*grab.nut];
+        const servo::NutGeometry& nut = course.setup().nuts[*grab.nut];
         to = {servo::nut_centre(nut, course.state().joints[*grab.nut].nut.angle),
-              operators::orientation_of(nut, grab.handle, grab.flipped)};
+              motion::orientation_of(nut, grab.handle, grab.flipped)};
     }
     to.position += grab.noise * Vec3(random.normal(), random.normal(), random.normal());
     if (leaps) return to;
@@ -141,7 +141,7 @@ void meddle_at_mouse(Desk& desk, std::uint64_t seed, double span, bool rough) {
 
 void meddle_at_device(Desk& desk, std::uint64_t seed, double span, bool rough) {
     Random random(seed, 9102);
-    const play::Course& course = desk.course;
+    const session::Course& course = desk.course;
     Grab grab;
     Pose hand = desk.player.hand.pose;
     while (course.time() < span && !desk.over() && !desk.stuck()) {

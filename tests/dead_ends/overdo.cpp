@@ -1,11 +1,11 @@
-// People who know how it is done, and not when it is enough: they break bolts, strip threads and wear corners
-// off, and let go too early in between.
+// Trainees who use the tools correctly but tighten too far: they break bolts, strip threads and round
+// corners, and sometimes let go too early.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/base/random.hpp"
-#include "game/operators/operator.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tests/dead_ends/desk.hpp"
 
 namespace dead_ends {
@@ -25,7 +25,7 @@ struct Venture {
     double peak = 0.0;   // N·m
 };
 
-Venture venture_of(Random& random, const play::Course& course) {
+Venture venture_of(Random& random, const session::Course& course) {
     const lesson::Lesson& lesson = course.lesson();
     const lesson::Step& due = *lesson.due();
     Venture v;
@@ -40,13 +40,13 @@ Venture venture_of(Random& random, const play::Course& course) {
     return v;
 }
 
-bool done(const Venture& v, const play::Course& course) {
+bool done(const Venture& v, const session::Course& course) {
     const joint::JointState& joint = course.state().joints[v.joint];
     return v.peak >= v.goal || joint.condition != joint::Condition::sound || course.time() > v.until;
 }
 
 // Presses, drags as far as there is room, lets go and presses again.
-trainer::Wish wish_of(Venture& v, trainer_test::Player& p, const play::Course& course) {
+trainer::Wish wish_of(Venture& v, trainer_test::Player& p, const session::Course& course) {
     trainer::Wish wish;
     p.waited = std::max(0.0, p.waited - frame_seconds);
     if (!p.held) {
@@ -94,12 +94,12 @@ void overdo_at_mouse(Desk& desk, std::uint64_t seed, double span) {
 
 void overdo_at_device(Desk& desk, std::uint64_t seed, double span) {
     Random random(seed, 9104);
-    operators::Profile strong = operators::find_profile("clumsy").value();
+    trainees::Profile strong = trainees::find_profile("clumsy").value();
     strong.torque_bias = random.uniform(-0.2, 3.0);
     strong.overdoes = 0.4;
     strong.stops_early = 0.2;
     strong.load_rate = 6.0;
-    operators::Operator trainee(strong, seed, desk.course.setup());
+    trainees::Operator trainee(strong, seed, desk.course.setup());
     bool wrench = false;
     while (desk.course.time() < span && !desk.over() && !desk.stuck()) {
         const servo::Input input =

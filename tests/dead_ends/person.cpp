@@ -40,7 +40,7 @@ Person person(std::uint64_t seed) {
     p.overdoes = random.chance(0.25);
     p.span = p.overdoes ? random.uniform(40.0, 150.0) : random.uniform(2.0, p.rough ? 45.0 : 25.0);
     const bool among = random.chance(p.at_mouse ? among_obstacles : 0.5 * among_obstacles);
-    p.course.obstacles = among ? play::Obstacles::required : play::Obstacles::none;
+    p.course.obstacles = among ? session::Obstacles::required : session::Obstacles::none;
     if (among && !p.at_mouse) p.span = std::min(p.span, longest_in_walls);
     if (random.chance(0.25)) p.tool = "torque_wrench";
     if (random.chance(0.3)) p.sets = random.uniform(0.4, 2.5);
@@ -50,7 +50,7 @@ Person person(std::uint64_t seed) {
 std::string describe(const Person& p) {
     return fmt::format("seed {}: {} {}, {}, {}, {} law, {}, {}{}{}, {:.1f} s", p.seed, p.assembly, p.variant,
                        lesson::name(p.course.mode), lesson::name(p.course.task), joint::name(p.course.law),
-                       p.course.obstacles == play::Obstacles::none ? "no obstacles" : "obstacles",
+                       p.course.obstacles == session::Obstacles::none ? "no obstacles" : "obstacles",
                        p.at_mouse ? "mouse" : "device",
                        p.overdoes ? ", overdoes"
                        : p.rough  ? ", rough"

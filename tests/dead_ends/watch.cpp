@@ -18,7 +18,7 @@ bool finite(const Pose& pose) {
     return finite(pose.position) && std::abs(glm::dot(q, q) - 1.0) < 1e-3;
 }
 
-std::size_t index(hints::Situation s) { return static_cast<std::size_t>(s); }
+std::size_t index(lesson::Situation s) { return static_cast<std::size_t>(s); }
 
 }  // namespace
 
@@ -98,7 +98,7 @@ void Watch::look_at_marks(const servo::Output& output) {
 }
 
 void Watch::look_at_verdicts() {
-    const play::Played played = course_.judged();
+    const session::Played played = course_.judged();
     if (!(played.result.score >= 0.0 && played.result.score <= 100.0)) trouble("no score");
     if (played.result.finished != course_.over()) trouble("finished and not over, or over and not finished");
     for (const lesson::JointResult& joint : played.result.joints) {
@@ -124,14 +124,15 @@ void Watch::frame(const servo::Output& output, bool wrench_in_hand, double room,
     if (++frames_ % 32 == 0) look_at_verdicts();
     const lesson::Lesson& lesson = course_.lesson();
     const servo::State& state = course_.state();
-    hints::Scene scene{lesson, course_.setup(), state.joints, output, state.rounded, wrench_in_hand, room};
-    const hints::Situation now = hints::situation(scene);
+    const lesson::Scene scene{lesson, course_.setup(),
+                              world_.write(state.joints, state.rounded, output, wrench_in_hand, room)};
+    const lesson::Situation now = lesson::situation(scene);
     if (was_ && *was_ != now) ++met_.left.at(index(*was_));
     if (!was_ || *was_ != now) ++met_.reached.at(index(now));
     was_ = now;
-    const std::optional<hints::Situation> before =
+    const std::optional<lesson::Situation> before =
         hints_.shown ? std::optional(hints_.shown->situation) : std::nullopt;
-    const std::optional<hints::Hint>& hint = hints::update(hints_, scene, frame_time, asks);
+    const std::optional<lesson::Hint>& hint = lesson::update(hints_, scene, frame_time, asks);
     if (hint && before != hint->situation) ++met_.said.at(index(hint->situation));
     if (!hint && lesson.mode == lesson::Mode::guided) trouble("nothing is said in a guided lesson");
     if (hint && lesson.mode == lesson::Mode::assessment) trouble("an assessment gives hints");

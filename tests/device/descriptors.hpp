@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/emulate/hid_items.hpp"
+#include "tools/emulate/descriptor_writer.hpp"
 
 namespace bolt::test {
 

@@ -3,10 +3,10 @@
 #include <doctest/doctest.h>
 
 #include "haptics/device/board_request.hpp"
-#include "haptics/device/list.hpp"
+#include "haptics/device/hid_devices.hpp"
 #include "tests/device/descriptors.hpp"
 #include "tools/emulate/puck.hpp"
-#include "tools/emulate/wheel_reports.hpp"
+#include "tools/emulate/wheel_descriptors.hpp"
 
 using namespace bolt;
 using namespace bolt::device;
@@ -24,7 +24,7 @@ ReportDescriptor parsed(const Bytes& bytes) {
 
 }  // namespace
 
-TEST_CASE("the messages of an OpenFFBoard, byte for byte as its firmware reads them") {
+TEST_CASE("Pid: messages for an OpenFFBoard match its firmware byte for byte") {
     auto layout = pid_layout(parsed(emulate::board_descriptor()));
     REQUIRE(layout);
     CHECK(layout->reset.bytes == Bytes{12, 0x08});
@@ -34,7 +34,7 @@ TEST_CASE("the messages of an OpenFFBoard, byte for byte as its firmware reads t
     CHECK(layout->create.kind == ReportKind::feature);
     CHECK(layout->create.bytes == Bytes{17, 1, 0, 0});
     CHECK(layout->loaded.bytes.size() == 5);
-    use_block(*layout, 3);
+    select_block(*layout, 3);
     CHECK(layout->start.bytes == Bytes{10, 3, 1, 1});
     CHECK(layout->stop.bytes == Bytes{10, 3, 3, 0});
     CHECK(layout->free.bytes == Bytes{11, 3});
@@ -43,22 +43,22 @@ TEST_CASE("the messages of an OpenFFBoard, byte for byte as its firmware reads t
     CHECK(layout->set.bytes == Bytes{1, 3, 1, 0xe8, 0x03, 0, 0, 0, 0, 0, 0, 255, 0, 0x01 | 0x04,
                                      static_cast<std::uint8_t>(direction),
                                      static_cast<std::uint8_t>(direction >> 8U), 0, 0});
-    put_share(*layout, 1.0);
+    set_magnitude(*layout, 1.0);
     CHECK(layout->force.bytes == Bytes{5, 3, 0xff, 0x7f});
-    put_share(*layout, -2.0);
+    set_magnitude(*layout, -2.0);
     CHECK(layout->force.bytes == Bytes{5, 3, 0x01, 0x80});
-    put_share(*layout, 0.0);
+    set_magnitude(*layout, 0.0);
     CHECK(layout->force.bytes == Bytes{5, 3, 0, 0});
 
-    CHECK(*loaded_block(*layout, Bytes{18, 7, 1, 0, 0}) == 7);
-    CHECK(!loaded_block(*layout, Bytes{18, 7, 2, 0, 0}));   // full
-    CHECK(!*loaded_block(*layout, Bytes{18, 7, 0, 0, 0}));  // not yet
-    CHECK(!*loaded_block(*layout, Bytes{18, 77, 1, 0, 0}));
-    CHECK(!*loaded_block(*layout, Bytes{18}));
-    CHECK(!*loaded_block(*layout, Bytes{}));
+    CHECK(*parse_block_load(*layout, Bytes{18, 7, 1, 0, 0}) == 7);
+    CHECK(!parse_block_load(*layout, Bytes{18, 7, 2, 0, 0}));   // full
+    CHECK(!*parse_block_load(*layout, Bytes{18, 7, 0, 0, 0}));  // not yet
+    CHECK(!*parse_block_load(*layout, Bytes{18, 77, 1, 0, 0}));
+    CHECK(!*parse_block_load(*layout, Bytes{18}));
+    CHECK(!*parse_block_load(*layout, Bytes{}));
 }
 
-TEST_CASE("a wheel that leaves things out and numbers others otherwise") {
+TEST_CASE("Pid: a wheel with missing reports and other numbering works") {
     auto layout = pid_layout(parsed(emulate::other_wheel_descriptor()));
     REQUIRE(layout);
     CHECK(layout->reset.bytes == Bytes{0x1c, 1});
@@ -67,33 +67,33 @@ TEST_CASE("a wheel that leaves things out and numbers others otherwise") {
     CHECK(layout->create.bytes.empty());
     CHECK(layout->loaded.bytes.empty());
     CHECK(layout->free.bytes.empty());
-    use_block(*layout, 1);
+    select_block(*layout, 1);
     CHECK(layout->set.bytes == Bytes{0x11, 1, 2, 0xe8, 0x03, 100, 0x05, 63, 0});
     CHECK(layout->start.bytes == Bytes{0x1a, 1, 2});
     CHECK(layout->stop.bytes == Bytes{0x1a, 1, 1});
-    put_share(*layout, 0.5);
+    set_magnitude(*layout, 0.5);
     CHECK(layout->force.bytes == Bytes{0x15, 0x88, 0x13});
 }
 
-TEST_CASE("what cannot be pulled at is refused, with the reason") {
+TEST_CASE("Pid: a device without a usable constant force is rejected with the reason") {
     const auto why = [](const Bytes& bytes) {
         const auto layout = pid_layout(parsed(bytes));
         REQUIRE(!layout);
         return layout.error().message();
     };
-    CHECK(why(mouse()).find("no constant force") != std::string::npos);
+    CHECK(why(mouse()).find("no constant-force effect") != std::string::npos);
     Items one_way;
     one_way.page(1).usage(4).begin(1).page(15).usage(0x73).begin(2).id(5);
     one_way.usage(0x70).range(0, 255).fields(1, 8).output(2).end();
-    CHECK(why(one_way.end().out).find("one way only") != std::string::npos);
+    CHECK(why(one_way.end().out).find("one sign only") != std::string::npos);
     Items no_start;
     no_start.page(1).usage(4).begin(1).page(15).usage(0x73).begin(2).id(5);
     no_start.usage(0x70).range(-127, 127).fields(1, 8).output(2).end();
-    CHECK(why(no_start.end().out).find("started and stopped") != std::string::npos);
+    CHECK(why(no_start.end().out).find("start and stop effects") != std::string::npos);
 }
 
-TEST_CASE("an OpenFFBoard's questions and answers") {
-    const auto bytes = board::bytes_of({.command = 9});
+TEST_CASE("BoardRequest: OpenFFBoard queries and replies encode and decode") {
+    const auto bytes = board::encode_message({.command = 9});
     Bytes expected(25);
     expected[0] = 0xa1;
     expected[1] = 1;
@@ -105,32 +105,32 @@ TEST_CASE("an OpenFFBoard's questions and answers") {
     Bytes reply = expected;
     for (std::size_t i = 9; i < 17; ++i) reply[i] = 0xff;
     reply[9] = 0xfe;
-    const auto message = board::message_in(reply);
+    const auto message = board::decode_message(reply);
     REQUIRE(message);
-    CHECK(board::answer_to(board::Command::position, *message) == -2);
-    CHECK(!board::answer_to(board::Command::power, *message));
+    CHECK(board::reply_value(board::Command::position, *message) == -2);
+    CHECK(!board::reply_value(board::Command::power, *message));
     for (const std::size_t spoiled : {1U, 2U, 4U, 6U}) {
         Bytes other = reply;
         other[spoiled] ^= 0x0fU;
-        CHECK(!board::answer_to(board::Command::position, *board::message_in(other)));
+        CHECK(!board::reply_value(board::Command::position, *board::decode_message(other)));
     }
     const board::Message m{board::Type::write, 0xa02, 3, 0x12345678, -5, 0x123456789abcdef0};
-    CHECK(board::message_in(board::bytes_of(m)) == m);
+    CHECK(board::decode_message(board::encode_message(m)) == m);
     reply.pop_back();
-    CHECK(!board::message_in(reply));
-    CHECK(!board::message_in(Bytes{}));
+    CHECK(!board::decode_message(reply));
+    CHECK(!board::decode_message(Bytes{}));
 }
 
-TEST_CASE("which of all HID devices are for hands") {
+TEST_CASE("HidDevices: kind_of recognises pucks, boards and wheels among all HID devices") {
     CHECK(kind_of({0x1209, 0xffb0, "", ""}, parsed(emulate::board_descriptor())) == HidKind::board);
     CHECK(kind_of({0x1234, 0x5678, "", ""}, parsed(emulate::other_wheel_descriptor())) == HidKind::wheel);
     CHECK(kind_of({0x256f, 0xc62e, "", ""}, parsed(puck_in_one())) == HidKind::puck);
     CHECK(kind_of({0x046d, 0xc077, "", ""}, parsed(mouse())) == HidKind::other);
     CHECK(id_of({0x46d, 0xc626, "SpaceNavigator", ""}) == "046d:c626");
     CHECK(id_of({0x1209, 0xffb0, "OpenFFBoard", "AB12"}) == "1209:ffb0:AB12");
-    CHECK(udev_line({0x46d, 0xc626, "", ""}) ==
+    CHECK(udev_rule({0x46d, 0xc626, "", ""}) ==
           R"(KERNEL=="hidraw*", KERNELS=="*:046D:C626.*", TAG+="uaccess")");
-    const auto gone = opener("0000:0000:nothing")();
+    const auto gone = factory_for("0000:0000:nothing")();
     REQUIRE(!gone);
     CHECK(gone.error().lost);
     CHECK(gone.error().message().find("plugged in") != std::string::npos);

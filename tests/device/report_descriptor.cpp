@@ -22,7 +22,7 @@ ReportDescriptor parsed(const Bytes& bytes) {
 
 }  // namespace
 
-TEST_CASE("a mouse: buttons, padding and two axes, where the bits say") {
+TEST_CASE("ReportDescriptor: a mouse has buttons, padding and two axes at their bits") {
     const ReportDescriptor d = parsed(mouse());
     CHECK(!d.numbered);
     CHECK(d.fields.size() == 5);
@@ -40,7 +40,7 @@ TEST_CASE("a mouse: buttons, padding and two axes, where the bits say") {
     CHECK(find_field(d, ReportKind::input, {1, 0x31}, Usage{1, 5}) == nullptr);
 }
 
-TEST_CASE("pucks that report in three and in one: the same motion reads the same") {
+TEST_CASE("ReportDescriptor: pucks that report in three reports and in one decode the same motion") {
     const auto layout_of = [](const Bytes& bytes) {
         const auto layout = six_axis_layout(parsed(bytes));
         REQUIRE(layout);
@@ -53,33 +53,33 @@ TEST_CASE("pucks that report in three and in one: the same motion reads the same
     const auto low = [](int v) { return static_cast<std::uint8_t>(v & 0xff); };
     const auto high = [](int v) { return static_cast<std::uint8_t>(v >> 8 & 0xff); };
     const int v[6] = {350, -175, 0, 35, -350, 70};
-    CHECK(
-        take_report(three, Bytes{1, low(v[0]), high(v[0]), low(v[1]), high(v[1]), low(v[2]), high(v[2])}, a));
-    CHECK(
-        take_report(three, Bytes{2, low(v[3]), high(v[3]), low(v[4]), high(v[4]), low(v[5]), high(v[5])}, a));
+    CHECK(decode_report(three, Bytes{1, low(v[0]), high(v[0]), low(v[1]), high(v[1]), low(v[2]), high(v[2])},
+                        a));
+    CHECK(decode_report(three, Bytes{2, low(v[3]), high(v[3]), low(v[4]), high(v[4]), low(v[5]), high(v[5])},
+                        a));
     Bytes all{1};
     for (const int x : v) {
         all.push_back(low(x));
         all.push_back(high(x));
     }
-    CHECK(take_report(one, all, b));
+    CHECK(decode_report(one, all, b));
     for (std::size_t i = 0; i < 6; ++i) {
         CHECK(a.share[i] == doctest::Approx(v[i] / 350.0));
         CHECK(a.share[i] == b.share[i]);
     }
-    CHECK(take_report(three, Bytes{3, 2, 0}, a));
+    CHECK(decode_report(three, Bytes{3, 2, 0}, a));
     CHECK(a.buttons == 2U);
-    CHECK(take_report(three, Bytes{3, 1, 0}, a));
+    CHECK(decode_report(three, Bytes{3, 1, 0}, a));
     CHECK(a.buttons == 1U);
     CHECK(a.share[0] == 1.0);  // a report of buttons moves nothing
 
-    CHECK(!take_report(three, Bytes{}, a));
-    CHECK(!take_report(three, Bytes{1, 2}, a));
-    CHECK(!take_report(three, Bytes{77, 1, 2, 3, 4, 5, 6}, a));
+    CHECK(!decode_report(three, Bytes{}, a));
+    CHECK(!decode_report(three, Bytes{1, 2}, a));
+    CHECK(!decode_report(three, Bytes{77, 1, 2, 3, 4, 5, 6}, a));
     CHECK(!six_axis_layout(parsed(mouse())));
 }
 
-TEST_CASE("values of any place and width go in and come out, and touch no other bit") {
+TEST_CASE("ReportDescriptor: values of any offset and width round-trip and change no other bit") {
     Random random(4);
     for (int trial = 0; trial < 5000; ++trial) {
         Field f;
@@ -93,18 +93,18 @@ TEST_CASE("values of any place and width go in and come out, and touch no other 
         const Bytes before = report;
         const auto value =
             f.low + static_cast<std::int64_t>(random.bits() % static_cast<std::uint64_t>(f.high - f.low + 1));
-        REQUIRE(put_value(f, value, report));
+        REQUIRE(write_value(f, value, report));
         CHECK(value_of(f, report) == value);
         for (std::uint32_t bit = 0; bit < 128; ++bit) {
             if (bit >= f.bit && bit < f.bit + f.bits) continue;
             CHECK((report[bit / 8] >> (bit % 8) & 1) == (before[bit / 8] >> (bit % 8) & 1));
         }
-        CHECK(put_value(f, std::int64_t{1} << 40, report));
+        CHECK(write_value(f, std::int64_t{1} << 40, report));
         CHECK(value_of(f, report) == f.high);
     }
 }
 
-TEST_CASE("a greatest value of 255 in one byte is no -1, and a null state is no value") {
+TEST_CASE("ReportDescriptor: a maximum of 255 in one byte is unsigned, and a null state has no value") {
     Items d;
     d.page(1).usage(5).begin(1).usage(0x30).item(0x14, 0, 1).item(0x24, 0xff, 1).fields(1, 8).input(0x42);
     const ReportDescriptor made = parsed(d.end().out);
@@ -116,7 +116,7 @@ TEST_CASE("a greatest value of 255 in one byte is no -1, and a null state is no 
     CHECK(!value_of(with_hat.fields.front(), Bytes{8}));
 }
 
-TEST_CASE("what is wider than a value keeps its place, and what an array chooses from is found") {
+TEST_CASE("ReportDescriptor: fields wider than a value keep their offset, and array usages are found") {
     Items d;
     d.page(0xff00).usage(0).begin(1).id(0xa1).usage(1).range(0, 4).fields(1, 8).output(2);
     d.usage(5).fields(1, 64).output(2).usage(6).fields(1, 16).output(2).end();
@@ -130,19 +130,19 @@ TEST_CASE("what is wider than a value keeps its place, and what an array chooses
     CHECK(behind->bit == 72);
     CHECK(report_size(made, ReportKind::output, 0xa1) == 11);
 
-    const auto enable = find_choice(made, ReportKind::output, {0xf, 0x97});
+    const auto enable = find_selector(made, ReportKind::output, {0xf, 0x97});
     REQUIRE(enable);
     CHECK(enable->value == 4);
-    CHECK(!find_choice(made, ReportKind::output, {0xf, 0x99}));
-    CHECK(!find_choice(made, ReportKind::feature, {0xf, 0x97}));
-    CHECK(!find_choice(made, ReportKind::output, {0xf, 0x97}, Usage{0xf, 0x77}));
-    const auto stop = find_choice(made, ReportKind::output, {0xf, 0x7b});
+    CHECK(!find_selector(made, ReportKind::output, {0xf, 0x99}));
+    CHECK(!find_selector(made, ReportKind::feature, {0xf, 0x97}));
+    CHECK(!find_selector(made, ReportKind::output, {0xf, 0x97}, Usage{0xf, 0x77}));
+    const auto stop = find_selector(made, ReportKind::output, {0xf, 0x7b});
     REQUIRE(stop);
     CHECK(stop->field.bit == 9);
     CHECK(stop->value == 1);
 }
 
-TEST_CASE("what is wrong with a descriptor is said, and where") {
+TEST_CASE("ReportDescriptor: errors name the problem and the byte") {
     const auto message = [](const Bytes& bytes) {
         const auto d = parse_report_descriptor(bytes);
         REQUIRE(!d);

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "tools/emulate/hid_line.hpp"
+#include "tools/emulate/emulated_transport.hpp"
 #include "tools/emulate/puck.hpp"
 
 using namespace bolt;
@@ -13,17 +13,17 @@ using namespace bolt::device;
 namespace {
 
 struct Bench {
-    explicit Bench(const emulate::PuckDesign& design = {}) : puck(design) {
+    explicit Bench(const emulate::PuckOptions& design = {}) : puck(design) {
         plug.device = &puck;
         const auto descriptor = parse_report_descriptor(puck.design().descriptor);
         REQUIRE(descriptor);
-        auto made = make_space_mouse(std::make_unique<emulate::HidLine>(plug), *descriptor, "Puck", "1:2",
-                                     feel, [this] { return plug.time; });
+        auto made = make_space_mouse(std::make_unique<emulate::EmulatedTransport>(plug), *descriptor, "Puck",
+                                     "1:2", feel, [this] { return plug.time; });
         REQUIRE(made);
         device = std::move(*made);
     }
-    std::optional<Sample> read(double patience = 0.01) {
-        const auto sample = device->read(patience);
+    std::optional<Sample> read(double timeout = 0.01) {
+        const auto sample = device->read(timeout);
         REQUIRE(sample);
         return *sample;
     }
@@ -37,14 +37,14 @@ struct Bench {
     }
 
     emulate::Puck puck;
-    emulate::Plug plug;
-    PuckFeel feel;
+    emulate::EmulatedLink plug;
+    PuckResponse feel;
     std::unique_ptr<Device> device;
 };
 
 }  // namespace
 
-TEST_CASE("a puck's pushes and turns are speeds in the device's frame, whichever reports it sends") {
+TEST_CASE("SpaceMouse: deflection becomes velocity in the device frame, for every report layout") {
     for (const bool in_one : {true, false}) {
         Bench b({.in_one = in_one});
         CHECK(b.device->describe().sensing == Sensing::rate);
@@ -66,16 +66,16 @@ TEST_CASE("a puck's pushes and turns are speeds in the device's frame, whichever
     }
 }
 
-TEST_CASE("speed rises from nothing without a step, the more the further it is pushed") {
-    const PuckFeel feel;
+TEST_CASE("SpaceMouse: velocity rises continuously from zero and faster than linearly") {
+    const PuckResponse feel;
     double last = -1.0;
     for (double share = 0.0; share <= 1.0; share += 1.0 / 350.0) {
         SixAxisState state;
         state.share[0] = share;
         const double v = rates_of(state, feel).velocity.x;
         CHECK(v - std::max(last, 0.0) < 0.01 * feel.speed);
-        if (share > feel.dead + 0.01) CHECK(v > last);
-        if (share < feel.dead) CHECK(v == 0.0);
+        if (share > feel.dead_zone + 0.01) CHECK(v > last);
+        if (share < feel.dead_zone) CHECK(v == 0.0);
         state.share[0] = -share;
         CHECK(rates_of(state, feel).velocity.x == -v);
         last = v;
@@ -83,8 +83,8 @@ TEST_CASE("speed rises from nothing without a step, the more the further it is p
 }
 
 TEST_CASE(
-    "let go it stands still at once, fallen silent while pushed after its silence, and unplugged is an "
-    "error") {
+    "SpaceMouse: released it stops at once, silent while deflected it stops after the timeout, unplugged it "
+    "is lost") {
     Bench b;
     b.puck.share[0] = 1.0;
     CHECK(b.after(0.05).velocity.x == b.feel.speed);
@@ -112,10 +112,10 @@ TEST_CASE(
     CHECK(gone.error().lost);
 }
 
-TEST_CASE("a reader that is late gets what is now, not what was") {
+TEST_CASE("SpaceMouse: a late reader gets the latest state") {
     Bench b;
     struct Backlog : emulate::Puck {
-        std::vector<emulate::Bytes> go_on(double) override { return std::exchange(waiting, {}); }
+        std::vector<emulate::Bytes> advance(double) override { return std::exchange(waiting, {}); }
         std::vector<emulate::Bytes> waiting;
     } late;
     for (int i = 0; i <= 40; ++i)
@@ -130,7 +130,7 @@ TEST_CASE("a reader that is late gets what is now, not what was") {
     CHECK(late.waiting.empty());
 }
 
-TEST_CASE("reports that are cut off, strange or spoiled never make it faster than it can be") {
+TEST_CASE("SpaceMouse: truncated, foreign or corrupt reports never exceed the top speed") {
     Bench b({.faults = {.cut = 0.2, .strange = 0.2, .changed = 0.3, .seed = 3}});
     Random random(5);
     int moved = 0;

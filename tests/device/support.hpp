@@ -39,9 +39,9 @@ class Obedient final : public device::Device {
 
     [[nodiscard]] const device::Description& describe() const override { return state_->description; }
 
-    Result<std::optional<device::Sample>> read(double patience) override {
+    Result<std::optional<device::Sample>> read(double timeout) override {
         if (state_->fails_reading) return lost();
-        timer_.wait(std::min(patience, 1e-3));
+        timer_.wait(std::min(timeout, 1e-3));
         device::Sample sample;
         sample.time = timer_.now();
         return sample;
@@ -67,7 +67,7 @@ class Obedient final : public device::Device {
     device::Timer timer_;
 };
 
-inline device::Open opens(std::shared_ptr<Written> state, device::Timer timer) {
+inline device::DeviceFactory opens(std::shared_ptr<Written> state, device::Timer timer) {
     return [state = std::move(state), timer = std::move(timer)]() -> Result<std::unique_ptr<device::Device>> {
         return std::make_unique<Obedient>(state, timer);
     };

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <regex>
 
-#include "haptics/device/list.hpp"
+#include "haptics/device/hid_devices.hpp"
 
 using namespace bolt;
 using namespace bolt::device;
@@ -31,7 +31,7 @@ bool any_gives(const std::string& kernel_name) {
 
 }  // namespace
 
-TEST_CASE("the udev rule gives pucks and OpenFFBoards to who sits there, and no keyboard") {
+TEST_CASE("Udev: the shipped rule covers pucks and OpenFFBoards and no keyboard") {
     CHECK(rules.filename() < "73-seat-late.rules");
     for (const char* ours :
          {"0003:256F:C62E.0001", "0003:256F:C652.00AF", "0005:256F:C63A.0002", "0003:046D:C626.0001",
@@ -42,8 +42,8 @@ TEST_CASE("the udev rule gives pucks and OpenFFBoards to who sits there, and no 
         CHECK_MESSAGE(!any_gives(others), others);
 }
 
-TEST_CASE("the line that is told for another wheel is a rule for it alone") {
-    const std::string line = udev_line({0x0eb7, 0x0e03, "Some wheel", ""});
+TEST_CASE("Udev: udev_rule() for another wheel matches that wheel only") {
+    const std::string line = udev_rule({0x0eb7, 0x0e03, "Some wheel", ""});
     CHECK(gives(line, "0003:0EB7:0E03.0007"));
     CHECK(!gives(line, "0003:0EB7:0E04.0007"));
 }

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "haptics/device/wheel.hpp"
-#include "tests/device/promises.hpp"
-#include "tools/emulate/hid_line.hpp"
+#include "tests/device/driver_contract.hpp"
+#include "tools/emulate/emulated_transport.hpp"
 
 using namespace bolt;
 using namespace bolt::device;
@@ -15,7 +15,8 @@ using namespace bolt::test;
 namespace {
 
 struct Bench {
-    explicit Bench(const emulate::WheelDesign& design, const Rig& rig_ = {}) : rig(rig_), wheel(design) {
+    explicit Bench(const emulate::WheelOptions& design, const WheelConfig& rig_ = {})
+        : rig(rig_), wheel(design) {
         plug.device = &wheel;
         if (!design.board) rig.range = to_radians(design.degrees);
         rig.full_torque = design.full_torque;
@@ -26,7 +27,7 @@ struct Bench {
         const auto descriptor = parse_report_descriptor(wheel.design().descriptor);
         REQUIRE_MESSAGE(descriptor, (descriptor ? "" : descriptor.error().message()));
         const auto make = wheel.design().vendor == 0x1209 ? make_open_ffboard : make_wheel;
-        return make(std::make_unique<emulate::HidLine>(plug), *descriptor, "Wheel", "1:2", rig,
+        return make(std::make_unique<emulate::EmulatedTransport>(plug), *descriptor, "Wheel", "1:2", rig,
                     [this] { return plug.time; });
     }
     // A loop as an I/O thread has it.
@@ -41,24 +42,23 @@ struct Bench {
         }
     }
 
-    Rig rig;
+    WheelConfig rig;
     emulate::Wheel wheel;
-    emulate::Plug plug;
+    emulate::EmulatedLink plug;
     Result<std::unique_ptr<Device>> opened = fail(ErrorCode::failed, "not opened");
     std::unique_ptr<Device> device;
     Sample last;
     int samples = 0;
 };
 
-emulate::WheelDesign design_of(bool board) { return {.board = board, .power = board ? 0.5 : 1.0}; }
+emulate::WheelOptions design_of(bool board) { return {.board = board, .power = board ? 0.5 : 1.0}; }
 
 }  // namespace
 
-TEST_CASE(
-    "the torque that is asked for is the torque that the motor gives, either way, no more than described") {
+TEST_CASE("Wheel: the motor renders the commanded torque in both directions, up to the described limit") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        Bench b(design_of(board), {.most_torque = 3.0});
+        Bench b(design_of(board), {.max_torque = 3.0});
         REQUIRE_MESSAGE(b.opened, (b.opened ? "" : b.opened.error().message()));
         CHECK(b.device->describe().limits.torque == doctest::Approx(3.0));
         CHECK(b.device->describe().limits.force == 0.0);
@@ -79,11 +79,11 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a motor that is stronger than the rig says pulls more, a weaker one less: the default takes the "
+    "Wheel: a motor stronger than configured pulls more and a weaker one less; the default assumes the "
     "strongest") {
     Bench b({.full_torque = 10.0, .power = 1.0});
     b.device.reset();
-    b.rig.full_torque = Rig{}.full_torque;
+    b.rig.full_torque = WheelConfig{}.full_torque;
     auto made = b.open();
     REQUIRE(made);
     b.device = std::move(*made);
@@ -92,7 +92,7 @@ TEST_CASE(
     CHECK(b.wheel.torque() < 1.0);
 }
 
-TEST_CASE("a hand turns the wheel and the angle is told; a torque turns it too") {
+TEST_CASE("Wheel: the angle follows the hand and the torque") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
         Bench b(design_of(board));
@@ -111,10 +111,10 @@ TEST_CASE("a hand turns the wheel and the angle is told; a torque turns it too")
     }
 }
 
-TEST_CASE("a spring made of torques over the line holds the wheel still") {
+TEST_CASE("Wheel: a spring rendered through the driver holds the wheel still") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        Bench b(design_of(board), {.most_torque = 4.0});
+        Bench b(design_of(board), {.max_torque = 4.0});
         REQUIRE(b.opened);
         b.wheel.hand_stiffness = 5.0;
         b.wheel.hand = 0.8;
@@ -126,12 +126,12 @@ TEST_CASE("a spring made of torques over the line holds the wheel still") {
     }
 }
 
-TEST_CASE("the stiffness that is described is rendered without trembling, by a wheel that hardly damps") {
+TEST_CASE("Wheel: the described stiffness is stable on a wheel with little damping") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        emulate::WheelDesign design = design_of(board);
+        emulate::WheelOptions design = design_of(board);
         design.damping = 0.1;
-        Bench b(design, {.most_torque = 5.0});
+        Bench b(design, {.max_torque = 5.0});
         REQUIRE(b.opened);
         b.plug.write_takes = 0.001;  // so long it is on the bus
         const double stiffness = b.device->describe().limits.torsion;
@@ -150,7 +150,7 @@ TEST_CASE("the stiffness that is described is rendered without trembling, by a w
     }
 }
 
-TEST_CASE("an OpenFFBoard turns without end where its counts are known, and lives while it rests") {
+TEST_CASE("Wheel: an OpenFFBoard with known counts turns without limit and is alive at rest") {
     Bench b({}, {.counts_per_turn = 4000.0});
     REQUIRE(b.opened);
     b.wheel.hand_stiffness = 50.0;
@@ -166,9 +166,9 @@ TEST_CASE("an OpenFFBoard turns without end where its counts are known, and live
     Bench by_range({});
     by_range.run(1.0, [] { return 0.0; });
     CHECK(by_range.samples > 150);
-    const std::uint64_t heard = by_range.wheel.heard();
+    const std::uint64_t heard = by_range.wheel.reports_received();
     by_range.run(1.0, [] { return 0.0; });
-    CHECK(by_range.wheel.heard() - heard < 300);
+    CHECK(by_range.wheel.reports_received() - heard < 300);
     by_range.wheel.stalled = true;
     by_range.run(0.1, [] { return 0.0; });
     by_range.samples = 0;
@@ -176,7 +176,7 @@ TEST_CASE("an OpenFFBoard turns without end where its counts are known, and live
     CHECK(by_range.samples == 0);
 }
 
-TEST_CASE("a wheel that rests is believed for a while, one that is dead is not") {
+TEST_CASE("Wheel: silence counts as rest for a while, then as a loss") {
     Bench b(design_of(false));
     b.run(0.2, [] { return 0.0; });
     CHECK(b.samples > 50);
@@ -186,10 +186,10 @@ TEST_CASE("a wheel that rests is believed for a while, one that is dead is not")
     CHECK(b.samples == 0);
 }
 
-TEST_CASE("a device that lets a force die is told again; closed it is left without one") {
+TEST_CASE("Wheel: a force that the device drops is refreshed; closing releases it") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        emulate::WheelDesign design = design_of(board);
+        emulate::WheelOptions design = design_of(board);
         design.effect_life = 0.6;
         Bench b(design);
         REQUIRE(b.opened);
@@ -204,15 +204,15 @@ TEST_CASE("a device that lets a force die is told again; closed it is left witho
     }
 }
 
-TEST_CASE("a spring of the wheel's own is stopped: in our hands it pulls nowhere") {
+TEST_CASE("Wheel: the device's own centring spring is stopped") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        emulate::WheelDesign design = design_of(board);
+        emulate::WheelOptions design = design_of(board);
         design.own_spring = 3.0;
         emulate::Wheel alone(design);
         alone.hand = 1.0;
         alone.hand_stiffness = 10.0;
-        for (double t = 0.0; t < 3.0; t += 0.001) alone.go_on(t);
+        for (double t = 0.0; t < 3.0; t += 0.001) alone.advance(t);
         CHECK(alone.angle() < 0.8);
         Bench b(design);
         REQUIRE(b.opened);
@@ -223,8 +223,7 @@ TEST_CASE("a spring of the wheel's own is stopped: in our hands it pulls nowhere
     }
 }
 
-TEST_CASE(
-    "a force outlives a program that was killed by a second at most, and comes back when the program does") {
+TEST_CASE("Wheel: a force outlives a killed program by one second at most, and returns with the program") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
         Bench b(design_of(board));
@@ -232,22 +231,22 @@ TEST_CASE(
         b.wheel.hand_stiffness = 30.0;
         b.run(2.0, [] { return 1.0; });
         b.plug.time += 1.01;
-        b.wheel.go_on(b.plug.time);
+        b.wheel.advance(b.plug.time);
         CHECK(b.wheel.torque() == 0.0);
         b.run(0.01, [] { return 1.0; });
         CHECK(b.wheel.torque() == doctest::Approx(1.0).epsilon(0.002));
     }
 }
 
-TEST_CASE("what is not there or does not answer is an error in words, and unplugged is lost") {
+TEST_CASE("Wheel: a missing or mute device is a clear error, and an unplugged one is lost") {
     {
         emulate::Wheel dead;
         dead.stalled = true;
-        emulate::Plug plug{.device = &dead};
+        emulate::EmulatedLink plug{.device = &dead};
         const auto descriptor = parse_report_descriptor(dead.design().descriptor);
         REQUIRE(descriptor);
-        const auto made = make_open_ffboard(std::make_unique<emulate::HidLine>(plug), *descriptor, "Board",
-                                            "1:2", {}, [&] { return plug.time; });
+        const auto made = make_open_ffboard(std::make_unique<emulate::EmulatedTransport>(plug), *descriptor,
+                                            "Board", "1:2", {}, [&] { return plug.time; });
         REQUIRE(!made);
         CHECK(made.error().message().find("does not say how far") != std::string::npos);
         CHECK(plug.time < 1.0);
@@ -260,7 +259,7 @@ TEST_CASE("what is not there or does not answer is an error in words, and unplug
     CHECK(!b.device->write({.torque = {0, 0, 1}}));
 }
 
-TEST_CASE("spoiled reports never make a wheel jump further than its stops, and it goes on afterwards") {
+TEST_CASE("Wheel: corrupt reports never move the angle beyond the stops, and reading continues") {
     Bench b({.faults = {.cut = 0.1, .strange = 0.1, .changed = 0.1, .seed = 9}});
     REQUIRE(b.opened);
     for (int i = 0; i < 2000; ++i) {
@@ -277,7 +276,7 @@ TEST_CASE("spoiled reports never make a wheel jump further than its stops, and i
     CHECK(counts.samples > 1000);
 }
 
-TEST_CASE("wheels keep what every driver has to keep, one without power too") {
+TEST_CASE("Wheel: wheels keep the driver contract, also without power") {
     for (const bool board : {true, false})
         for (const double power : {0.5, 0.0}) {
             if (!board && power == 0.0) continue;
@@ -285,17 +284,17 @@ TEST_CASE("wheels keep what every driver has to keep, one without power too") {
             REQUIRE(b.opened);
             b.device.reset();
             CHECK(b.plug.time < 1.0);
-            const Open open = [&]() -> Result<std::unique_ptr<Device>> {
+            const DeviceFactory open = [&]() -> Result<std::unique_ptr<Device>> {
                 if (b.plug.pulled) return fail(ErrorCode::no_device, "gone", "a wheel that is plugged in");
                 return b.open();
             };
             b.wheel.hand_stiffness = 10.0;
-            keeps_promises(open, [&] { b.wheel.hand += 0.01; });
-            tells_that_it_is_gone(open, [&] { b.plug.pulled = true; });
+            check_driver_contract(open, [&] { b.wheel.hand += 0.01; });
+            check_unplugged(open, [&] { b.plug.pulled = true; });
         }
 }
 
-TEST_CASE("turned round in the rig it pulls the other way and is told the same angle") {
+TEST_CASE("Wheel: a reversed configuration reverses the torque and keeps the angle") {
     Bench b({.power = 1.0}, {.reversed = true});
     b.run(0.01, [] { return 1.0; });
     CHECK(b.wheel.torque() == doctest::Approx(-1.0).epsilon(0.01));

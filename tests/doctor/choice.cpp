@@ -3,14 +3,14 @@
 #include <doctest/doctest.h>
 
 using namespace bolt;
-using namespace bolt::station;
+using namespace bolt::station_setup;
 using device::HidKind;
-using device::Listed;
+using device::ListedDevice;
 
 namespace {
 
-Listed one(const std::string& id, HidKind kind, const char* trouble = nullptr) {
-    Listed l{"/dev/hidraw0", id, "a " + id, kind, std::nullopt};
+ListedDevice one(const std::string& id, HidKind kind, const char* trouble = nullptr) {
+    ListedDevice l{"/dev/hidraw0", id, "a " + id, kind, std::nullopt};
     if (trouble != nullptr) {
         l.trouble.emplace();
         l.trouble->code = ErrorCode::no_device;
@@ -19,9 +19,9 @@ Listed one(const std::string& id, HidKind kind, const char* trouble = nullptr) {
     return l;
 }
 
-const std::vector<Listed> shelf{one("256f:c62e", HidKind::puck, "may not be opened"),
-                                one("046d:c626", HidKind::puck), one("1234:5678", HidKind::wheel),
-                                one("1209:ffb0", HidKind::board), one("0000:0001", HidKind::other)};
+const std::vector<ListedDevice> shelf{one("256f:c62e", HidKind::puck, "may not be opened"),
+                                      one("046d:c626", HidKind::puck), one("1234:5678", HidKind::wheel),
+                                      one("1209:ffb0", HidKind::board), one("0000:0001", HidKind::other)};
 
 Result<Choice> chosen(const std::vector<std::string>& ids) { return choose(shelf, ids); }
 
@@ -32,7 +32,7 @@ std::string wrong(const std::vector<std::string>& ids) {
 
 }  // namespace
 
-TEST_CASE("a puck moves the tool, a wheel or a board turns the wrench, in whichever order they are named") {
+TEST_CASE("Selection: a puck is the mover and a wheel or board the wheel, in any order") {
     CHECK(!chosen({})->mover);
     for (const auto& ids : {std::vector<std::string>{"046d:c626", "1209:ffb0"}, {"1209:ffb0", "046d:c626"}}) {
         const Result<Choice> both = chosen(ids);
@@ -45,7 +45,7 @@ TEST_CASE("a puck moves the tool, a wheel or a board turns the wrench, in whiche
     CHECK(!chosen({"1234:5678"})->mover);
 }
 
-TEST_CASE("what is not there, cannot be used or is for the same is told, with what would help") {
+TEST_CASE("Selection: missing, unusable and duplicate devices are errors that name the remedy") {
     CHECK(wrong({"1209:ffb1"}).find("did you mean 1209:ffb0?") != std::string::npos);
     CHECK(wrong({"dead:beef"}).find("boltwright devices") != std::string::npos);
     CHECK(chosen({"dead:beef"}).error().code == ErrorCode::no_device);
@@ -55,7 +55,7 @@ TEST_CASE("what is not there, cannot be used or is for the same is told, with wh
     CHECK(chosen({"1209:ffb0", "1209:ffb0"}).error().code == ErrorCode::usage);
 }
 
-TEST_CASE("without a name it is the first of each kind that can be used") {
+TEST_CASE("Selection: without ids the first usable device of each role is taken") {
     CHECK(ids_of(choose_any(shelf)) == std::vector<std::string>{"046d:c626", "1234:5678"});
     CHECK(ids_of(choose_any({})).empty());
     CHECK(ids_of(choose_any(std::span(shelf).first(1))).empty());

@@ -7,14 +7,15 @@
 
 #include "content/format/load.hpp"
 #include "engine/base/file.hpp"
-#include "haptics/device/puck.hpp"
-#include "haptics/hand/closing.hpp"
+#include "haptics/device/virtual_puck.hpp"
+#include "haptics/hand/closed_hand.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/emulate/glove_line.hpp"
+#include "tools/emulate/serial_glove.hpp"
 
 using namespace bolt;
 using namespace bolt::station;
+using namespace bolt::station_setup;
 using test::Folder;
 
 namespace {
@@ -30,22 +31,21 @@ std::string wrong(const content::Assembly& what, const Wanted& wanted) {
     return planned ? "" : planned.error().message();
 }
 
-content::GloveCalibration calibration(glove::Hand hand, std::size_t sensors) {
+content::GloveCalibration calibration(hand::Side hand, std::size_t sensors) {
     content::GloveCalibration c;
     c.trainee = "Ada";
     c.hand = hand;
     c.sensors = sensors;
     c.date = "2026-11-22";
     c.quality = 0.9;
-    for (const glove::Sensor sensor : glove::sensors_of(sensors))
-        c.calibration.lines[glove::index(sensor)] = glove::Line{0.0125, 40.0};
+    for (const hand::Sensor sensor : hand::sensors_of(sensors))
+        c.calibration.fits[hand::index(sensor)] = hand::LinearFit{0.0125, 40.0};
     return c;
 }
 
 }  // namespace
 
-TEST_CASE(
-    "every assembly that is shipped: the wrench begins on the nut, holds it, and stays where it is put") {
+TEST_CASE("Plan: in every shipped assembly the wrench begins on the nut, holds it and stays in place") {
     for (const std::string name : {"cover-m8", "dn200-pn16", "zq350"})
         for (const bool tight : {false, true}) {
             CAPTURE(name);
@@ -59,7 +59,7 @@ TEST_CASE(
             const servo::Setup setup = planned->plan.setup({}, 1e-3);
             Result<servo::State> state = planned->plan.state(setup);
             REQUIRE(state);
-            CHECK(state->touch.has_value());
+            CHECK(state->tool_contact.has_value());
             servo::Input input;
             input.device = servo::sample_of(planned->plan.home);
             input.enabled = true;
@@ -73,7 +73,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("a plan without obstacles, on another nut") {
+TEST_CASE("Plan: without obstacles, and on another nut") {
     const content::Assembly what = assembly("cover-m8");
     Wanted wanted;
     wanted.obstacles = false;
@@ -92,63 +92,63 @@ TEST_CASE("a plan without obstacles, on another nut") {
     CHECK(servo::tick(setup, *state, input).joint == 2);
 }
 
-TEST_CASE("a plan can be started: with no device chosen, what stands in for it moves the tool") {
+TEST_CASE("Plan: it can be started; without a selected device the substitute moves the tool") {
     const content::Assembly what = assembly("cover-m8");
-    device::Puck mouse({}, device::steady_timer());
+    device::VirtualPuck mouse({}, device::steady_timer());
     Wanted wanted;
     wanted.otherwise = mouse.open();
     Result<Planned> planned = make_plan(what, wanted);
     REQUIRE(planned);
-    planned->plan.line.priority = planned->plan.servo.priority = 0;
+    planned->plan.device_threads.priority = planned->plan.servo.priority = 0;
     planned->plan.servo.lock_memory = false;
-    planned->plan.patience = 60.0;
+    planned->plan.open_timeout = 60.0;
     Result<Station> station = Station::start(std::move(planned->plan));
     REQUIRE_MESSAGE(station, (station ? "" : station.error().message()));
-    Wishes wishes;
-    wishes.grip = servo::Grip::wrench;
-    wishes.held = true;
-    station->wish(wishes);
-    REQUIRE(test::eventually([&] { return station->newest().output.joint == 0; }));
-    REQUIRE(test::eventually([&] { return station->passed().mover.samples > 10; }));
-    CHECK(station->mover()->description->name == "mouse and keyboard");
-    CHECK(station->wheel() == nullptr);
-    CHECK(station->gloved() == nullptr);
+    StationControls controls;
+    controls.grip = servo::Grip::wrench;
+    controls.dead_man = true;
+    station->set_controls(controls);
+    REQUIRE(test::eventually([&] { return station->latest_tick().output.joint == 0; }));
+    REQUIRE(test::eventually([&] { return station->link_stats().mover.samples > 10; }));
+    CHECK(station->mover_report()->description->name == "mouse and keyboard");
+    CHECK(station->wheel_report() == nullptr);
+    CHECK(station->glove_report() == nullptr);
 }
 
-TEST_CASE("what is wrong with a plan is said before anything is opened") {
+TEST_CASE("Plan: errors are reported before a device is opened") {
     const content::Assembly what = assembly("cover-m8");
     CHECK(wrong(what, {.devices = {"256f:0000"}}).find("boltwright devices") != std::string::npos);
     const Folder folder;
     const auto rig = folder / "rig.json";
     REQUIRE(write_file(rig, "{\"format\": \"boltwright rig 1\", \"most_torque_Nm\": 400}"));
     CHECK(wrong(what, {.rig = rig}).find("rig.json:1:") != std::string::npos);
-    CHECK(wrong(what, {.glove = "/dev/null"}).find("no serial port") != std::string::npos);
+    CHECK(wrong(what, {.glove = "/dev/null"}).find("not a serial port") != std::string::npos);
     CHECK(wrong(what, {.glove = folder / "none"}).find("adapter plugged in?") != std::string::npos);
     content::Assembly bare = assembly("cover-m8");
     bare.wrench.model.clear();
-    CHECK(!hand_plan(bare, calibration(glove::Hand::right, 22)));
+    CHECK(!hand_plan(bare, calibration(hand::Side::right, 22)));
 }
 
-TEST_CASE("a glove's hand is the trainee's whose calibration is kept, of that hand and that many sensors") {
+TEST_CASE("Wearer: the calibration must match the trainee, the side and the number of sensors") {
     const content::Assembly what = assembly("cover-m8");
     const Folder folder;
-    auto line = emulate::GloveLine::start({.sensors = 22, .hand = glove::Hand::left});
+    auto line = emulate::SerialGlove::start({.sensors = 22, .hand = hand::Side::left});
     REQUIRE(line);
     Wanted wanted;
     wanted.glove = line->port();
     CHECK(!make_plan(what, wanted)->plan.hand);
     wanted.trainee = "Ada";
     wanted.calibrations = folder.path();
-    const auto keep = [&](glove::Hand hand, std::size_t sensors) {
+    const auto keep = [&](hand::Side hand, std::size_t sensors) {
         REQUIRE(content::save_glove_calibration(content::glove_calibration_path(folder.path(), "Ada", hand),
                                                 calibration(hand, sensors)));
     };
-    keep(glove::Hand::right, 22);
+    keep(hand::Side::right, 22);
     CHECK(wrong(what, wanted).find("no calibration of Ada's left hand") != std::string::npos);
     CHECK(wrong(what, wanted).find("boltwright glove calibrate --trainee \"Ada\"") != std::string::npos);
-    keep(glove::Hand::left, 18);
+    keep(hand::Side::left, 18);
     CHECK(wrong(what, wanted).find("with 18 sensors, and this one has 22") != std::string::npos);
-    keep(glove::Hand::left, 22);
+    keep(hand::Side::left, 22);
     const Result<Planned> planned = make_plan(what, wanted);
     REQUIRE_MESSAGE(planned, (planned ? "" : planned.error().message()));
     REQUIRE(planned->plan.hand);
@@ -157,23 +157,24 @@ TEST_CASE("a glove's hand is the trainee's whose calibration is kept, of that ha
     CHECK(planned->glove == line->port());
 }
 
-TEST_CASE("either hand takes every wrench that is shipped where it lies in it, the thumb towards the jaw") {
+TEST_CASE("Wearer: either hand grasps every shipped wrench, the thumb towards the jaw") {
     for (const std::string name : {"cover-m8", "dn200-pn16", "zq350"})
-        for (const glove::Hand side : {glove::Hand::left, glove::Hand::right}) {
+        for (const hand::Side side : {hand::Side::left, hand::Side::right}) {
             CAPTURE(name);
             CAPTURE(static_cast<int>(side));
-            const Result<HandPlan> plan = hand_plan(assembly(name), calibration(side, 22));
+            const Result<HandSetup> plan = hand_plan(assembly(name), calibration(side, 22));
             REQUIRE(plan);
-            grip::Grip grip;
+            hand::GraspState grip;
             for (int i = 0; i < 8; ++i)
-                step(grip, {}, plan->tool, plan->wearer.hand, {true, hand::closing(1.0), plan->wrist},
-                     1.0 / 80.0);
+                update_grasp(grip, {}, plan->tool, plan->wearer.hand,
+                             {true, hand::closed_hand_angles(1.0), plan->wrist}, 1.0 / 80.0);
             CHECK(grip.held);
             for (int i = 0; i < 40; ++i)
-                step(grip, {}, plan->tool, plan->wearer.hand, {true, hand::closing(0.0), plan->wrist},
-                     1.0 / 80.0);
+                update_grasp(grip, {}, plan->tool, plan->wearer.hand,
+                             {true, hand::closed_hand_angles(0.0), plan->wrist}, 1.0 / 80.0);
             CHECK(!grip.held);
-            const hand::Skeleton joints = hand::joints(plan->wearer.hand, hand::closing(0.0), plan->wrist);
+            const hand::Skeleton joints =
+                hand::joints(plan->wearer.hand, hand::closed_hand_angles(0.0), plan->wrist);
             CHECK(joints.position[hand::thumb_tip].x < joints.position[hand::little_tip].x);
             CHECK(joints.position[hand::palm].z > 0.0);
         }

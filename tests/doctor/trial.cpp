@@ -7,6 +7,7 @@
 
 using namespace bolt;
 using namespace bolt::station;
+using namespace bolt::station_setup;
 
 namespace {
 
@@ -27,7 +28,7 @@ Trial good() {
 
 }  // namespace
 
-TEST_CASE("what is wrong is noted from when it begins until it ends, once each") {
+TEST_CASE("Trial: each problem is one episode from its begin to its end") {
     std::vector<Episode> episodes;
     std::string told;
     const auto tell = [&](double, const std::string& words) { told += words + "; "; };
@@ -56,7 +57,7 @@ TEST_CASE("what is wrong is noted from when it begins until it ends, once each")
     CHECK(episodes[3].words == "it is gone");
 }
 
-TEST_CASE("a station is good enough unless something was wrong with it, and that is said") {
+TEST_CASE("Trial: a station is fit unless a problem occurred, and the reasons name it") {
     CHECK(against(good()).empty());
     Trial gone = good();
     gone.episodes = {{"it was pulled", 1.0, 2.5}, {"it is gone", 4.0, std::nullopt}};
@@ -64,13 +65,13 @@ TEST_CASE("a station is good enough unless something was wrong with it, and that
     CHECK(against(gone)[0] == "it is gone");
     CHECK(against(gone)[1] == "it was pulled (from 1.0 to 2.5 s)");
     Trial silent = good();
-    silent.wheel->traffic.longest_silence = 0.030;
+    silent.wheel->stats.longest_silence = 0.030;
     REQUIRE(against(silent).size() == 1);
     CHECK(against(silent)[0].find("30 ms") != std::string::npos);
     silent.wheel->losses = 1;
     CHECK(against(silent).empty());
     silent.wheel->losses = 0;
-    silent.wheel->description.rests = true;
+    silent.wheel->description.silent_at_rest = true;
     CHECK(against(silent).empty());
     Trial late = good();
     for (int i = 0; i < 100; ++i) servo::add(late.timing.wake_up, 900'000);
@@ -82,10 +83,10 @@ TEST_CASE("a station is good enough unless something was wrong with it, and that
     CHECK(against(few)[0].find("only 100 ticks") != std::string::npos);
 }
 
-TEST_CASE("how forces are let out is said of what renders some, by the button that is there") {
+TEST_CASE("Trial: the introduction names the button that enables forces") {
     Layout layout;
     layout.mover = test::puck();
-    Choice both{device::Listed{}, device::Listed{}};
+    Choice both{device::ListedDevice{}, device::ListedDevice{}};
     CHECK(introduce(layout, both).find("nothing here renders any") != std::string::npos);
     layout.wheel = test::wheel_of(2.0);
     CHECK(introduce(layout, both).find("only while button 1 of a puck is held") != std::string::npos);
@@ -95,10 +96,11 @@ TEST_CASE("how forces are let out is said of what renders some, by the button th
           std::string::npos);
     layout.mover->buttons = layout.wheel->buttons = 0;
     CHECK(introduce(layout, both).find("there is none") != std::string::npos);
-    CHECK(introduce(layout, {std::nullopt, device::Listed{}}).find("it stands still") != std::string::npos);
+    CHECK(introduce(layout, {std::nullopt, device::ListedDevice{}}).find("it stands still") !=
+          std::string::npos);
 }
 
-TEST_CASE("a report has what each device told and was sent, and whose hand is in the glove") {
+TEST_CASE("Trial: the report has the samples and commands of each device and the glove's wearer") {
     Trial trial = good();
     const std::string plain = report(trial);
     for (const char* words : {"a puck: moves the tool", "600 samples, 120 a second", "renders no force",
@@ -111,7 +113,7 @@ TEST_CASE("a report has what each device told and was sent, and whose hand is in
     trial.glove->frames = 400.0;
     CHECK(report(trial).find("held for 2.0 s") != std::string::npos);
     CHECK(report(trial).find("it did not answer") != std::string::npos);
-    trial.glove->report.greetings = 1;
+    trial.glove->report.handshakes = 1;
     CHECK(report(trial).find("--trainee NAME") != std::string::npos);
     trial.glove->worn.emplace();
     trial.glove->worn->trainee = "Ada";
@@ -121,19 +123,19 @@ TEST_CASE("a report has what each device told and was sent, and whose hand is in
     CHECK(report(trial).find("holds the wrench\n") != std::string::npos);
 }
 
-TEST_CASE("traffic counts what came, how long nothing did, and the most that was sent") {
-    Traffic traffic;
-    Port port;
+TEST_CASE("Link statistics: they count samples, silence and the largest command") {
+    LinkStats stats;
+    DeviceLink port;
     port.number = 3;
-    count(traffic, port, {Vec3(3.0, 4.0, 0.0), Vec3(0.0)});
-    port.quiet = 0.02;
-    count(traffic, port, {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.5, 0.0)});
+    count(stats, port, {Vec3(3.0, 4.0, 0.0), Vec3(0.0)});
+    port.silence = 0.02;
+    count(stats, port, {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.5, 0.0)});
     port.number = 4;
-    port.quiet = 0.0;
-    count(traffic, port, {});
-    CHECK(traffic.samples == 4);
-    CHECK(traffic.silent == 0.0);
-    CHECK(traffic.longest_silence == 0.02);
-    CHECK(traffic.force == 5.0);
-    CHECK(traffic.torque == 0.5);
+    port.silence = 0.0;
+    count(stats, port, {});
+    CHECK(stats.samples == 4);
+    CHECK(stats.silence == 0.0);
+    CHECK(stats.longest_silence == 0.02);
+    CHECK(stats.largest_force == 5.0);
+    CHECK(stats.largest_torque == 0.5);
 }

@@ -1,4 +1,4 @@
-// The registry held against a plain model of what it should be, over random operations.
+// Compares the registry with a simple reference model over random operations.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -31,7 +31,7 @@ struct Expected {
 
 }  // namespace
 
-TEST_CASE("random creations, destructions, additions and removals agree with a plain model") {
+TEST_CASE("Registry: random operations agree with a reference model") {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         Random random(seed);
         World world;
@@ -84,7 +84,7 @@ TEST_CASE("random creations, destructions, additions and removals agree with a p
             const auto found = both.find({entity.index, entity.generation});
             REQUIRE(found != both.end());
             REQUIRE(found->second == pose.x + velocity.x);
-            both.erase(found);  // each is visited once
+            both.erase(found);  // each entity is visited once
         });
         REQUIRE(both.empty());
         for (const Entity entity : dead) {

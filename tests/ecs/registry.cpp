@@ -18,14 +18,14 @@ struct Pose {
 struct Velocity {
     double x = 0.0;
 };
-struct Handle {  // move-only, as what owns a resource is
+struct Handle {  // move-only, like an owner of a resource
     std::unique_ptr<int> resource;
 };
 using World = Registry<Pose, Velocity, Handle>;
 
 }  // namespace
 
-TEST_CASE("a name kept after its entity is gone never means the next one in the slot") {
+TEST_CASE("Registry: a stale entity never refers to the next one in its slot") {
     World world;
     const Entity first = world.create();
     world.add<Pose>(first, 1.0);
@@ -42,7 +42,7 @@ TEST_CASE("a name kept after its entity is gone never means the next one in the 
     CHECK_FALSE(world.alive(Entity{7, 1}));
 }
 
-TEST_CASE("clearing ends every name, also those made before, and starts again") {
+TEST_CASE("Registry: clear() invalidates every entity and starts again") {
     World world;
     const Entity kept = world.create();
     const Entity gone = world.create();
@@ -58,7 +58,7 @@ TEST_CASE("clearing ends every name, also those made before, and starts again") 
     }
 }
 
-TEST_CASE("components may own things: destroying lets go of them, replacing too") {
+TEST_CASE("Registry: destroying and replacing components releases their resources") {
     World world;
     const Entity entity = world.create();
     world.add<Handle>(entity, std::make_unique<int>(3));
@@ -69,7 +69,7 @@ TEST_CASE("components may own things: destroying lets go of them, replacing too"
     CHECK(world.pool<Handle>().size() == 0);
 }
 
-TEST_CASE("the visited entity may be destroyed and new ones made while walking") {
+TEST_CASE("View: the visited entity may be destroyed and new ones created during iteration") {
     World world;
     std::set<double> expected;
     for (int i = 0; i < 100; ++i) {
@@ -90,7 +90,7 @@ TEST_CASE("the visited entity may be destroyed and new ones made while walking")
     CHECK(visited == expected);
 }
 
-TEST_CASE("a view without the entity, over one pool, over none that match") {
+TEST_CASE("View: without the entity parameter, over one pool, and without matches") {
     World world;
     double sum = 0.0;
     for (int i = 1; i <= 4; ++i) world.add<Pose>(world.create(), static_cast<double>(i));
@@ -117,7 +117,7 @@ constexpr System<World, Frame> systems[] = {{"accelerate", accelerate}, {"move",
 
 }  // namespace
 
-TEST_CASE("systems run in the order in which they stand, and can be timed from outside") {
+TEST_CASE("Schedule: systems run in list order and can be timed") {
     World world;
     const Entity entity = world.create();
     world.add<Pose>(entity);

@@ -67,9 +67,7 @@ void follow(Vec3& hand, const Vec3& force) {
 
 }  // namespace
 
-TEST_CASE(
-    "a free way is the straight one, from over the nut or level; one behind a wall goes over it, and is free "
-    "piece by piece") {
+TEST_CASE("Guide: a free path is straight; behind a wall it goes over, and each segment is free") {
     const GuideTarget target = nut_at(Vec3(0.2, 0, 0)).target;
     CHECK(plan_path(Vec3(0.22, 0.3, 0), target, all_free).count == 2);
     CHECK(plan_path(Vec3(-0.2, 0.01, 0), target, all_free).count == 2);
@@ -91,7 +89,7 @@ TEST_CASE(
     CHECK(point_at(path, -1.0) == path.points[0]);
 }
 
-TEST_CASE("no way: none is planned; the question is asked a bounded number of times") {
+TEST_CASE("Guide: without a free path none is planned, with a bounded number of queries") {
     int asked = 0;
     const auto closed = [&](const Vec3&, const Vec3&) {
         ++asked;
@@ -109,7 +107,7 @@ TEST_CASE("no way: none is planned; the question is asked a bounded number of ti
     CHECK(worst <= 100);
 }
 
-TEST_CASE("the target's own nut is no obstacle, what is before and behind it is") {
+TEST_CASE("Guide: the target's own nut is no obstacle, others before and behind it are") {
     const Box nut{Vec3(-0.012, -0.007, -0.012), Vec3(0.012, 0.02, 0.012)};
     const Box behind{Vec3(0.05, -0.1, -0.1), Vec3(0.06, 0.1, 0.1)};
     const auto free = [&](const Vec3& a, const Vec3& b) {
@@ -126,15 +124,15 @@ TEST_CASE("the target's own nut is no obstacle, what is before and behind it is"
     CHECK(free_to(Vec3(0.0), Vec3(0.04, 0, 0), target, free));       // out of it
 }
 
-TEST_CASE("over a wall: the hand gets there, is never pulled against it, and no force jumps") {
-    const Guiding guiding;
+TEST_CASE("Guide: over a wall the hand arrives without a pull into the wall and with continuous force") {
+    const GuidingParameters guiding;
     GuideState state;
     Vec3 hand(-0.2, 0, 0), last(0.0);
     const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
     int arrived = 0;
     for (int i = 0; i < 20'000 && arrived < 500; ++i) {
-        const Wanted wanted = guide(guiding, state, tool_at(hand), goal, over_the_wall, dt);
-        const Vec3& force = wanted.command.force;
+        const ForceRequest request = guide(guiding, state, tool_at(hand), goal, over_the_wall, dt);
+        const Vec3& force = request.command.force;
         REQUIRE(glm::length(force) <= 3.0 + 1e-9);
         REQUIRE(glm::length(force - last) <= 0.35);
         last = force;
@@ -150,50 +148,49 @@ TEST_CASE("over a wall: the hand gets there, is never pulled against it, and no 
     CHECK(glm::length(last) < 1.0);  // on the spring's bottom
 }
 
-TEST_CASE(
-    "in the open the force is k over the distance, full after a quarter of a second, aligned when near") {
-    const Guiding guiding;
+TEST_CASE("Guide: in free space the force is k over the distance after 0.25 s, and aligns near the target") {
+    const GuidingParameters guiding;
     GuideState state;
     const GuideGoal goal = nut_at(Vec3(0.0));
     const Vec3 hand(0.02, 0.3, 0.0);
-    Wanted wanted;
+    ForceRequest request;
     for (int i = 1; i <= 250; ++i) {
-        wanted = guide(guiding, state, tool_at(hand), goal, all_free, dt);
+        request = guide(guiding, state, tool_at(hand), goal, all_free, dt);
         REQUIRE(state.strength == doctest::Approx(i / 250.0));
     }
-    CHECK(glm::length(wanted.command.force - guiding_force(guiding, hand, Vec3(0.0))) < 1e-12);
-    CHECK(wanted.command.torque == Vec3(0.0));
+    CHECK(glm::length(request.command.force - guiding_force(guiding, hand, Vec3(0.0))) < 1e-12);
+    CHECK(request.command.torque == Vec3(0.0));
     GuidedTool near = tool_at(Vec3(0.05, 0, 0));
     near.jaw = glm::normalize(Vec3(1.0, 0.0, -0.1));
-    for (int i = 0; i < 250; ++i) wanted = guide(guiding, state, near, goal, all_free, dt);
-    CHECK(glm::length(wanted.command.torque -
+    for (int i = 0; i < 250; ++i) request = guide(guiding, state, near, goal, all_free, dt);
+    CHECK(glm::length(request.command.torque -
                       aligning_torque(guiding.torque, goal.hexagon, near.jaw, near.normal)) < 1e-12);
-    CHECK(wanted.command.torque.y < 0.0);
+    CHECK(request.command.torque.y < 0.0);
 }
 
-TEST_CASE("half the help is half the force; none is none; engaged it fades in a quarter of a second") {
-    Guiding guiding;
+TEST_CASE("Guide: the force scales with the strength and fades in 0.25 s after engagement") {
+    GuidingParameters guiding;
     guiding.strength = 0.5;
     GuideState state;
     const GuideGoal goal = nut_at(Vec3(0.0));
     const GuidedTool tool = tool_at(Vec3(0.1, 0, 0));
-    Wanted wanted;
-    for (int i = 0; i < 500; ++i) wanted = guide(guiding, state, tool, goal, all_free, dt);
-    CHECK(wanted.command.force.x == doctest::Approx(-0.5 * guiding.gain / 0.1));
-    double last = glm::length(wanted.command.force);
+    ForceRequest request;
+    for (int i = 0; i < 500; ++i) request = guide(guiding, state, tool, goal, all_free, dt);
+    CHECK(request.command.force.x == doctest::Approx(-0.5 * guiding.gain / 0.1));
+    double last = glm::length(request.command.force);
     for (int i = 0; i < 125; ++i) {
-        wanted = guide(guiding, state, tool, {}, all_free, dt);
-        REQUIRE(glm::length(wanted.command.force) < last);
-        last = glm::length(wanted.command.force);
+        request = guide(guiding, state, tool, {}, all_free, dt);
+        REQUIRE(glm::length(request.command.force) < last);
+        last = glm::length(request.command.force);
     }
-    CHECK(wanted.command.force == Vec3(0.0));
+    CHECK(request.command.force == Vec3(0.0));
     guiding.strength = 0.0;
     for (int i = 0; i < 500; ++i)
         REQUIRE(guide(guiding, state, tool, goal, all_free, dt).command.force == Vec3(0.0));
 }
 
-TEST_CASE("another target: the old force fades, then the new one comes; the force never points between") {
-    const Guiding guiding;
+TEST_CASE("Guide: a new target waits until the old force has faded") {
+    const GuidingParameters guiding;
     GuideState state;
     const GuidedTool tool = tool_at(Vec3(0.0));
     const GuideGoal left = nut_at(Vec3(-0.1, 0, 0), 0), right = nut_at(Vec3(0.1, 0, 0), 1);
@@ -211,8 +208,8 @@ TEST_CASE("another target: the old force fades, then the new one comes; the forc
     CHECK(last == doctest::Approx(guiding.gain / 0.1));
 }
 
-TEST_CASE("something comes between hand and target: the force fades, and leads round it where that can be") {
-    const Guiding guiding;
+TEST_CASE("Guide: an obstacle on the path fades the force, which then leads around it") {
+    const GuidingParameters guiding;
     GuideState state;
     const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
     const GuidedTool tool = tool_at(Vec3(-0.2, 0, 0));
@@ -234,8 +231,8 @@ TEST_CASE("something comes between hand and target: the force fades, and leads r
     CHECK(force == Vec3(0.0));
 }
 
-TEST_CASE("come to a corner and nothing is seen on: the help fades, and comes again when there is a way") {
-    const Guiding guiding;
+TEST_CASE("Guide: stuck at a corner the force fades, and returns when a path exists") {
+    const GuidingParameters guiding;
     GuideState state;
     const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
     Vec3 hand(-0.2, 0, 0);
@@ -248,9 +245,9 @@ TEST_CASE("come to a corner and nothing is seen on: the help fades, and comes ag
     const auto lead = [&](int ticks) {
         bool off = false;
         for (int i = 0; i < ticks; ++i) {
-            const Wanted wanted = guide(guiding, state, tool_at(hand), goal, free, dt);
-            follow(hand, wanted.command.force);
-            off = off || (wanted.command.force == Vec3(0.0) && state.strength == 0.0);
+            const ForceRequest request = guide(guiding, state, tool_at(hand), goal, free, dt);
+            follow(hand, request.command.force);
+            off = off || (request.command.force == Vec3(0.0) && state.strength == 0.0);
         }
         return off;
     };
@@ -269,8 +266,8 @@ TEST_CASE("come to a corner and nothing is seen on: the help fades, and comes ag
     CHECK(glm::length(hand - goal.target.point) < 2e-3);
 }
 
-TEST_CASE("a nut that comes down as it turns is followed without a step") {
-    const Guiding guiding;
+TEST_CASE("Guide: a descending nut is followed without a step of force") {
+    const GuidingParameters guiding;
     GuideState state;
     GuideGoal goal = nut_at(Vec3(0.0));
     const GuidedTool tool = tool_at(Vec3(0.02, 0.01, 0));
@@ -284,8 +281,8 @@ TEST_CASE("a nut that comes down as it turns is followed without a step") {
     CHECK(glm::length(last - guiding_force(guiding, tool.position, goal.target.point)) < 1e-12);
 }
 
-TEST_CASE("from aside the hand is led over the nut and then down, or level: a jaw is wide") {
-    const Guiding guiding;
+TEST_CASE("Guide: from aside the hand is led above the nut and down, or level") {
+    const GuidingParameters guiding;
     const GuideGoal goal = nut_at(Vec3(0.0));
     int outside = 0;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -313,7 +310,7 @@ TEST_CASE("from aside the hand is led over the nut and then down, or level: a ja
     CHECK(outside > 5000);
 }
 
-TEST_CASE("help is not taken for energy made of nothing: led and aligned, the controller hardly acts") {
+TEST_CASE("Guide: guiding work is not taken for generated energy") {
     // Arms that mean to stand where they are and give way to what leads them.
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         CAPTURE(seed);
@@ -326,7 +323,7 @@ TEST_CASE("help is not taken for energy made of nothing: led and aligned, the co
         arm.pose.position = Vec3(-0.2, 0.02 * random.normal(), 0.05 * random.normal());
         arm.pose.orientation = rotation(Vec3(0.3 * random.normal(), 0.2, 0.3 * random.normal()));
         const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
-        const Guiding guiding;
+        const GuidingParameters guiding;
         GuideState state;
         OutputStage stage;
         const OutputLimits limits;
@@ -336,8 +333,8 @@ TEST_CASE("help is not taken for energy made of nothing: led and aligned, the co
             port.enabled = true;
             const GuidedTool tool{port.pose.position, port.pose.orientation * Vec3(1, 0, 0),
                                   port.pose.orientation * Vec3(0, 1, 0)};
-            const Wanted wanted = guide(guiding, state, tool, goal, over_the_wall, dt);
-            test::step(arm, render(limits, stage, port, wanted, dt), dt);
+            const ForceRequest request = guide(guiding, state, tool, goal, over_the_wall, dt);
+            test::step(arm, render(limits, stage, port, request, dt), dt);
             REQUIRE(stage.watchdog.fault == Fault::none);
         }
         CHECK(glm::length(arm.pose.position - goal.target.point) < 1e-3);
@@ -347,8 +344,8 @@ TEST_CASE("help is not taken for energy made of nothing: led and aligned, the co
     }
 }
 
-TEST_CASE("leading allocates nothing, planning included") {
-    const Guiding guiding;
+TEST_CASE("Guide: no allocation, planning included") {
+    const GuidingParameters guiding;
     const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
     CHECK(test::forbidden_in([&] {
               GuideState state;

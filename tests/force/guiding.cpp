@@ -9,8 +9,8 @@
 using namespace bolt;
 using namespace bolt::force;
 
-TEST_CASE("guiding force: k/d outside d_min, K d inside, continuous between, never above the root of k K") {
-    const Guiding g{0.02, 800.0, 0.5, 10.0};
+TEST_CASE("Guiding law: k/d outside d_min, K d inside, continuous, at most the root of k K") {
+    const GuidingParameters g{0.02, 800.0, 0.5, 10.0};
     const double d_min = std::sqrt(0.02 / 800.0);
     const auto at = [&](double d) { return guiding_force(g, Vec3(d, 0, 0), Vec3(0.0)).x; };
     CHECK(at(0.1) == doctest::Approx(-0.2));
@@ -24,8 +24,8 @@ TEST_CASE("guiding force: k/d outside d_min, K d inside, continuous between, nev
     CHECK(at(1.0) == 0.0);  // too far to be led
 }
 
-TEST_CASE("capped: the spring up to the cap, the cap up to where k/d is less") {
-    const Guiding g{0.1, 500.0, 1.0, 3.0};
+TEST_CASE("Guiding law: the cap joins spring and hyperbola") {
+    const GuidingParameters g{0.1, 500.0, 1.0, 3.0};
     CHECK(guiding_pull(g, 0.003) == doctest::Approx(1.5));
     CHECK(guiding_pull(g, 0.006) == doctest::Approx(3.0));
     CHECK(guiding_pull(g, 0.02) == 3.0);
@@ -33,9 +33,9 @@ TEST_CASE("capped: the spring up to the cap, the cap up to where k/d is less") {
     CHECK(guiding_pull(g, 0.1) == doctest::Approx(1.0));
 }
 
-TEST_CASE("the potential's slope is the pull, from the target to where it ends") {
+TEST_CASE("Guiding law: the pull is the slope of the potential") {
     for (const double cap : {10.0, 3.0}) {
-        const Guiding g{0.02, 800.0, 0.5, cap};
+        const GuidingParameters g{0.02, 800.0, 0.5, cap};
         CHECK(guiding_potential(g, 0.0) == 0.0);
         for (double d = 1e-4; d < 1.5; d *= 1.05) {
             CAPTURE(d);
@@ -63,7 +63,7 @@ Hexagon any_hexagon(Random& random) {
 
 }  // namespace
 
-TEST_CASE("the aligning torque is the slope of its potential, whichever way the tool is held") {
+TEST_CASE("Guiding law: the aligning torque is the slope of its potential in every orientation") {
     Random random(6);
     for (int i = 0; i < 200; ++i) {
         const Hexagon hexagon = any_hexagon(random);
@@ -84,7 +84,7 @@ TEST_CASE("the aligning torque is the slope of its potential, whichever way the 
 }
 
 TEST_CASE(
-    "a jaw is turned to the nearest of six flats, upright and flipped, with 6 N m/rad a N m of greatest") {
+    "Guiding law: a jaw turns to the nearest of six flats, with 6 N m/rad per N m of the largest torque") {
     const Hexagon h;  // axis y, flats along x
     for (const double side : {1.0, -1.0}) {
         const Vec3 normal = side * h.axis;
@@ -100,7 +100,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a tilted tool is turned square by the shorter way; flat on its edge neither way") {
+TEST_CASE("Guiding law: a tilted tool is turned square by the shorter rotation") {
     const Hexagon h;
     const auto tilt = [&](double degrees) {
         const Quat q = glm::angleAxis(to_radians(degrees), h.flat);
@@ -115,7 +115,7 @@ TEST_CASE("a tilted tool is turned square by the shorter way; flat on its edge n
     CHECK(std::abs(tilt(0.0)) < 1e-12);
 }
 
-TEST_CASE("nothing jumps where the nearest flat or side changes") {
+TEST_CASE("Guiding law: the torque is continuous where the nearest flat or side changes") {
     const Hexagon h;
     Vec3 last(0.0);
     for (int i = 0; i <= 36'000; ++i) {

@@ -25,7 +25,7 @@ OutputState at_full(const OutputLimits& limits) {
 
 }  // namespace
 
-TEST_CASE("a step of torque is followed at the slew rate: 0.2 N m a millisecond, up and down") {
+TEST_CASE("Limiter: a step of torque is followed at the slew rate, 0.2 N m per millisecond") {
     OutputLimits limits;
     limits.ramp_up = dt;
     OutputState state;
@@ -37,7 +37,7 @@ TEST_CASE("a step of torque is followed at the slew rate: 0.2 N m a millisecond,
         CHECK(limit_output(limits, state, back, true, dt).torque.y == doctest::Approx(2.0 - 0.2 * i));
 }
 
-TEST_CASE("the torque comes in over the same ramp as the force") {
+TEST_CASE("Limiter: torque and force have the same ramp") {
     const OutputLimits limits;
     OutputState state;
     for (int i = 1; i <= 500; ++i) {
@@ -47,7 +47,7 @@ TEST_CASE("the torque comes in over the same ramp as the force") {
     }
 }
 
-TEST_CASE("let go from full output: a twentieth less each millisecond, and exactly nothing after twenty") {
+TEST_CASE("Limiter: a release from full output falls by a twentieth per millisecond to exactly zero") {
     const OutputLimits limits;
     OutputState state = at_full(limits);
     REQUIRE(state.torque.y == doctest::Approx(limits.torque));
@@ -60,7 +60,7 @@ TEST_CASE("let go from full output: a twentieth less each millisecond, and exact
     CHECK(state.force == Vec3(0.0));
 }
 
-TEST_CASE("enabled again after letting go, or after a fault, the output ramps up from nothing again") {
+TEST_CASE("Limiter: enabled again after a release or a fault the output ramps up from zero") {
     const OutputLimits limits;
     const OutputCommand sound{Vec3(10, 0, 0), Vec3(0, 1, 0)};
     OutputCommand broken = sound;
@@ -76,7 +76,7 @@ TEST_CASE("enabled again after letting go, or after a fault, the output ramps up
     }
 }
 
-TEST_CASE("what is not finite in the state itself is cleared and does not stay") {
+TEST_CASE("Limiter: a state that is not finite is cleared") {
     const OutputLimits limits;
     const OutputCommand wanted{Vec3(60, 50, 40), Vec3(3, 4, 5)};
     const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
@@ -106,7 +106,7 @@ TEST_CASE("what is not finite in the state itself is cleared and does not stay")
     }
 }
 
-TEST_CASE("what leaves the output stage is inside the limits and the slew rate, whatever goes in") {
+TEST_CASE("Limiter: for any request the output is within the limits and the slew rate") {
     const OutputLimits limits;
     Random random(4);
     OutputState state;
@@ -131,7 +131,7 @@ TEST_CASE("what leaves the output stage is inside the limits and the slew rate, 
     CHECK(state.faults > 0);
 }
 
-TEST_CASE("letting go of the dead-man: zero within 20 ms from full output, and it stays zero") {
+TEST_CASE("Limiter: without the dead-man switch the output is zero within 20 ms and stays zero") {
     const OutputLimits limits;
     OutputState state;
     const OutputCommand full{Vec3(100, 0, 0), Vec3(0, 100, 0)};
@@ -144,14 +144,14 @@ TEST_CASE("letting go of the dead-man: zero within 20 ms from full output, and i
     CHECK(state.force == Vec3(0.0));
 }
 
-TEST_CASE("enabling ramps up: half the strength after half the time") {
+TEST_CASE("Limiter: the ramp has half the strength after half its time") {
     const OutputLimits limits;
     OutputState state;
     for (int i = 0; i < 250; ++i) limit_output(limits, state, {Vec3(10, 0, 0), Vec3(0.0)}, true, 1e-3);
     CHECK(state.force.x == doctest::Approx(5.0).epsilon(0.01));
 }
 
-TEST_CASE("a device without torque gets none") {
+TEST_CASE("Limiter: a device without torque output gets no torque") {
     OutputLimits limits;
     limits.torque = 0.0;
     OutputState state;

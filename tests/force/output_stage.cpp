@@ -15,7 +15,7 @@ using namespace bolt::force;
 namespace {
 
 constexpr double dt = 1e-3;
-const Wanted hard{{Vec3(100, 0, 0), Vec3(0, 100, 0)}};
+const ForceRequest hard{{Vec3(100, 0, 0), Vec3(0, 100, 0)}};
 
 PortInput held() {
     PortInput input;
@@ -35,29 +35,29 @@ bool nothing(const OutputCommand& out) { return out.force == Vec3(0.0) && out.to
 
 }  // namespace
 
-TEST_CASE("everything within 20 ms of its cause is nothing: silence, NaN, a jump, a stop, the dead-man") {
+TEST_CASE("Output stage: zero within 20 ms of silence, NaN, a jump, a stop or a released dead-man switch") {
     const OutputLimits limits;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (int cause = 0; cause < 6; ++cause) {
         CAPTURE(cause);
         OutputStage stage = at_full(limits);
         PortInput input = held();
-        Wanted wanted = hard;
+        ForceRequest request = hard;
         if (cause == 0) input.fresh = false;
         if (cause == 1) input.pose.position.x = nan;
         if (cause == 2) input.pose.position.x = 0.5;
         if (cause == 3) input.stop = true;
         if (cause == 4) input.enabled = false;
-        if (cause == 5) wanted.command.torque.z = nan;
+        if (cause == 5) request.command.torque.z = nan;
         OutputCommand out;
-        for (int i = 0; i < 20; ++i) out = render(limits, stage, input, wanted, dt);
+        for (int i = 0; i < 20; ++i) out = render(limits, stage, input, request, dt);
         CHECK(nothing(out));
         if (cause != 2)
-            for (int i = 0; i < 2000; ++i) REQUIRE(nothing(render(limits, stage, input, wanted, dt)));
+            for (int i = 0; i < 2000; ++i) REQUIRE(nothing(render(limits, stage, input, request, dt)));
     }
 }
 
-TEST_CASE("a runaway at 5 m/s is let go of within 20 ms") {
+TEST_CASE("Output stage: a runaway at 5 m/s is released within 20 ms") {
     const OutputLimits limits;
     OutputStage stage = at_full(limits);
     PortInput input = held();
@@ -70,20 +70,20 @@ TEST_CASE("a runaway at 5 m/s is let go of within 20 ms") {
     CHECK(stage.watchdog.fault == Fault::too_fast);
 }
 
-TEST_CASE("after a fault the force comes back by its ramp, not at once") {
+TEST_CASE("Output stage: after a fault the force ramps up") {
     const OutputLimits limits;
     OutputStage stage = at_full(limits);
     PortInput input = held();
     input.fresh = false;
     for (int i = 0; i < 50; ++i) render(limits, stage, input, hard, dt);
     input.fresh = true;
-    const Wanted wanted{{Vec3(10, 0, 0), Vec3(0.0)}};
-    for (int i = 0; i < 99; ++i) CHECK(nothing(render(limits, stage, input, wanted, dt)));
-    for (int i = 0; i < 250; ++i) render(limits, stage, input, wanted, dt);
+    const ForceRequest request{{Vec3(10, 0, 0), Vec3(0.0)}};
+    for (int i = 0; i < 99; ++i) CHECK(nothing(render(limits, stage, input, request, dt)));
+    for (int i = 0; i < 250; ++i) render(limits, stage, input, request, dt);
     CHECK(stage.output.force.x == doctest::Approx(5.0).epsilon(0.02));
 }
 
-TEST_CASE("whatever goes in, what comes out is finite, inside the limits and never faster than the slew") {
+TEST_CASE("Output stage: for any input the output is finite, within the limits and the slew rates") {
     const OutputLimits limits;
     Random random(12);
     OutputStage stage;
@@ -96,16 +96,16 @@ TEST_CASE("whatever goes in, what comes out is finite, inside the limits and nev
     std::uint64_t rendered = 0;
     int running = 0;
     for (int i = 0; i < 200'000; ++i) {
-        Wanted wanted;
+        ForceRequest request;
         for (int k = 0; k < 3; ++k) {
-            wanted.command.force[k] = wild();
-            wanted.command.torque[k] = wild();
+            request.command.force[k] = wild();
+            request.command.torque[k] = wild();
         }
-        wanted.stored = std::abs(wild());
-        wanted.granted = wild();
-        if (random.chance(0.5)) wanted = {{Vec3(5.0 * random.normal(), 0, 3), Vec3(0, 0.3, 0)}};
-        if (random.chance(0.0005)) wanted.command.force.y = std::numeric_limits<double>::infinity();
-        if (random.chance(0.0005)) wanted.stored = std::numeric_limits<double>::quiet_NaN();
+        request.stored_energy = std::abs(wild());
+        request.injected_energy = wild();
+        if (random.chance(0.5)) request = {{Vec3(5.0 * random.normal(), 0, 3), Vec3(0, 0.3, 0)}};
+        if (random.chance(0.0005)) request.command.force.y = std::numeric_limits<double>::infinity();
+        if (random.chance(0.0005)) request.stored_energy = std::numeric_limits<double>::quiet_NaN();
         input.pose.position += 1e-3 * Vec3(random.normal(), random.normal(), random.normal());
         input.pose.orientation =
             glm::normalize(rotation(0.01 * Vec3(random.normal(), 0, 1)) * input.pose.orientation);
@@ -119,7 +119,7 @@ TEST_CASE("whatever goes in, what comes out is finite, inside the limits and nev
         now.enabled = random.chance(0.9995);
         now.stop = random.chance(0.0001);
         now.reset = random.chance(0.5);
-        const OutputCommand out = render(limits, stage, now, wanted, dt);
+        const OutputCommand out = render(limits, stage, now, request, dt);
         REQUIRE(glm::length(out.force) <= limits.force * (1 + 1e-12));
         REQUIRE(glm::length(out.torque) <= limits.torque * (1 + 1e-12));
         REQUIRE(glm::length(out.force - last) <= fastest * (1 + 1e-9));
@@ -132,8 +132,7 @@ TEST_CASE("whatever goes in, what comes out is finite, inside the limits and nev
         if (i != static_cast<std::size_t>(Fault::silent)) CHECK(stage.watchdog.counts[i] > 0);
 }
 
-TEST_CASE(
-    "while the loop missed deadlines the device went on with what it had: that counts as long as it lasted") {
+TEST_CASE("Output stage: during missed deadlines the last command counts for as long as it was applied") {
     OutputLimits limits;
     limits.delay = 0;
     limits.ramp_up = dt;
@@ -155,7 +154,9 @@ TEST_CASE(
     CHECK(before - stage.passivity.balance == doctest::Approx((1.0 + 3.0 * 3.0) / 4.0 * 1e-3));
 }
 
-TEST_CASE("what was owed is forgotten with the dead-man let go: nothing drags when it is held again") {
+TEST_CASE(
+    "Output stage: releasing the dead-man switch clears the energy balance, so nothing is damped "
+    "afterwards") {
     const OutputLimits limits;
     OutputStage stage = at_full(limits);
     stage.passivity.balance = -1.0;
@@ -170,7 +171,7 @@ TEST_CASE("what was owed is forgotten with the dead-man let go: nothing drags wh
     }
 }
 
-TEST_CASE("it allocates nothing, takes no lock, looks at no clock, and gives the same bits twice") {
+TEST_CASE("Output stage: no allocation, lock or clock; the same inputs give the same bits") {
     const auto run = [] {
         OutputStage stage;
         PortInput input = held();

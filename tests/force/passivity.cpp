@@ -26,7 +26,7 @@ Motion moved(const Vec3& shift, const Vec3& turn = Vec3(0.0)) {
 
 }  // namespace
 
-TEST_CASE("the balance is the work of what was out, force and torque, and no other") {
+TEST_CASE("Passivity: the balance is the work of the applied force and torque") {
     Random random(8);
     const auto any = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
     for (int delay = 0; delay < 4; ++delay) {
@@ -47,7 +47,7 @@ TEST_CASE("the balance is the work of what was out, force and torque, and no oth
     }
 }
 
-TEST_CASE("a sample every third tick: the motion is charged with the mean of what was out meanwhile") {
+TEST_CASE("Passivity: with a sample every third tick the motion is charged with the mean applied force") {
     PassivityState s;
     const Vec3 forces[] = {Vec3(1, 0, 0), Vec3(4, 0, 0), Vec3(7, 0, 0)};
     for (int i = 0; i < 3; ++i) {
@@ -57,7 +57,7 @@ TEST_CASE("a sample every third tick: the motion is charged with the mean of wha
     CHECK(s.balance == doctest::Approx(-0.04));
 }
 
-TEST_CASE("an ideal spring pressed in and let out: the balance stays at nothing, and nothing is damped") {
+TEST_CASE("Passivity: an ideal spring keeps the balance at zero and causes no damping") {
     // Fine steps: what sampling makes goes with the step.
     const double K = 1000.0, step = 1e-6;
     PassivityState s;
@@ -66,15 +66,15 @@ TEST_CASE("an ideal spring pressed in and let out: the balance stays at nothing,
         const double shift = i < 10'000 ? step : -step;
         x += shift;
         observe(no_delay(), s, moved(Vec3(-shift, 0, 0)), 1.0);
-        const Wanted wanted{{Vec3(K * x, 0, 0), Vec3(0.0)}, 0.5 * K * x * x};
-        const OutputCommand out = control(no_delay(), s, {}, wanted, 1.0, 1.0, dt);
+        const ForceRequest request{{Vec3(K * x, 0, 0), Vec3(0.0)}, 0.5 * K * x * x};
+        const OutputCommand out = control(no_delay(), s, {}, request, 1.0, 1.0, dt);
         note_sent(s, out);
         REQUIRE(std::abs(s.balance) < 0.5 * K * step * step * 20'000);
     }
     CHECK(std::abs(s.balance) < 0.02e-3);
 }
 
-TEST_CASE("a sampled spring pressed at a speed makes K v² T² / 2 a tick, and the controller takes it out") {
+TEST_CASE("Passivity: a sampled spring generates K v² T² / 2 per tick, which the controller removes") {
     const double K = 1000.0, v = 0.2;
     const auto press = [&](double damping) {
         OutputLimits limits = no_delay();
@@ -86,8 +86,8 @@ TEST_CASE("a sampled spring pressed at a speed makes K v² T² / 2 a tick, and t
             x += v * dt;
             const Motion motion = moved(Vec3(-v * dt, 0, 0));
             observe(limits, s, motion, 1.0);
-            const Wanted wanted{{Vec3(K * x, 0, 0), Vec3(0.0)}, 0.5 * K * x * x};
-            note_sent(s, control(limits, s, motion, wanted, 1.0, 1.0, dt));
+            const ForceRequest request{{Vec3(K * x, 0, 0), Vec3(0.0)}, 0.5 * K * x * x};
+            note_sent(s, control(limits, s, motion, request, 1.0, 1.0, dt));
         }
         return s.balance / ticks;
     };
@@ -95,7 +95,7 @@ TEST_CASE("a sampled spring pressed at a speed makes K v² T² / 2 a tick, and t
     CHECK(press(20.0) > -0.05 * 0.5 * K * v * v * dt * dt);
 }
 
-TEST_CASE("damping is never above nine tenths of what the device takes, nor against the motion") {
+TEST_CASE("Passivity: damping stays below nine tenths of the device's limit and opposes the motion") {
     OutputLimits limits;
     PassivityState s;
     s.balance = -10.0;
@@ -111,7 +111,7 @@ TEST_CASE("damping is never above nine tenths of what the device takes, nor agai
     CHECK(s.damping == 1.0);
 }
 
-TEST_CASE("only what is missing is damped: the power taken is the deficit over a tick") {
+TEST_CASE("Passivity: the removed power is the deficit over one tick") {
     const OutputLimits limits;
     PassivityState s;
     s.balance = -1e-4;
@@ -127,7 +127,7 @@ TEST_CASE("only what is missing is damped: the power taken is the deficit over a
     CHECK(s.damping < 1.0);
 }
 
-TEST_CASE("what was dissipated long ago is not saved up") {
+TEST_CASE("Passivity: credit from dissipation decays") {
     const OutputLimits limits = no_delay();
     PassivityState s;
     note_sent(s, {Vec3(-10, 0, 0), Vec3(0.0)});
@@ -141,53 +141,52 @@ TEST_CASE("what was dissipated long ago is not saved up") {
     CHECK(s.balance < 0.05 * saved_at_most);  // and forgotten soon
 }
 
-TEST_CASE("help that is granted is no deficit; a store that grows without work is one") {
+TEST_CASE("Passivity: injected energy is no deficit; stored energy that grows without work is one") {
     const OutputLimits limits;
     PassivityState s;
-    Wanted wanted;
-    wanted.stored = 5e-3;
-    wanted.granted = 5e-3;
-    control(limits, s, {}, wanted, 1.0, 1.0, dt);
+    ForceRequest request;
+    request.stored_energy = 5e-3;
+    request.injected_energy = 5e-3;
+    control(limits, s, {}, request, 1.0, 1.0, dt);
     CHECK(s.balance == doctest::Approx(0.0));
-    wanted.stored = 8e-3;
-    wanted.granted = 0.0;
-    control(limits, s, {}, wanted, 1.0, 1.0, dt);
+    request.stored_energy = 8e-3;
+    request.injected_energy = 0.0;
+    control(limits, s, {}, request, 1.0, 1.0, dt);
     CHECK(s.balance == doctest::Approx(-3e-3));
 }
 
-TEST_CASE(
-    "too much is wanted: force and torque are cut alike, and the spring gives back what is left of it") {
+TEST_CASE("Passivity: an excessive request is cut in force and torque alike, and its energy accordingly") {
     const OutputLimits limits;
     PassivityState s;
-    Wanted wanted{{Vec3(2.0 * limits.force, 0, 0), Vec3(0, 1, 0)}, 1.0};
-    const OutputCommand out = control(limits, s, {}, wanted, 1.0, 1.0, dt);
+    ForceRequest request{{Vec3(2.0 * limits.force, 0, 0), Vec3(0, 1, 0)}, 1.0};
+    const OutputCommand out = control(limits, s, {}, request, 1.0, 1.0, dt);
     CHECK(out.force.x == doctest::Approx(limits.force));
     CHECK(out.torque.y == doctest::Approx(0.5));
-    CHECK(s.stored == doctest::Approx(0.75));  // of a spring that is held at half of its force
+    CHECK(s.stored_energy == doctest::Approx(0.75));  // of a spring that is held at half of its force
 
-    wanted = {{Vec3(10, 0, 0), Vec3(0, 4.0 * limits.torque, 0)}, 0.0};
-    CHECK(control(limits, s, {}, wanted, 1.0, 1.0, dt).force.x == doctest::Approx(2.5));
+    request = {{Vec3(10, 0, 0), Vec3(0, 4.0 * limits.torque, 0)}, 0.0};
+    CHECK(control(limits, s, {}, request, 1.0, 1.0, dt).force.x == doctest::Approx(2.5));
     OutputLimits without = limits;
     without.torque = 0.0;
-    CHECK(control(without, s, {}, wanted, 1.0, 1.0, dt).force.x == doctest::Approx(10.0));
+    CHECK(control(without, s, {}, request, 1.0, 1.0, dt).force.x == doctest::Approx(10.0));
 }
 
-TEST_CASE("the ramp lets the store in as a grant") {
+TEST_CASE("Passivity: stored energy enters with the ramp as injected energy") {
     const OutputLimits limits;
     PassivityState s;
-    const Wanted wanted{{}, 2e-3};
-    for (int i = 1; i <= 10; ++i) control(limits, s, {}, wanted, 0.1 * i, 0.1 * (i - 1), dt);
+    const ForceRequest request{{}, 2e-3};
+    for (int i = 1; i <= 10; ++i) control(limits, s, {}, request, 0.1 * i, 0.1 * (i - 1), dt);
     CHECK(s.balance == doctest::Approx(0.0));
-    CHECK(s.stored == doctest::Approx(2e-3));
+    CHECK(s.stored_energy == doctest::Approx(2e-3));
 }
 
-TEST_CASE("a device of torque alone, or of force alone, gets that whole whatever is wanted of the other") {
+TEST_CASE("Passivity: a component that the device does not render does not reduce the other") {
     for (const bool torque : {true, false}) {
         OutputLimits limits;
         (torque ? limits.force : limits.torque) = 0.0;
         PassivityState s;
-        const Wanted wanted{{Vec3(5, 0, 0), Vec3(0, 1, 0)}, 10.0, 0.0};
-        const OutputCommand out = control(limits, s, moved(Vec3(0.0)), wanted, 1.0, 1.0, dt);
+        const ForceRequest request{{Vec3(5, 0, 0), Vec3(0, 1, 0)}, 10.0, 0.0};
+        const OutputCommand out = control(limits, s, moved(Vec3(0.0)), request, 1.0, 1.0, dt);
         if (torque) CHECK(out.torque.y == doctest::Approx(1.0));
         if (!torque) CHECK(out.force.x == doctest::Approx(5.0));
     }

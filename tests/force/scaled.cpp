@@ -9,7 +9,7 @@
 using namespace bolt;
 using namespace bolt::force;
 
-TEST_CASE("every limit of force and torque becomes that share of it, and nothing else changes") {
+TEST_CASE("Scaled limits: limits of force and torque are scaled, all others unchanged") {
     const OutputLimits whole;
     for (const double share : {0.1, 0.35, 0.5, 1.0}) {
         const OutputLimits less = scaled(whole, share);
@@ -28,7 +28,7 @@ TEST_CASE("every limit of force and torque becomes that share of it, and nothing
     }
 }
 
-TEST_CASE("it is never more than the device's own limits, whatever is asked for") {
+TEST_CASE("Scaled limits: they never exceed the device's own limits") {
     const OutputLimits whole;
     constexpr double inf = std::numeric_limits<double>::infinity();
     for (const double asked : {1.0 + 1e-12, 2.0, 1e300, inf})
@@ -42,7 +42,7 @@ TEST_CASE("it is never more than the device's own limits, whatever is asked for"
     CHECK(scaled(no_torque, 0.5).torque == 0.0);
 }
 
-TEST_CASE("what leaves the limiter obeys the smaller limits") {
+TEST_CASE("Scaled limits: the limiter obeys them") {
     const OutputLimits less = scaled(OutputLimits{}, 0.25);
     OutputState state;
     double before = 0.0;

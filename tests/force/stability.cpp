@@ -49,20 +49,20 @@ Scene random_scene(std::uint64_t seed) {
     return s;
 }
 
-Wanted wall_of(const Scene& scene, const Pose& tool) {
-    Wanted wanted;
+ForceRequest wall_of(const Scene& scene, const Pose& tool) {
+    ForceRequest request;
     for (int wall = 0; wall < scene.walls; ++wall) {
         const Vec3& n = scene.normals[wall];
         for (const Vec3& point : scene.points) {
             const Vec3 arm = tool.orientation * point;
             const double depth = -glm::dot(tool.position + arm, n);
             if (depth <= 0.0) continue;
-            wanted.command.force += scene.stiffness * depth * n;
-            wanted.command.torque += scene.stiffness * depth * glm::cross(arm, n);
-            wanted.stored += 0.5 * scene.stiffness * depth * depth;
+            request.command.force += scene.stiffness * depth * n;
+            request.command.torque += scene.stiffness * depth * glm::cross(arm, n);
+            request.stored_energy += 0.5 * scene.stiffness * depth * depth;
         }
     }
-    return wanted;
+    return request;
 }
 
 struct Felt {
@@ -90,9 +90,9 @@ Felt feel(const Scene& scene, const OutputLimits& limits, Energy energy, double 
         PortInput input;
         input.pose = test::sample(arm);
         input.enabled = true;
-        Wanted wanted = wall_of(scene, input.pose);
-        if (energy == Energy::not_told) wanted.stored = 0.0;
-        test::step(arm, render(limits, stage, input, wanted, dt), dt);
+        ForceRequest request = wall_of(scene, input.pose);
+        if (energy == Energy::not_told) request.stored_energy = 0.0;
+        test::step(arm, render(limits, stage, input, request, dt), dt);
         felt.greatest_energy = std::max(felt.greatest_energy, arm.energy_out);
         const double x = glm::dot(arm.pose.position, scene.way);
         if (t >= 2.6 && t < 2.9) early.add(x);
@@ -116,7 +116,7 @@ bool swings_on(const Felt& felt) {
 
 }  // namespace
 
-TEST_CASE("forty arms and walls: no net energy comes out, and nothing swings on") {
+TEST_CASE("Stability: no net energy and no lasting oscillation for forty arms and walls") {
     for (const double dt : {1e-3, 0.25e-3}) {
         double most = 0.0;
         for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -134,7 +134,7 @@ TEST_CASE("forty arms and walls: no net energy comes out, and nothing swings on"
     }
 }
 
-TEST_CASE("a wall of 1 N/mm is felt as one: at least 0.8 N/mm, by every hand, however it is damped") {
+TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for every hand") {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         CAPTURE(seed);
         Scene scene = random_scene(seed);
@@ -152,8 +152,8 @@ TEST_CASE("a wall of 1 N/mm is felt as one: at least 0.8 N/mm, by every hand, ho
             input.pose = test::sample(arm);
             input.enabled = true;
             const double depth = std::max(0.0, -glm::dot(input.pose.position, n));
-            const Wanted wanted{{1000.0 * depth * n, Vec3(0.0)}, 500.0 * depth * depth};
-            test::step(arm, render(device(), stage, input, wanted, 1e-3), 1e-3);
+            const ForceRequest request{{1000.0 * depth * n, Vec3(0.0)}, 500.0 * depth * depth};
+            test::step(arm, render(device(), stage, input, request, 1e-3), 1e-3);
             if (k % 3000 < 2500) continue;
             stood[level] -= glm::dot(arm.pose.position, n) / 500.0;
             pushed[level] +=
@@ -163,7 +163,7 @@ TEST_CASE("a wall of 1 N/mm is felt as one: at least 0.8 N/mm, by every hand, ho
     }
 }
 
-TEST_CASE("the same without a word of the energy that the springs hold: as stable") {
+TEST_CASE("Stability: as stable without the springs' stored energy in the request") {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         CAPTURE(seed);
         const Felt felt = feel(random_scene(seed), device(), Energy::not_told, 1e-3);
@@ -173,7 +173,7 @@ TEST_CASE("the same without a word of the energy that the springs hold: as stabl
     }
 }
 
-TEST_CASE("the same without the controller: energy comes out of most of them, and many tremble on") {
+TEST_CASE("Stability: without the controller most cases generate energy and many oscillate") {
     OutputLimits uncontrolled = device();
     uncontrolled.damping = uncontrolled.angular_damping = 0.0;
     int active = 0, trembling = 0;

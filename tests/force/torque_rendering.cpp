@@ -7,8 +7,7 @@
 using namespace bolt;
 using namespace bolt::force;
 
-TEST_CASE(
-    "the greatest torque asked for is four fifths of the device's range; what is small enough is true") {
+TEST_CASE("Torque rendering: the largest torque uses four fifths of the range; smaller ranges are unscaled") {
     OutputLimits limits;
     limits.torque = 3.1;
     CHECK(make_torque_rendering(limits, 210.0, 0.23).scale * 210.0 == doctest::Approx(0.8 * 3.1));
@@ -17,7 +16,7 @@ TEST_CASE(
     CHECK(make_torque_rendering(limits, 210.0, 0.23).as_force == 0.0);
 }
 
-TEST_CASE("without torque it is a force at the grip: the true one if the device has it") {
+TEST_CASE("Torque rendering: without torque output it is a force at the grip, unscaled if in range") {
     OutputLimits limits;
     limits.torque = 0.0;
     limits.force = 12.0;
@@ -27,7 +26,7 @@ TEST_CASE("without torque it is a force at the grip: the true one if the device 
     CHECK(make_torque_rendering(limits, 1.5, 0.23).as_force == doctest::Approx(1.0 / 0.23));
 }
 
-TEST_CASE("what resists tightening turns the hand about the axis, as torque and as force at the grip alike") {
+TEST_CASE("Torque rendering: resistance to tightening turns the hand about +axis, as torque and as force") {
     const Vec3 axis(0, 1, 0), handle(1, 0, 0);
     const OutputCommand torque = render_torque({0.01, 0.0}, 100.0, axis, handle);
     CHECK(torque.torque == Vec3(0, 1, 0));
@@ -38,7 +37,7 @@ TEST_CASE("what resists tightening turns the hand about the axis, as torque and 
     CHECK(force.force == 5.0 * glm::cross(axis, handle));
 }
 
-TEST_CASE("what the device gives back of the wound-up hand is the work of what it renders") {
+TEST_CASE("Torque rendering: the stored energy is the work of the rendered torque") {
     const double stiffness = 400.0, length = 0.25, wound = 0.05;  // N·m/rad, m, rad
     for (const TorqueRendering& r : {TorqueRendering{0.01, 0.0}, TorqueRendering{0.0, 0.05}}) {
         double work = 0.0;

@@ -43,7 +43,7 @@ struct Device {
 
 }  // namespace
 
-TEST_CASE("a device that moves as hands do is rendered upon from its first sample, at 2 m/s too") {
+TEST_CASE("Watchdog: hand motion is accepted from the first sample, up to 2 m/s") {
     Device device;
     device.input.pose.position = Vec3(0.3, -0.2, 5.0);
     CHECK(device.step());
@@ -52,7 +52,7 @@ TEST_CASE("a device that moves as hands do is rendered upon from its first sampl
     for (const std::uint64_t n : device.state.counts) CHECK(n == 0);
 }
 
-TEST_CASE("the motion is told: shift, turn and velocity") {
+TEST_CASE("Watchdog: it reports shift, turn and velocity") {
     Device device;
     device.step();
     CHECK_FALSE(device.state.motion.fresh);  // one sample is no motion
@@ -80,7 +80,7 @@ TEST_CASE("the motion is told: shift, turn and velocity") {
     CHECK(device.state.motion.angular_velocity.z == doctest::Approx(2.0).epsilon(1e-4));
 }
 
-TEST_CASE("silence: the eighth millisecond may be quiet, the ninth is held off; missed deadlines count") {
+TEST_CASE("Watchdog: eight silent milliseconds are accepted, nine are a fault; missed deadlines count") {
     Device device;
     device.move(0.1, 10);
     device.input.fresh = false;
@@ -98,7 +98,7 @@ TEST_CASE("silence: the eighth millisecond may be quiet, the ninth is held off; 
     CHECK(device.state.fault == Fault::silent);
 }
 
-TEST_CASE("what is no pose is held off, reported once, and recovered from") {
+TEST_CASE("Watchdog: an invalid pose is a fault, counted once, with recovery") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::function<void(PortInput&)> broken[] = {
         [&](PortInput& in) { in.pose.position.y = nan; },
@@ -125,7 +125,7 @@ TEST_CASE("what is no pose is held off, reported once, and recovered from") {
     }
 }
 
-TEST_CASE("a jump of place or turn is held off and makes no velocity; the new place is taken after a while") {
+TEST_CASE("Watchdog: a jump is a fault without velocity; the new pose is accepted after the recovery time") {
     Device device;
     device.move(0.1, 10);
     device.input.pose.position.y += 0.031;
@@ -145,7 +145,7 @@ TEST_CASE("a jump of place or turn is held off and makes no velocity; the new pl
     }
 }
 
-TEST_CASE("a sample every fourth tick may be four times as far away as one every tick") {
+TEST_CASE("Watchdog: the jump limit scales with the time between samples") {
     Device device;
     device.limits.jump = 5e-3;
     for (int i = 0; i < 400; ++i) {
@@ -160,7 +160,7 @@ TEST_CASE("a sample every fourth tick may be four times as far away as one every
     CHECK_FALSE(device.step());
 }
 
-TEST_CASE("too fast for a hand: held off within 20 ms, until it has come down to half of that") {
+TEST_CASE("Watchdog: excess speed is a fault within 20 ms, until it falls to half the limit") {
     Device device;
     device.move(0.1, 10);
     const int held_off = device.ticks_until(false, 3.5);
@@ -179,7 +179,7 @@ TEST_CASE("too fast for a hand: held off within 20 ms, until it has come down to
     CHECK(device.state.fault == Fault::too_fast);
 }
 
-TEST_CASE("a force that is no number is the renderer's fault, and is held off like the device's") {
+TEST_CASE("Watchdog: a request that is not finite is a fault") {
     Device device;
     device.move(0.1, 10);
     CHECK_FALSE(watch(device.limits, device.state, device.input, false, dt));
@@ -187,7 +187,8 @@ TEST_CASE("a force that is no number is the renderer's fault, and is held off li
     CHECK(device.ticks_until(true) == 100);
 }
 
-TEST_CASE("the emergency stop lasts until it is reset with the dead-man let go, and wins over all else") {
+TEST_CASE(
+    "Watchdog: the emergency stop overrides all faults and lasts until a reset without the dead-man switch") {
     Device device;
     device.move(0.1, 10);
     device.input.stop = true;
@@ -214,7 +215,7 @@ TEST_CASE("the emergency stop lasts until it is reset with the dead-man let go, 
     CHECK(device.state.fault == Fault::stopped);
 }
 
-TEST_CASE("every fault has its words") {
+TEST_CASE("Watchdog: every fault has a message") {
     for (std::size_t i = 0; i < fault_kinds; ++i)
         for (std::size_t j = 0; j < i; ++j)
             CHECK(std::string(name(static_cast<Fault>(i))) != name(static_cast<Fault>(j)));

@@ -31,7 +31,8 @@ double apart(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-TEST_CASE("the tool begins where it is placed; a way of the hand is a scaled, turned way of the tool") {
+TEST_CASE(
+    "Workspace: the tool begins where it is placed, and follows the scaled and rotated motion of the hand") {
     Random random(1);
     for (int i = 0; i < 100; ++i) {
         const Workspace w = any_workspace(random);
@@ -46,7 +47,7 @@ TEST_CASE("the tool begins where it is placed; a way of the hand is a scaled, tu
     }
 }
 
-TEST_CASE("the clutch holds the tool still, and letting it go moves nothing, as often as one likes") {
+TEST_CASE("Workspace: the clutch holds the tool, and releasing it moves nothing") {
     Random random(2);
     const Workspace w = any_workspace(random);
     Pose device{any(random), rotation(any(random))};
@@ -73,7 +74,7 @@ TEST_CASE("the clutch holds the tool still, and letting it go moves nothing, as 
     CHECK(moved > 1.0);
 }
 
-TEST_CASE("a sample that is no pose is passed on, and nothing of it stays, clutched or not") {
+TEST_CASE("Workspace: an invalid sample is passed on and leaves the state unchanged") {
     const Workspace w;
     WorkspaceState s = place(w, {}, {Vec3(1, 2, 3), rotation(Vec3(0, 1, 0))});
     Pose broken;
@@ -84,7 +85,7 @@ TEST_CASE("a sample that is no pose is passed on, and nothing of it stays, clutc
     }
 }
 
-TEST_CASE("power at the device is the stated share of the power in the assembly, whatever moves") {
+TEST_CASE("Workspace: the power at the device is the stated multiple of the power in the assembly") {
     Random random(3);
     for (int i = 0; i < 200; ++i) {
         const Workspace w = any_workspace(random);
@@ -107,7 +108,7 @@ TEST_CASE("power at the device is the stated share of the power in the assembly,
     }
 }
 
-TEST_CASE("with power 1/scale forces are as they are") {
+TEST_CASE("Workspace: with power 1/scale forces are unchanged") {
     Workspace w;
     w.scale = 4.0;
     w.power = 0.25;
@@ -116,7 +117,7 @@ TEST_CASE("with power 1/scale forces are as they are") {
     CHECK(out.torque == Vec3(0, 1, 0));
 }
 
-TEST_CASE("forces go with the clutch in its time, and come back in it") {
+TEST_CASE("Workspace: forces fade out and in with the clutch") {
     const Workspace w;
     WorkspaceState s;
     const OutputCommand pressed{Vec3(10, 0, 0), Vec3(0, 1, 0)};
@@ -133,7 +134,7 @@ TEST_CASE("forces go with the clutch in its time, and come back in it") {
     CHECK(to_device(w, s, pressed).torque.y == doctest::Approx(0.5));
 }
 
-TEST_CASE("the device's limits seen from the assembly: what is at the limit there is at the limit here") {
+TEST_CASE("Workspace: a command at the device's limit is at the mapped limit") {
     Random random(4);
     for (int i = 0; i < 50; ++i) {
         const Workspace w = any_workspace(random);

@@ -6,16 +6,16 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "haptics/glove/cal_file.hpp"
+#include "haptics/hand/cal_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const auto calibration = bolt::glove::parse_cal(text, "fuzz.cal");
+    const auto calibration = bolt::hand::parse_cal(text, "fuzz.cal");
     if (!calibration) {
         if (calibration.error().line < 1) std::abort();
         return 0;
     }
-    for (const auto& line : calibration->lines)
-        if (line && !std::isfinite(bolt::glove::angle(*line, 255.0))) std::abort();
+    for (const auto& fit : calibration->fits)
+        if (fit && !std::isfinite(bolt::hand::angle(*fit, 255.0))) std::abort();
     return 0;
 }

@@ -16,8 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (read.error().line < 1 || read.error().what.empty()) std::abort();
         return 0;
     }
-    for (const auto& line : read->calibration.lines)
-        if (line && !std::isfinite(bolt::glove::angle(*line, 255.0))) std::abort();
+    for (const auto& line : read->calibration.fits)
+        if (line && !std::isfinite(bolt::hand::angle(*line, 255.0))) std::abort();
     const std::string written = bolt::content::glove_calibration_text(*read);
     const auto again = bolt::content::parse_glove_calibration(written, "fuzz.json");
     if (!again || bolt::content::glove_calibration_text(*again) != written) std::abort();

@@ -12,7 +12,7 @@
 #include "haptics/device/pid.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/wheel.hpp"
-#include "tools/emulate/wheel_reports.hpp"
+#include "tools/emulate/wheel_descriptors.hpp"
 
 namespace {
 
@@ -20,11 +20,11 @@ using namespace bolt;
 using namespace bolt::device;
 
 // Gives the input away piece by piece, the first byte of a piece being its length.
-class Line : public HidLine {
+class DeviceThread : public HidTransport {
   public:
-    Line(std::span<const std::uint8_t>& left, double& time) : left_(left), time_(time) {}
-    Result<std::span<const std::uint8_t>> read(double patience) override {
-        time_ += patience;
+    DeviceThread(std::span<const std::uint8_t>& left, double& time) : left_(left), time_(time) {}
+    Result<std::span<const std::uint8_t>> read(double timeout) override {
+        time_ += timeout;
         if (left_.empty()) return fail(ErrorCode::no_device, "the end");
         const std::size_t n = std::min<std::size_t>(left_[0] % 64, left_.size() - 1);
         const auto piece = left_.subspan(1, n);
@@ -67,8 +67,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
     double time = 0.0;
     const Clock clock = [&] { return time; };
-    const Rig rig{.counts_per_turn = data[0] % 8 >= 4 ? 4000.0 : 0.0};
-    auto line = std::make_unique<Line>(left, time);
+    const WheelConfig rig{.counts_per_turn = data[0] % 8 >= 4 ? 4000.0 : 0.0};
+    auto line = std::make_unique<DeviceThread>(left, time);
     Result<std::unique_ptr<Device>> device =
         data[0] % 3 == 0   ? make_space_mouse(std::move(line), descriptor, "puck", "1", {}, clock)
         : data[0] % 3 == 1 ? make_wheel(std::move(line), descriptor, "wheel", "1", rig, clock)

@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <span>
 
-#include "haptics/glove/conversation.hpp"
+#include "haptics/hand/glove_session.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace bolt::glove;
-    Conversation conversation;
+    using namespace bolt::hand;
+    GloveSession session;
     std::span<const std::uint8_t> left(data, size);
     double now = 0.0;
     while (!left.empty()) {
@@ -19,14 +19,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         now += (left[0] & 0x80) != 0 ? 0.1 : 0.002;
         const auto cut = left.subspan(1, n - 1);
         left = left.subspan(n);
-        conversation.go_on(cut, now, [&](const Frame& frame) {
-            for (const Sensor s : sensors_of(conversation.identity().sensors))
+        session.update(cut, now, [&](const GloveFrame& frame) {
+            for (const Sensor s : sensors_of(session.identity().sensors))
                 if (frame.raw[index(s)] == 0) std::abort();
         });
     }
 
-    FrameReader reader{.layout = {22, size % 2 == 1, size % 3 == 1}};
-    read_frames(reader, {data, size}, [&](const Frame& frame) {
+    GloveFrameReader reader{.layout = {22, size % 2 == 1, size % 3 == 1}};
+    read_frames(reader, {data, size}, [&](const GloveFrame& frame) {
         for (const std::uint8_t raw : frame.raw)
             if (raw == 0) std::abort();
     });

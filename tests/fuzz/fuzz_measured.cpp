@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "game/compare/measured.hpp"
+#include "game/analysis/measured.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const auto measured = bolt::compare::parse_measured(text, "fuzz.csv");
+    const auto measured = bolt::analysis::parse_measured(text, "fuzz.csv");
     if (!measured && measured.error().message().empty()) std::abort();
     return 0;
 }

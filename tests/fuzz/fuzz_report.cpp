@@ -21,14 +21,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if ((field.bit + field.bits + 7) / 8 > report_size(*descriptor, field.kind, field.report))
             std::abort();
         const auto value = value_of(field, report);
-        if (value && put_value(field, *value, report) && *value >= field.low && *value <= field.high &&
+        if (value && write_value(field, *value, report) && *value >= field.low && *value <= field.high &&
             value_of(field, report) != value)
             std::abort();
-        if (value && !(share_of(field, *value) >= -1.0 && share_of(field, *value) <= 1.0)) std::abort();
+        if (value && !(normalized_value(field, *value) >= -1.0 && normalized_value(field, *value) <= 1.0)) std::abort();
     }
     if (const auto layout = six_axis_layout(*descriptor)) {
         SixAxisState state;
-        take_report(*layout, report, state);
+        decode_report(*layout, report, state);
     }
     return 0;
 }

@@ -7,8 +7,8 @@
 #include "engine/base/file.hpp"
 #include "support.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/geometry/scene.hpp"
-#include "tools/geometry/watertight.hpp"
+#include "tools/author/geometry/scene.hpp"
+#include "tools/author/geometry/watertight.hpp"
 
 using namespace bolt;
 using namespace geometry_test;
@@ -31,8 +31,9 @@ TEST_CASE("the far level has the same names and fewer triangles") {
     CHECK(all(check(Machine(), {}, std::make_unique<Machine>().get()).errors) == "");
     Machine far;
     far.model.nodes[static_cast<std::size_t>(far.node("cover"))].name = "covr";
-    CHECK(all(check(Machine(), {}, &far).errors) ==
-          R"(4:40: /model_far: the far level has no node "cover", which the model has; is it "covr" there?)");
+    CHECK(
+        all(check(Machine(), {}, &far).errors) ==
+        R"(4:40: /model_far: the far level has no node "cover", which the model has; did you mean "covr"?)");
     Machine more;
     add_triangles(more, "ghost", 1);
     CHECK(

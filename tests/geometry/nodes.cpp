@@ -4,7 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "support.hpp"
-#include "tools/geometry/misplacement.hpp"
+#include "tools/author/geometry/misplacement.hpp"
 
 using namespace bolt;
 using namespace geometry_test;
@@ -96,7 +96,7 @@ TEST_CASE("an axis that is 0.2 degrees off is found, 0.02 degrees is not; a turn
             continue;
         }
         REQUIRE(said.errors.size() == 1);
-        CHECK(said.errors[0].find(angle > 1.0 ? "180 degrees off; the bolt points the other way"
+        CHECK(said.errors[0].find(angle > 1.0 ? "180 degrees off; expected the opposite direction"
                                               : "0.2 degrees off; expected both within 0.1 degrees") !=
               std::string::npos);
         CHECK(said.errors[0].starts_with(

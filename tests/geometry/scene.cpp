@@ -1,5 +1,5 @@
 // A model with its instances in their places: transforms, names, every topology.
-#include "tools/geometry/scene.hpp"
+#include "tools/author/geometry/scene.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include "tools/geometry/hexagon.hpp"
+#include "tools/author/geometry/hexagon.hpp"
 
 using namespace bolt;
 using namespace geometry_test;

@@ -10,8 +10,8 @@
 #include "content/format/load.hpp"
 #include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
-#include "tools/geometry/box.hpp"
-#include "tools/geometry/check.hpp"
+#include "tools/author/geometry/box.hpp"
+#include "tools/author/geometry/check.hpp"
 
 namespace geometry_test {
 

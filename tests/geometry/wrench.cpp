@@ -6,9 +6,9 @@
 
 #include "engine/base/random.hpp"
 #include "support.hpp"
-#include "tools/geometry/crossing.hpp"
-#include "tools/geometry/swing.hpp"
-#include "tools/geometry/wrench.hpp"
+#include "tools/author/geometry/crossing.hpp"
+#include "tools/author/geometry/swing.hpp"
+#include "tools/author/geometry/wrench.hpp"
 
 using namespace bolt;
 using namespace geometry_test;

@@ -9,7 +9,7 @@
 
 #include "engine/assets/image.hpp"
 #include "engine/base/file.hpp"
-#include "tools/imagediff/compare.hpp"
+#include "tools/verify/imagediff/compare.hpp"
 
 namespace bolt::test {
 
@@ -27,7 +27,7 @@ imagediff::Picture without_alpha(const render::Picture& picture) {
 Status write_png(const fs::path& path, const imagediff::Picture& picture) {
     const Result<std::string> png = assets::encode_png(picture.width, picture.height, 3, picture.rgb);
     if (!png) return fail(png.error());
-    std::error_code ignored;  // write_file says why
+    std::error_code ignored;  // write_file reports the reason
     fs::create_directories(path.parent_path(), ignored);
     return write_file(path, *png);
 }
@@ -43,7 +43,7 @@ imagediff::Picture stretched_difference(const imagediff::Picture& a, const image
     return difference;
 }
 
-// The share of pixels with a channel that is more than `channel` off.
+// Returns the fraction of pixels with a channel that differs by more than `channel`.
 double share_off(const imagediff::Picture& a, const imagediff::Picture& b, int channel) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
@@ -81,13 +81,13 @@ Verdict failed(const Gallery& gallery, const std::string& name, const std::strin
 
 namespace {
 
-// Of drivers that draw with the processor: reciprocals and roots are approximated, and each make of
-// processors has approximations of its own.
+// For software drivers: reciprocals and roots are approximated, and each processor family has its own
+// approximations.
 std::string processor() {
     std::ifstream cpuinfo("/proc/cpuinfo");
     const std::array<std::string, 3> wanted{"vendor_id", "cpu family", "model"};
     std::string named;
-    for (std::string line; std::getline(cpuinfo, line) && !line.empty();) {  // of the first one
+    for (std::string line; std::getline(cpuinfo, line) && !line.empty();) {  // of the first processor
         const std::string key = line.substr(0, line.find_last_not_of("\t ", line.find(':') - 1) + 1);
         if (std::find(wanted.begin(), wanted.end(), key) != wanted.end())
             named += line.substr(line.find(':') + 1);

@@ -1,6 +1,5 @@
-// Pictures held against references that are kept in tests/golden/pictures: bit for bit on the driver that
-// made them, within a tolerance on any other. A missing reference fails. References are made anew by
-// tests/golden/update.sh, and by nothing else.
+// Compares pictures with the references in tests/golden/pictures: exactly on the driver that made them,
+// within a tolerance on others. A missing reference fails. Only tests/golden/update.sh updates references.
 #pragma once
 
 #include <filesystem>
@@ -11,37 +10,36 @@
 
 namespace bolt::test {
 
-// Elsewhere: other drivers place their samples on the same points, but round corners, filter and divide in
-// their own way, so that a pixel at an edge may change sides.
+// Tolerance for other drivers: they use the same sample positions, but rounding, filtering and division
+// differ, so that a pixel at an edge may change sides.
 struct Tolerance {
     double mean_flip = 0.03;
-    int channel = 24;      // of 255: what lies beyond is counted as off
-    double share = 0.015;  // of the pixels that may be off
+    int channel = 24;      // of 255: a larger difference counts
+    double share = 0.015;  // of the pixels may differ
 };
 
 struct Gallery {
     std::filesystem::path references, failures;
-    std::string driver;         // that draws now
-    std::string pinned_driver;  // that drew the references
-    bool update = false;        // write what should be compared
+    std::string driver;         // the current driver
+    std::string pinned_driver;  // the driver of the references
+    bool update = false;        // write the reference instead of comparing
 };
 
-// The one of this project, for pictures of this device.
+// This project's checker for pictures of this device.
 Gallery gallery(const gpu::Device& device);
 
 std::string driver_of(const gpu::Device& device);
 
 struct Verdict {
     bool passes = false;
-    std::string why;  // numbers, and where the pictures are
+    std::string why;  // figures, and the paths of the pictures
 };
 
-// On failure NAME.actual.png and NAME.difference.png (channel by channel, stretched to the full range) are
-// written.
+// A failure writes NAME.actual.png and NAME.difference.png (per channel, stretched to the full range).
 Verdict hold(const Gallery& gallery, const std::string& name, const render::Picture& picture,
              const Tolerance& tolerance = {});
 
-// The pictures side by side.
+// Compares two pictures.
 render::Picture joined(const std::vector<render::Picture>& pictures);
 
 }  // namespace bolt::test

@@ -1,4 +1,4 @@
-// Golden pictures of light and the want of it.
+// Golden pictures of lights and shadows.
 #include <doctest/doctest.h>
 
 #include "tests/golden/stage.hpp"
@@ -9,7 +9,7 @@ using namespace bolt::test;
 
 namespace {
 
-// A floor with a block and a ball on it.
+// A floor with a block and a ball.
 struct Table {
     assets::Model floor = plate(paint({0.55F, 0.54F, 0.5F}, 0.8F)), block = cube(paint({0.15F, 0.35F, 0.4F})),
                   ball = globe(metal({0.56F, 0.57F, 0.58F}, 0.3F));
@@ -21,9 +21,9 @@ struct Table {
           gpu_ball(stage.studio.upload(ball)) {}
 
     void set(Scene& scene) const {
-        place(scene, floor, gpu_floor, at({0, 0, 0}, glm::vec3(3.2F)));
-        place(scene, block, gpu_block, at({-1.0F, 0.6F, -0.4F}, {0.8F, 0.6F, 0.5F}));
-        place(scene, ball, gpu_ball, at({1.1F, 0.7F, 0.3F}, glm::vec3(0.7F)));
+        add_model(scene, floor, gpu_floor, at({0, 0, 0}, glm::vec3(3.2F)));
+        add_model(scene, block, gpu_block, at({-1.0F, 0.6F, -0.4F}, {0.8F, 0.6F, 0.5F}));
+        add_model(scene, ball, gpu_ball, at({1.1F, 0.7F, 0.3F}, glm::vec3(0.7F)));
     }
 };
 
@@ -31,31 +31,31 @@ Eye above() { return eye_at({1.5F, 4.2F, 7.5F}, {0, 0.3F, 0}); }
 
 }  // namespace
 
-TEST_CASE("golden: shadows of a lamp; what is a ghost or a mark casts none") {
+TEST_CASE("Golden: shadows of a lamp; ghosts and marks cast none") {
     Stage stage;
     const Table table(stage);
     Scene scene = stage.scene();
     table.set(scene);
-    place(scene, table.ball, table.gpu_ball, at({-1.9F, 0.4F, 1.4F}, glm::vec3(0.4F)));
+    add_model(scene, table.ball, table.gpu_ball, at({-1.9F, 0.4F, 1.4F}, glm::vec3(0.4F)));
     scene.objects.back().opacity = 0.5F;
-    place(scene, table.block, table.gpu_block, at({0.1F, 0.25F, 1.9F}, glm::vec3(0.25F)));
+    add_model(scene, table.block, table.gpu_block, at({0.1F, 0.25F, 1.9F}, glm::vec3(0.25F)));
     scene.objects.back().flat = true;
     scene.lights.push_back(lamp({0.7F, -1.0F, 0.25F}, 2.0F));
     scene.environment_intensity = 0.35F;
     stage.shoot("shadow", scene, above());
 }
 
-TEST_CASE("golden: ambient occlusion under and between things") {
+TEST_CASE("Golden: ambient occlusion under and between objects") {
     Stage stage;
     const Table table(stage);
     Scene scene = stage.scene();
     table.set(scene);
-    place(scene, table.block, table.gpu_block, at({-0.1F, 0.4F, -0.9F}, {0.15F, 0.4F, 1.0F}));
+    add_model(scene, table.block, table.gpu_block, at({-0.1F, 0.4F, -0.9F}, {0.15F, 0.4F, 1.0F}));
     scene.occlusion_radius = 0.6F;
     stage.shoot("occlusion", scene, above());
 }
 
-TEST_CASE("golden: a point light, a spot light and a range") {
+TEST_CASE("Golden: a point light, a spot light and a range") {
     Stage stage;
     const Table table(stage);
     Scene scene = stage.scene();
@@ -73,16 +73,16 @@ TEST_CASE("golden: a point light, a spot light and a range") {
         assets::Node node;
         node.light = i;
         node.translation = i == 0 ? glm::vec3(0.1F, 0.9F, 0.8F) : glm::vec3(1.2F, 3.0F, 0.2F);
-        node.rotation = glm::angleAxis(-1.5707963F, glm::vec3(1, 0, 0));  // down
+        node.rotation = glm::angleAxis(-1.5707963F, glm::vec3(1, 0, 0));  // downwards
         lights.nodes.push_back(node);
         lights.roots.push_back(i);
     }
-    place_lights(scene, lights);
+    add_lights(scene, lights);
     scene.environment_intensity = 0.15F;
     stage.shoot("lamps", scene, above());
 }
 
-TEST_CASE("golden: the sky and its mirror image, turned, brighter, and dimmed by the exposure") {
+TEST_CASE("Golden: the sky and its reflection, rotated, brighter, and dimmed by the exposure") {
     Stage stage;
     assets::Model ball = globe(metal(glm::vec3(0.95F), 0.0F));
     const GpuModel gpu_ball = stage.studio.upload(ball);
@@ -93,7 +93,7 @@ TEST_CASE("golden: the sky and its mirror image, turned, brighter, and dimmed by
         scene.environment_turn = turn;
         scene.environment_intensity = turn > 0.0F ? 1.6F : 1.0F;
         scene.exposure = turn > 0.0F ? 0.5F : 1.0F;
-        place(scene, ball, gpu_ball, at({0, 0, 0}));
+        add_model(scene, ball, gpu_ball, at({0, 0, 0}));
         pictures.push_back(
             stage.studio.shoot(scene, eye_at({0, 0.8F, 4}, {0, 0, 0}, 1.0F, 1.0F), {112, 112}));
     }

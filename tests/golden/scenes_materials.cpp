@@ -1,4 +1,4 @@
-// Golden pictures of what surfaces are made of.
+// Golden pictures of materials.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ std::vector<assets::Material> rows_of_materials() {
                 m.clearcoat = 1.0F;
                 m.clearcoat_roughness = 0.5F * part;
             }
-            if (row == 3) {  // brushed steel, turned a little further from ball to ball
+            if (row == 3) {  // brushed steel, rotated from ball to ball
                 m = metal({0.56F, 0.57F, 0.58F}, 0.3F);
                 m.anisotropy = 0.25F + 0.7F * part;
                 m.anisotropy_rotation = 0.8F * part;
@@ -38,7 +38,7 @@ std::vector<assets::Material> rows_of_materials() {
     return all;
 }
 
-// Domes on a grid, as a map of normals.
+// A normal map of domes on a grid.
 glm::vec4 domes(int x, int y) {
     const glm::vec2 p = (glm::vec2(x % 16, y % 16) - 7.5F) / 8.0F;
     const float r2 = glm::dot(p, p);
@@ -46,8 +46,7 @@ glm::vec4 domes(int x, int y) {
     return {0.5F * n + 0.5F, 1.0F};
 }
 
-// A picture that shows which way round it is: tiles, a red corner at the top left, a green one at the top
-// right.
+// A texture that shows its orientation: tiles, a red corner at the top left, a green one at the top right.
 glm::vec4 tiles(int x, int y) {
     if (x < 16 && y < 16) return {0.8F, 0.1F, 0.1F, 1.0F};
     if (x >= 48 && y < 16) return {0.1F, 0.6F, 0.1F, 1.0F};
@@ -55,7 +54,7 @@ glm::vec4 tiles(int x, int y) {
     return {grey, grey, 0.9F * grey, 1.0F};
 }
 
-// Every map at once. Occlusion in red, roughness in green, metal in blue, as glTF has them.
+// All maps at once. Occlusion in red, roughness in green, metallic in blue, as in glTF.
 void texture_all(assets::Model& model) {
     assets::Material& m = model.materials[0];
     m.base_color_texture.texture = add_texture(model, 64, tiles);
@@ -75,7 +74,7 @@ void texture_all(assets::Model& model) {
 
 }  // namespace
 
-TEST_CASE("golden: metal, paint, clear coat and brushed steel from smooth to rough") {
+TEST_CASE("Golden: metal, paint, clear coat and brushed steel from smooth to rough") {
     Stage stage;
     const std::vector<assets::Material> materials = rows_of_materials();
     assets::Model model = globe(materials[0]);
@@ -101,7 +100,7 @@ TEST_CASE("golden: metal, paint, clear coat and brushed steel from smooth to rou
     stage.shoot("materials", scene, eye_at({0, 0, 30}, {0, 0, 0}, 0.29F, 1.25F), {250, 200});
 }
 
-TEST_CASE("golden: all five maps, with and without tangents, turned and repeated") {
+TEST_CASE("Golden: all five maps, with and without tangents, rotated and repeated") {
     Stage stage;
     assets::Model with = cube(paint(glm::vec3(1.0F))), without = cube(paint(glm::vec3(1.0F)), false),
                   small = globe(paint(glm::vec3(1.0F)));
@@ -119,15 +118,15 @@ TEST_CASE("golden: all five maps, with and without tangents, turned and repeated
     Scene scene = stage.scene();
     const glm::mat4 turned(glm::vec4(0.8F, 0, -0.6F, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0.6F, 0, 0.8F, 0),
                            glm::vec4(-1.6F, 0, 0, 1));
-    place(scene, with, a, turned);
-    place(scene, without, b, at({3.2F, 0, 0}) * turned);
-    place(scene, small, c, at({0, 2.2F, -1.5F}));
+    add_model(scene, with, a, turned);
+    add_model(scene, without, b, at({3.2F, 0, 0}) * turned);
+    add_model(scene, small, c, at({0, 2.2F, -1.5F}));
     scene.lights.push_back(lamp({-0.5F, -0.7F, -0.8F}, 1.2F));
     scene.lights.back().casts_shadow = false;
     stage.shoot("maps", scene, eye_at({0, 2.5F, 9}, {0, 0.5F, 0}));
 }
 
-TEST_CASE("golden: alpha, cut out and blended, and colours at the vertices") {
+TEST_CASE("Golden: alpha mask and blend, and vertex colours") {
     Stage stage;
     assets::Model mask = plate(paint({0.7F, 0.5F, 0.2F}));
     mask.meshes[0].primitives[0].texcoords[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -150,10 +149,10 @@ TEST_CASE("golden: alpha, cut out and blended, and colours at the vertices") {
     const glm::mat4 upright(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, -1, 0, 0),
                             glm::vec4(0, 0, 0, 1));
     Scene scene = stage.scene();
-    // Nearer panes come first here: the renderer has to put what blends in order.
-    place(scene, red, c, at({0.9F, 0.2F, 1.5F}, glm::vec3(0.8F)) * upright);
-    place(scene, glass, b, at({0.1F, 0.6F, 0.6F}, glm::vec3(0.8F)) * upright);
-    place(scene, mask, a, at({-1.1F, 0.4F, 1.0F}, glm::vec3(0.9F)) * upright);
-    place(scene, colors, d, at({0, -0.6F, 0}, glm::vec3(2.2F)));
+    // Nearer panes are listed first: the renderer has to sort blended parts.
+    add_model(scene, red, c, at({0.9F, 0.2F, 1.5F}, glm::vec3(0.8F)) * upright);
+    add_model(scene, glass, b, at({0.1F, 0.6F, 0.6F}, glm::vec3(0.8F)) * upright);
+    add_model(scene, mask, a, at({-1.1F, 0.4F, 1.0F}, glm::vec3(0.9F)) * upright);
+    add_model(scene, colors, d, at({0, -0.6F, 0}, glm::vec3(2.2F)));
     stage.shoot("alpha", scene, eye_at({0.8F, 2.2F, 7.5F}, {0, 0.1F, 0}));
 }

@@ -1,4 +1,4 @@
-// Golden pictures of more than one view, and of the reducer.
+// Golden pictures of several views, and of the reducer.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -14,7 +14,7 @@ using namespace bolt::test;
 
 namespace {
 
-// As `boltwright render` sets it up.
+// Set up as in `boltwright render`.
 struct Reducer {
     Stage stage;
     assets::Model model;
@@ -28,11 +28,11 @@ struct Reducer {
         REQUIRE(read.has_value());
         model = std::move(*read);
         gpu_model = stage.studio.upload(model);
-        place(scene, model, gpu_model);
+        add_model(scene, model, gpu_model);
         SceneLight key = lamp({0.45F, -1.0F, -0.55F}, 1.0F);
         key.light.color = {1.6F, 1.55F, 1.5F, 0.0F};
         scene.lights.push_back(key);
-        const Box box = bounds(scene);
+        const BoundingBox box = bounds(scene);
         scene.occlusion_radius = 0.04F * glm::distance(box.low, box.high);
     }
     void shoot(const char* name, const glm::vec3& eye, const glm::vec3& target, float fov) {
@@ -42,7 +42,7 @@ struct Reducer {
 
 }  // namespace
 
-TEST_CASE("golden: the ZQ350, whole, from above and near a joint") {
+TEST_CASE("Golden: the ZQ350, whole, from above and near a joint") {
     Reducer reducer;
     reducer.shoot("zq350-overview", {0.2F, 0.62F, 0.9F}, {0.2F, 0.04F, 0.0F}, 0.64F);
     reducer.shoot("zq350-top", {0.175F, 1.15F, 0.001F}, {0.175F, 0.0F, 0.0F}, 0.7F);
@@ -51,7 +51,7 @@ TEST_CASE("golden: the ZQ350, whole, from above and near a joint") {
     reducer.shoot("zq350-flange", {-0.3F, 0.12F, 0.2F}, {-0.14F, 0.02F, 0.06F}, 0.5F);
 }
 
-TEST_CASE("golden: the ZQ350 in stereo") {
+TEST_CASE("Golden: the ZQ350 in stereo") {
     Reducer reducer;
     std::vector<Eye> eyes;
     for (const float x : {-0.0315F, 0.0315F})
@@ -59,7 +59,7 @@ TEST_CASE("golden: the ZQ350 in stereo") {
     reducer.stage.check("stereo", joined(reducer.stage.studio.shoot(reducer.scene, eyes, {128, 128})));
 }
 
-TEST_CASE("golden: three walls that meet at right angles, off-axis from one eye") {
+TEST_CASE("Golden: three walls at right angles, off-axis from one eye") {
     Stage stage;
     assets::Model floor = plate(paint({0.55F, 0.54F, 0.5F}, 0.8F));
     floor.meshes[0].primitives[0].texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
@@ -69,10 +69,10 @@ TEST_CASE("golden: three walls that meet at right angles, off-axis from one eye"
     const assets::Model ball = globe(metal({0.9F, 0.72F, 0.45F}, 0.25F));
     const GpuModel gpu_floor = stage.studio.upload(floor), gpu_ball = stage.studio.upload(ball);
     Scene scene = stage.scene();
-    place(scene, floor, gpu_floor, at({0, -1, 0}, glm::vec3(6.0F)));
+    add_model(scene, floor, gpu_floor, at({0, -1, 0}, glm::vec3(6.0F)));
     // Two of them on the edges between the walls.
     for (const float x : {-4.0F, -2.4F, 0.0F, 2.4F, 4.0F})
-        place(scene, ball, gpu_ball, at({x, -0.3F, x * x < 9.0F ? -3.0F : 0.5F}, glm::vec3(0.7F)));
+        add_model(scene, ball, gpu_ball, at({x, -0.3F, x * x < 9.0F ? -3.0F : 0.5F}, glm::vec3(0.7F)));
     const glm::vec3 eye(0.4F, 0.2F, 0.3F);
     const float side = 1.5F, back = -1.5F, front = 1.5F, low = -1.0F, high = 1.5F;
     const Eye walls[] = {

@@ -1,4 +1,4 @@
-// What golden pictures are taken with: a studio with its light, and models that show what can go wrong.
+// The set-up of golden pictures: a renderer with its light, and models that reveal typical errors.
 #pragma once
 
 #include "tests/golden/golden.hpp"
@@ -11,9 +11,9 @@ struct Stage {
     Gallery pictures = gallery(studio.device());
     render::EnvironmentLight light = studio.light(shading::studio(128));
 
-    // An empty scene in this light, on grey.
+    // An empty scene with this light on grey.
     render::Scene scene();
-    // Draws it and holds it against its reference.
+    // Renders it and compares it with its reference.
     void shoot(const std::string& name, const render::Scene& scene, const render::Eye& eye,
                VkExtent2D extent = {192, 144});
     void check(const std::string& name, const render::Picture& picture);
@@ -22,7 +22,7 @@ struct Stage {
 render::Eye eye_at(const glm::vec3& eye, const glm::vec3& target, float fov = 0.6F,
                    float aspect = 4.0F / 3.0F);
 
-// A lamp that casts a shadow; shines along `direction`.
+// A lamp that casts a shadow; it shines along `direction`.
 render::SceneLight lamp(const glm::vec3& direction, float strength);
 
 glm::mat4 at(const glm::vec3& place, const glm::vec3& scale = glm::vec3(1.0F));
@@ -30,12 +30,12 @@ glm::mat4 at(const glm::vec3& place, const glm::vec3& scale = glm::vec3(1.0F));
 assets::Material paint(const glm::vec3& color, float roughness = 0.6F);
 assets::Material metal(const glm::vec3& color, float roughness);
 
-// A sphere of radius 1 with tangents and texture coordinates, and a cube of half size 1 whose faces have the
-// whole texture each.
+// A sphere of radius 1 with tangents and texture coordinates, and a cube of half size 1 with the whole
+// texture on each face.
 assets::Model globe(const assets::Material& material);
 assets::Model cube(const assets::Material& material, bool tangents = true);
 
-// A texture of the model, size × size, from a colour for every texel (0 … 1); returns its index.
+// Adds a texture of size × size to the model, with a colour for every texel (0 … 1); returns its index.
 template <class Color>
 int add_texture(assets::Model& model, int size, const Color& color) {
     assets::Image image;

@@ -27,21 +27,20 @@ VkPhysicalDeviceMemoryProperties machine(std::initializer_list<VkMemoryPropertyF
 }  // namespace
 
 TEST_CASE(
-    "a discrete GPU: video memory for the GPU, its visible window for uploads, cached host memory to read "
-    "back") {
+    "Memory types: a discrete GPU uses video memory, its host-visible part for uploads, cached host memory "
+    "for readback") {
     const auto p = machine({0, local, visible, visible | cached, local | visible});
     CHECK(memory_type(p, ~0U, MemoryUse::device) == 1U);
     CHECK(memory_type(p, ~0U, MemoryUse::upload) == 4U);
     CHECK(memory_type(p, ~0U, MemoryUse::readback) == 3U);
-    // Without the window uploads go to host memory, uncached if there is a choice.
+    // Without host-visible video memory, uploads go to host memory, uncached if possible.
     const auto q = machine({local, visible | cached, visible});
     CHECK(memory_type(q, ~0U, MemoryUse::upload) == 2U);
     CHECK(memory_type(q, 0b011U, MemoryUse::upload) == 1U);
 }
 
 TEST_CASE(
-    "lavapipe has one kind for everything; a type that is not allowed, protected or not coherent is not "
-    "taken") {
+    "Memory types: lavapipe has one; types that are not allowed, protected or not coherent are not chosen") {
     const auto one = machine({local | visible | cached});
     for (const MemoryUse use : {MemoryUse::device, MemoryUse::upload, MemoryUse::readback}) {
         CHECK(memory_type(one, ~0U, use) == 0U);
@@ -53,7 +52,7 @@ TEST_CASE(
     CHECK(memory_type(odd, ~0U, MemoryUse::readback) == 2U);
 }
 
-TEST_CASE("ranges never overlap, are aligned, and all of it is one hole again in the end") {
+TEST_CASE("FreeList: ranges never overlap, are aligned, and merge into one in the end") {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         Random random(seed);
         constexpr std::uint64_t size = 1 << 20;
@@ -88,18 +87,19 @@ TEST_CASE("ranges never overlap, are aligned, and all of it is one hole again in
     }
 }
 
-TEST_CASE("best fit: the smallest hole that holds it") {
+TEST_CASE("FreeList: best fit takes the smallest range that is large enough") {
     FreeList list(1000);
     const auto a = list.take(300, 1), b = list.take(100, 1), c = list.take(50, 1);
     REQUIRE((a && b && c));
     list.give_back(*a, 300);
     list.give_back(*b, 100);
     CHECK(list.take(550, 1) == 450U);  // the end, not [0, 400)
-    CHECK(list.take(400, 1) == 0U);    // freed neighbours are one hole
+    CHECK(list.take(400, 1) == 0U);    // freed neighbours are merged
     CHECK_FALSE(list.take(1, 1).has_value());
 }
 
-TEST_CASE("small resources share blocks, buffers and images do not share one, large ones give theirs back") {
+TEST_CASE(
+    "Memory: small resources share blocks, buffers and images never share one, large ones are released") {
     test::Gpu gpu;
     Memory& memory = gpu.device().memory();
     const std::size_t before = memory.blocks();
@@ -120,6 +120,6 @@ TEST_CASE("small resources share blocks, buffers and images do not share one, la
         CHECK(memory.blocks() == before + 3);
         CHECK(memory.bytes_in_use() >= (VkDeviceSize{100} << 20) + 1'000'000);
     }
-    CHECK(memory.blocks() == before + 2);  // a spare of each kind stays
+    CHECK(memory.blocks() == before + 2);  // one spare block of each kind is kept
     CHECK(memory.bytes_in_use() == 0);
 }

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/gpu/descriptors.hpp"
-#include "engine/gpu/layout.hpp"
+#include "engine/gpu/pipeline.hpp"
 #include "tests/gpu/shaders.hpp"
 #include "tests/gpu/support.hpp"
 
@@ -9,7 +9,7 @@ using namespace bolt;
 using namespace bolt::gpu;
 
 TEST_CASE(
-    "reflection: bindings with type and count, vertex inputs with location and format, push constants") {
+    "Reflection: bindings with type and count, vertex inputs with location and format, push constants") {
     test::Gpu gpu;
     const Shader vertex = gpu.need(make_shader("triangle.vert", test_shaders("triangle.vert")));
     CHECK(vertex.reflection.stage == VK_SHADER_STAGE_VERTEX_BIT);
@@ -33,13 +33,13 @@ TEST_CASE(
 
     Pipeline pipeline;
     const Shader* both[] = {&vertex, &fragment};
-    gpu.need(merge_layouts(gpu.device(), both, pipeline));
+    gpu.need(make_pipeline_layout(gpu.device(), both, pipeline));
     CHECK(pipeline.sets.size() == 2);
     CHECK(pipeline.bindings.size() == 3);
     CHECK(pipeline.push_stages == VK_SHADER_STAGE_VERTEX_BIT);
 }
 
-TEST_CASE("no shader, half a shader and stages that disagree are errors that say whose") {
+TEST_CASE("Shaders: invalid SPIR-V and stages that disagree are errors that name the shader") {
     const std::uint32_t rubbish[] = {1, 2, 3, 4, 5, 6};
     const auto broken = make_shader("rubbish.vert", rubbish);
     REQUIRE_FALSE(broken.has_value());
@@ -52,12 +52,12 @@ TEST_CASE("no shader, half a shader and stages that disagree are errors that say
     Shader other = gpu.need(make_shader("double.comp", test_shaders("double.comp")));
     Pipeline pipeline;
     const Shader* both[] = {&vertex, &other};  // set 0 binding 0: uniform here, storage there
-    const Status merged = merge_layouts(gpu.device(), both, pipeline);
+    const Status merged = make_pipeline_layout(gpu.device(), both, pipeline);
     REQUIRE_FALSE(merged.has_value());
     CHECK(merged.error().what.starts_with("double.comp: set 0 binding 0"));
 }
 
-TEST_CASE("a vertex input that nothing feeds, and a binding that is left out, are named") {
+TEST_CASE("Shaders: a vertex input without a stream and a missing binding are named") {
     test::Gpu gpu;
     const Shader vertex = gpu.need(make_shader("triangle.vert", test_shaders("triangle.vert")));
     const PipelineCache cache = gpu.need(PipelineCache::open(gpu.device(), {}));
@@ -68,17 +68,17 @@ TEST_CASE("a vertex input that nothing feeds, and a binding that is left out, ar
     const auto hungry = make_graphics_pipeline(gpu.device(), cache, info);
     REQUIRE_FALSE(hungry.has_value());
     CHECK(hungry.error().what ==
-          "triangle.vert: nothing feeds the vertex input \"unused_by_some\" at location 3");
+          "triangle.vert: no vertex stream for the input \"unused_by_some\" at location 3");
 
     const Shader compute = gpu.need(make_shader("double.comp", test_shaders("double.comp")));
     const Pipeline pipeline = gpu.need(make_compute_pipeline(gpu.device(), cache, compute));
     const auto frames = gpu.need(Frames::create(gpu.device()));
-    Frame& frame = *gpu.need(frames->begin());
-    SetWriter empty = gpu.need(SetWriter::create(gpu.device(), frame, pipeline, 0));
-    CHECK(empty.finish().error().what == "nothing was bound to \"Values\" (set 0 binding 0)");
-    SetWriter wrong = gpu.need(SetWriter::create(gpu.device(), frame, pipeline, 0));
-    const Piece piece = gpu.need(frame.piece(64));
-    CHECK(wrong.piece(0, piece).piece(7, piece).finish().error().what == "no shader has set 0 binding 7");
+    FrameContext& frame = *gpu.need(frames->begin());
+    DescriptorWriter empty = gpu.need(DescriptorWriter::create(gpu.device(), frame, pipeline, 0));
+    CHECK(empty.finish().error().what == "nothing is bound to \"Values\" (set 0 binding 0)");
+    DescriptorWriter wrong = gpu.need(DescriptorWriter::create(gpu.device(), frame, pipeline, 0));
+    const TransientRange piece = gpu.need(frame.allocate(64));
+    CHECK(wrong.range(0, piece).range(7, piece).finish().error().what == "no shader has set 0 binding 7");
     gpu.need(frames->submit(frame));
     gpu.need(frames->finish());
 }

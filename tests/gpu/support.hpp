@@ -1,4 +1,4 @@
-// A GPU for a test, with the validation layers on: any message of theirs fails the test.
+// A GPU for a test, with validation layers. Any validation message fails the test.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ class Gpu {
 
     gpu::Device& device() { return *device_; }
     [[nodiscard]] const gpu::ValidationLog& log() const { return instance_->log(); }
-    // For the tests of the check itself: messages are expected, and counted by the test.
+    // For tests of validation itself: messages are expected, and the test counts them.
     void expect_messages() { expects_messages_ = true; }
 
     template <class T>

@@ -7,9 +7,9 @@ using namespace bolt::gpu;
 
 namespace {
 
-// A desktop as many drivers describe it.
-SurfaceOffer desktop() {
-    SurfaceOffer offer;
+// The capabilities of a desktop window as many drivers report them.
+SurfaceSupport desktop() {
+    SurfaceSupport offer;
     VkSurfaceCapabilitiesKHR& can = offer.capabilities;
     can.minImageCount = 2;
     can.currentExtent = {640, 480};
@@ -24,7 +24,7 @@ SurfaceOffer desktop() {
     return offer;
 }
 
-SwapchainPlan plan(const SurfaceOffer& offer, const SwapchainWish& wish = {}) {
+SwapchainPlan plan(const SurfaceSupport& offer, const SwapchainRequest& wish = {}) {
     Result<SwapchainPlan> made = plan_swapchain(offer, wish);
     if (!made) FAIL(made.error().message());
     return *made;
@@ -32,14 +32,13 @@ SwapchainPlan plan(const SurfaceOffer& offer, const SwapchainWish& wish = {}) {
 
 }  // namespace
 
-TEST_CASE(
-    "formats: sRGB of 8 bits, in the order of pictures if that is offered, or an error that says what is") {
-    SurfaceOffer offer = desktop();
+TEST_CASE("Swapchain: 8-bit sRGB, RGBA preferred; otherwise the error lists the supported formats") {
+    SurfaceSupport offer = desktop();
     CHECK(plan(offer).format.format == VK_FORMAT_B8G8R8A8_SRGB);
     offer.formats.push_back({VK_FORMAT_R8G8B8A8_SRGB, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR});
     CHECK(plan(offer).format.format == VK_FORMAT_R8G8B8A8_SRGB);
-    CHECK(plan(offer).reasons.front() == "format RGBA sRGB: as pictures are");
-    // The right bits in another colour space are the wrong colours.
+    CHECK(plan(offer).reasons.front() == "format RGBA sRGB: no conversion");
+    // The right format in another colour space gives wrong colours.
     offer.formats = {{VK_FORMAT_R8G8B8A8_SRGB, VK_COLOR_SPACE_DISPLAY_P3_NONLINEAR_EXT},
                      {VK_FORMAT_B8G8R8A8_UNORM, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR}};
     const auto refused = plan_swapchain(offer, {});
@@ -51,21 +50,21 @@ TEST_CASE(
     CHECK_FALSE(plan_swapchain(offer, {}).has_value());
 }
 
-TEST_CASE("present modes: mailbox, else fifo; immediate only for those who ask to tear") {
-    SurfaceOffer offer = desktop();
+TEST_CASE("Swapchain: mailbox, otherwise fifo; immediate only if tearing is allowed") {
+    SurfaceSupport offer = desktop();
     CHECK(plan(offer).mode == VK_PRESENT_MODE_MAILBOX_KHR);
     CHECK(plan(offer, {{}, true, 2}).mode == VK_PRESENT_MODE_IMMEDIATE_KHR);
     offer.modes = {VK_PRESENT_MODE_FIFO_RELAXED_KHR, VK_PRESENT_MODE_FIFO_KHR};
     CHECK(plan(offer).mode == VK_PRESENT_MODE_FIFO_KHR);
     CHECK(plan(offer, {{}, true, 2}).mode == VK_PRESENT_MODE_FIFO_KHR);
-    CHECK(plan(offer).reasons[1].starts_with("fifo: there is no mailbox"));
+    CHECK(plan(offer).reasons[1].starts_with("fifo: mailbox is not available"));
 }
 
-TEST_CASE("images: enough for what is shown, waits and is drawn, within what the surface allows") {
-    SurfaceOffer offer = desktop();
+TEST_CASE("Swapchain: enough images for presentation, queue and drawing, within the limits of the surface") {
+    SurfaceSupport offer = desktop();
     CHECK(plan(offer).images == 3);
     offer.capabilities.minImageCount = 4;
-    CHECK(plan(offer).images == 5);  // a mailbox needs one more than the least, or it waits
+    CHECK(plan(offer).images == 5);  // mailbox needs one more than the minimum, otherwise it blocks
     offer.capabilities.maxImageCount = 4;
     CHECK(plan(offer).images == 4);
     offer = desktop();
@@ -73,8 +72,10 @@ TEST_CASE("images: enough for what is shown, waits and is drawn, within what the
     CHECK(plan(offer).images == 2);
 }
 
-TEST_CASE("sizes: the surface's, else the window's within the limits, and nothing while it is minimised") {
-    SurfaceOffer offer = desktop();
+TEST_CASE(
+    "Swapchain: the size is the surface's, otherwise the window's within the limits, and zero while "
+    "minimised") {
+    SurfaceSupport offer = desktop();
     const VkExtent2D window{800, 600};
     CHECK(plan(offer, {window, false, 2}).extent.width == 640);
     offer.capabilities.currentExtent = {0xFFFFFFFF, 0xFFFFFFFF};
@@ -86,8 +87,8 @@ TEST_CASE("sizes: the surface's, else the window's within the limits, and nothin
     CHECK(plan(offer, {window, false, 2}).extent.height == 0);
 }
 
-TEST_CASE("transform and alpha: upright and opaque where that can be said") {
-    SurfaceOffer offer = desktop();
+TEST_CASE("Swapchain: identity transform and opaque composition if available") {
+    SurfaceSupport offer = desktop();
     CHECK(plan(offer).alpha == VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR);
     offer.capabilities.supportedCompositeAlpha = VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     CHECK(plan(offer).alpha == VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR);

@@ -1,5 +1,4 @@
-// The GPU does what it is told: computing, drawing, copying there and back, over many frames, without a word
-// from validation.
+// Compute, drawing and transfers on the GPU, over many frames, without validation messages.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -25,13 +24,13 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
 }
 
 template <class T>
-void write(const Piece& piece, const T& value) {
+void write(const TransientRange& piece, const T& value) {
     std::memcpy(piece.bytes.data(), &value, sizeof value);
 }
 
 }  // namespace
 
-TEST_CASE("a compute shader doubles numbers, frame after frame, and the frames' memory grows with the need") {
+TEST_CASE("Compute: a shader doubles numbers in every frame, and transient memory grows on demand") {
     test::Gpu gpu;
     Device& device = gpu.device();
     const PipelineCache cache = gpu.need(PipelineCache::open(device, {}));
@@ -40,23 +39,23 @@ TEST_CASE("a compute shader doubles numbers, frame after frame, and the frames' 
     const auto frames = gpu.need(Frames::create(device));
     constexpr std::uint32_t n = 1000;
     for (std::uint32_t round = 0; round < 7; ++round) {
-        Frame& frame = *gpu.need(frames->begin());
+        FrameContext& frame = *gpu.need(frames->begin());
         const VkCommandBuffer commands = frame.commands();
         frame.begin_timing("double");
-        // Grows past the first ring of a mebibyte in the later rounds.
-        const Piece padding = gpu.need(frame.piece(VkDeviceSize{300'000} * (round + 1)));
+        // Later rounds exceed the first buffer of 1 MiB.
+        const TransientRange padding = gpu.need(frame.allocate(VkDeviceSize{300'000} * (round + 1)));
         CHECK(padding.bytes.size() == std::size_t{300'000} * (round + 1));
-        const Piece values = gpu.need(frame.piece(n * sizeof(std::uint32_t)));
+        const TransientRange values = gpu.need(frame.allocate(n * sizeof(std::uint32_t)));
         std::vector<std::uint32_t> numbers(n);
         std::iota(numbers.begin(), numbers.end(), round);
         std::memcpy(values.bytes.data(), numbers.data(), values.bytes.size());
-        SetWriter writer = gpu.need(SetWriter::create(device, frame, pipeline, 0));
-        const VkDescriptorSet set = gpu.need(writer.piece(0, values).finish());
+        DescriptorWriter writer = gpu.need(DescriptorWriter::create(device, frame, pipeline, 0));
+        const VkDescriptorSet set = gpu.need(writer.range(0, values).finish());
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle.get());
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 1, &set,
                                 0, nullptr);
         vkCmdDispatch(commands, (n + 63) / 64, 1, 1);
-        memory_barrier(commands, Use::storage_write, Use::host_read);
+        memory_barrier(commands, ResourceUse::storage_write, ResourceUse::host_read);
         frame.end_timing();
         gpu.need(frames->submit(frame));
         gpu.need(device.idle());
@@ -70,7 +69,7 @@ TEST_CASE("a compute shader doubles numbers, frame after frame, and the frames' 
     CHECK(frames->timings()[0].milliseconds >= 0.0);
 }
 
-TEST_CASE("descriptor sets and retired things of many frames do not run out and are destroyed in time") {
+TEST_CASE("Frames: descriptor sets and retired resources of many frames do not run out") {
     test::Gpu gpu;
     Device& device = gpu.device();
     const PipelineCache cache = gpu.need(PipelineCache::open(device, {}));
@@ -79,7 +78,7 @@ TEST_CASE("descriptor sets and retired things of many frames do not run out and 
     const auto frames = gpu.need(Frames::create(device));
     const VkDeviceSize before = device.memory().bytes_in_use();
     for (int round = 0; round < 5; ++round) {
-        Frame& frame = *gpu.need(frames->begin());
+        FrameContext& frame = *gpu.need(frames->begin());
         for (int i = 0; i < 700; ++i) (void)gpu.need(frame.descriptor_set(pipeline.sets[0].get()));
         frame.retire(
             gpu.need(Buffer::create(device, 1 << 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::device)));
@@ -89,7 +88,7 @@ TEST_CASE("descriptor sets and retired things of many frames do not run out and 
     CHECK(device.memory().bytes_in_use() == before);
 }
 
-TEST_CASE("a triangle covers the pixels that it should, with multisampling, depth and a resolve") {
+TEST_CASE("Drawing: a triangle covers the expected pixels with multisampling, depth and a resolve") {
     test::Gpu gpu;
     Device& device = gpu.device();
     constexpr VkExtent2D extent{64, 64};
@@ -111,7 +110,8 @@ TEST_CASE("a triangle covers the pixels that it should, with multisampling, dept
     info.constants = 1;
     const Pipeline green = gpu.need(make_graphics_pipeline(device, cache, info));
 
-    // Counter-clockwise seen with y up; Vulkan's y goes down, so the view flips it. Half of the picture.
+    // Counter-clockwise with y up; y goes down in Vulkan, so the view flips it. It covers half of the
+    // picture.
     const std::vector<float> corners{-1, -1, 0.5F, 0, 0, 1, -1, 0.5F, 0, 0, -1, 1, 0.5F, 0, 0};
     const Buffer vertices =
         gpu.need(upload_buffer(device, bytes_of(corners), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
@@ -152,11 +152,13 @@ TEST_CASE("a triangle covers the pixels that it should, with multisampling, dept
 
     const auto frames = gpu.need(Frames::create(device));
     for (int round = 0; round < 3; ++round) {
-        Frame& frame = *gpu.need(frames->begin());
+        FrameContext& frame = *gpu.need(frames->begin());
         const VkCommandBuffer commands = frame.commands();
-        image_barrier_discarding(commands, drawn.get(), Use::color_target, Use::color_target);
-        image_barrier_discarding(commands, resolved.get(), Use::transfer_from, Use::color_target);
-        image_barrier_discarding(commands, depth.get(), Use::depth_target, Use::depth_target, depth_range);
+        image_barrier_discarding(commands, drawn.get(), ResourceUse::color_target, ResourceUse::color_target);
+        image_barrier_discarding(commands, resolved.get(), ResourceUse::transfer_from,
+                                 ResourceUse::color_target);
+        image_barrier_discarding(commands, depth.get(), ResourceUse::depth_target, ResourceUse::depth_target,
+                                 depth_range);
         VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
         color.imageView = drawn.view();
         color.imageLayout = color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
@@ -181,20 +183,21 @@ TEST_CASE("a triangle covers the pixels that it should, with multisampling, dept
         const VkRect2D scissor{{0, 0}, extent};
         vkCmdSetViewport(commands, 0, 1, &viewport);
         vkCmdSetScissor(commands, 0, 1, &scissor);
-        const Piece view = gpu.need(frame.piece(64));
+        const TransientRange view = gpu.need(frame.allocate(64));
         write(view, std::array<float, 16>{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
         const VkBuffer buffer = vertices.get();
         const VkDeviceSize zero = 0;
         vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &zero);
-        // Green half-way to the right and further away: the red one in front of it wins where both are.
+        // Green is half a picture to the right and farther away: red wins where both cover a pixel.
         for (const Pipeline* pipeline : {&red, &green}) {
-            SetWriter writer = gpu.need(SetWriter::create(device, frame, *pipeline, 0));
+            DescriptorWriter writer = gpu.need(DescriptorWriter::create(device, frame, *pipeline, 0));
             std::vector<VkDescriptorImageInfo> pair(
                 2, {sampler.get(), texture.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
-            const VkDescriptorSet sets[] = {gpu.need(writer.piece(0, view).images(2, pair).finish()),
-                                            gpu.need(gpu.need(SetWriter::create(device, frame, *pipeline, 1))
-                                                         .buffer(0, colors.get(), 0, VK_WHOLE_SIZE)
-                                                         .finish())};
+            const VkDescriptorSet sets[] = {
+                gpu.need(writer.range(0, view).images(2, pair).finish()),
+                gpu.need(gpu.need(DescriptorWriter::create(device, frame, *pipeline, 1))
+                             .buffer(0, colors.get(), 0, VK_WHOLE_SIZE)
+                             .finish())};
             const std::array<float, 4> offset =
                 pipeline == &red ? std::array<float, 4>{0, 0, 0, 0} : std::array<float, 4>{1, 0, -0.25F, 0};
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->handle.get());
@@ -204,30 +207,30 @@ TEST_CASE("a triangle covers the pixels that it should, with multisampling, dept
             vkCmdDraw(commands, 3, 1, 0, 0);
         }
         vkCmdEndRendering(commands);
-        image_barrier(commands, resolved.get(), Use::color_target, Use::transfer_from);
+        image_barrier(commands, resolved.get(), ResourceUse::color_target, ResourceUse::transfer_from);
         gpu.need(frames->submit(frame));
     }
     gpu.need(frames->finish());
-    const std::vector<std::byte> texels = gpu.need(download_image(device, resolved, Use::transfer_from, 4));
+    const std::vector<std::byte> texels =
+        gpu.need(download_image(device, resolved, ResourceUse::transfer_from, 4));
     const auto at = [&](std::size_t x, std::size_t y) {
         std::array<int, 4> rgba{};
         for (std::size_t c = 0; c < 4; ++c) rgba[c] = std::to_integer<int>(texels[4 * (y * 64 + x) + c]);
         return rgba;
     };
-    // Rows go down: red is below the diagonal from the upper left, green the same half a picture to the
-    // right.
+    // Rows go down: red is below the diagonal from the upper left, green the same shifted by half a picture.
     CHECK(at(2, 40) == std::array{255, 0, 0, 255});
-    CHECK(at(40, 50) == std::array{255, 0, 0, 255});  // both are here: red is nearer
+    CHECK(at(40, 50) == std::array{255, 0, 0, 255});  // both cover this pixel: red is nearer
     CHECK(at(50, 30) == std::array{0, 255, 0, 255});
     CHECK(at(60, 10) == std::array{0, 0, 255, 255});
     CHECK(at(20, 10) == std::array{0, 0, 255, 255});
-    // Of a pixel on the diagonal some of the four samples are covered.
+    // Some of the four samples of a pixel on the diagonal are covered.
     const auto edge = at(25, 25);
     CHECK(edge[0] > 0);
     CHECK(edge[0] < 255);
 }
 
-TEST_CASE("images come back as they went, and the mips are their means") {
+TEST_CASE("Transfer: images are read back unchanged, and mips are means") {
     test::Gpu gpu;
     Device& device = gpu.device();
     ImageInfo info{
@@ -243,19 +246,19 @@ TEST_CASE("images come back as they went, and the mips are their means") {
     for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<std::uint8_t>(3 * i);
     gpu.need(upload_image(device, image, bytes_of(texels)));
     for (std::uint32_t layer = 0; layer < 2; ++layer) {
-        const auto back = gpu.need(download_image(device, image, Use::sampled, 4, 0, layer));
+        const auto back = gpu.need(download_image(device, image, ResourceUse::sampled, 4, 0, layer));
         REQUIRE(back.size() == 32);
         CHECK(std::memcmp(back.data(), texels.data() + 32 * layer, 32) == 0);
-        const auto half = gpu.need(download_image(device, image, Use::sampled, 4, 1, layer));
+        const auto half = gpu.need(download_image(device, image, ResourceUse::sampled, 4, 1, layer));
         REQUIRE(half.size() == 8);
-        // 2 × 2 texels: (0, 1, 4, 5), every channel three apart.
+        // 2 × 2 texels (0, 1, 4, 5), with channels three apart.
         const double mean = 0.25 * (texels[32 * layer] + texels[32 * layer + 4] + texels[32 * layer + 16] +
                                     texels[32 * layer + 20]);
         CHECK(std::abs(std::to_integer<int>(half[0]) - mean) <= 1.0);
     }
 }
 
-TEST_CASE("the pipeline cache is found again, and a foreign or broken one is ignored") {
+TEST_CASE("PipelineCache: it is restored, and a foreign or damaged one is ignored") {
     test::Gpu gpu;
     const test::Folder folder;
     const auto file = folder / "deep" / "pipelines.bin";
@@ -268,7 +271,7 @@ TEST_CASE("the pipeline cache is found again, and a foreign or broken one is ign
     }
     CHECK(gpu.need(PipelineCache::open(gpu.device(), file)).restored());
     std::string bytes = gpu.need(read_file(file, 1 << 24, ErrorCode::failed));
-    bytes[12] = static_cast<char>(bytes[12] + 1);  // another device's
+    bytes[12] = static_cast<char>(bytes[12] + 1);  // from another device
     gpu.need(write_file(file, bytes));
     CHECK_FALSE(gpu.need(PipelineCache::open(gpu.device(), file)).restored());
     gpu.need(write_file(file, "short"));
@@ -277,7 +280,7 @@ TEST_CASE("the pipeline cache is found again, and a foreign or broken one is ign
     (void)gpu.need(make_compute_pipeline(gpu.device(), cache, shader));
 }
 
-TEST_CASE("the check itself can fail: validation sees a wrong layout and a missing barrier") {
+TEST_CASE("Validation: a wrong layout and a missing barrier are detected") {
     test::Gpu gpu;
     gpu.expect_messages();
     const Buffer a =
@@ -285,17 +288,17 @@ TEST_CASE("the check itself can fail: validation sees a wrong layout and a missi
     const Buffer b = gpu.need(
         Buffer::create(gpu.device(), 256, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                        MemoryUse::device));
-    gpu.need(run_now(gpu.device(), [&](VkCommandBuffer commands) {
+    gpu.need(submit_and_wait(gpu.device(), [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, 256};
         vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &region);
-        vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &region);  // written twice with nothing between
+        vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &region);  // two writes without a barrier
     }));
     REQUIRE(gpu.log().messages.size() == 1);
     CHECK(gpu.log().messages[0].find("SYNC-HAZARD-WRITE-AFTER-WRITE") != std::string::npos);
     const auto bad = Buffer::create(gpu.device(), 256, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::device);
-    gpu.need(run_now(gpu.device(), [&](VkCommandBuffer commands) {
+    gpu.need(submit_and_wait(gpu.device(), [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, 256};
-        vkCmdCopyBuffer(commands, a.get(), bad->get(), 1, &region);  // not made to be copied to
+        vkCmdCopyBuffer(commands, a.get(), bad->get(), 1, &region);  // created without the transfer usage
     }));
     CHECK(gpu.log().messages.size() >= 2);
 }

@@ -40,7 +40,7 @@ double gap(const Skeleton& s, std::size_t a, std::size_t b) {
 
 }  // namespace
 
-TEST_CASE("a flat hand is flat: fingers straight, side by side, the thumb beside them") {
+TEST_CASE("Kinematics: zero angles give a flat hand") {
     for (const Side side : {Side::right, Side::left}) {
         const Skeleton s = joints(make_hand(side), {}, {});
         const double sign = side == Side::right ? 1.0 : -1.0;
@@ -61,7 +61,7 @@ TEST_CASE("a flat hand is flat: fingers straight, side by side, the thumb beside
     }
 }
 
-TEST_CASE("a finger is a planar chain: knuckle, middle and last joint add up") {
+TEST_CASE("Kinematics: a finger is a planar chain whose flexions add up") {
     // Closed form in the plane of the middle finger: each bone drops by the sum of the angles so far.
     const Hand hand = make_hand(Side::right);
     Random random(3);
@@ -84,7 +84,9 @@ TEST_CASE("a finger is a planar chain: knuckle, middle and last joint add up") {
     }
 }
 
-TEST_CASE("whatever the angles: bones keep their length, frames look along them, the left hand mirrors") {
+TEST_CASE(
+    "Kinematics: for all angles bones keep their length, frames point along them, and the left hand mirrors "
+    "the right") {
     Random random(11);
     for (int trial = 0; trial < 300; ++trial) {
         const double length = random.uniform(0.15, 0.22);
@@ -114,7 +116,7 @@ TEST_CASE("whatever the angles: bones keep their length, frames look along them,
     }
 }
 
-TEST_CASE("every angle bends the way that it says") {
+TEST_CASE("Kinematics: every angle has the documented sign") {
     const Hand hand = make_hand(Side::right);
     const Skeleton flat = joints(hand, {}, {});
     const auto tip_of = [&](const Angles& a, std::size_t joint) {
@@ -164,8 +166,10 @@ TEST_CASE("every angle bends the way that it says") {
     CHECK((wrist_of(make_hand(Side::left), a, {}) * flat.position[middle_tip]).x > 20.0 * mm);
 }
 
-TEST_CASE("a fist: tips in the palm, fingers side by side and not in each other, the thumb over them") {
-    const Skeleton s = joints(make_hand(Side::right), limited(fist()), {});
+TEST_CASE(
+    "Kinematics: a fist puts the tips into the palm, fingers side by side without overlap, the thumb over "
+    "them") {
+    const Skeleton s = joints(make_hand(Side::right), clamp_to_limits(fist()), {});
     for (std::size_t d = 1; d < digit_count; ++d) {
         const std::size_t tip = digits[d].first + 4;
         CHECK(gap(s, tip, palm) < 55.0 * mm);
@@ -177,7 +181,7 @@ TEST_CASE("a fist: tips in the palm, fingers side by side and not in each other,
     CHECK(s.position[thumb_tip].y < s.position[palm].y - 25.0 * mm);
 }
 
-TEST_CASE("the thumb can oppose every finger, pad to pad") {
+TEST_CASE("Kinematics: the thumb can oppose every finger pad to pad") {
     // As a hand does that is not hurt (A. Kapandji's score of opposition, Ann. Chir. Main 5(1), 1986). The
     // angles are searched for: anywhere at random, then ever nearer to the best.
     const Hand hand = make_hand(Side::right);
@@ -202,7 +206,7 @@ TEST_CASE("the thumb can oppose every finger, pad to pad") {
                 near(f.side, to.side);
                 near(a.arch, best.arch);
             }
-            a = limited(a);
+            a = clamp_to_limits(a);
             const Skeleton s = joints(hand, a, {});
             const Vec3 thumb = s.rotation[thumb_distal] * Vec3(0, -1, 0);
             const Vec3 other = s.rotation[digits[finger].first + 3] * Vec3(0, -1, 0);
@@ -218,12 +222,12 @@ TEST_CASE("the thumb can oppose every finger, pad to pad") {
     }
 }
 
-TEST_CASE("limits: what a hand can do stays, what it cannot becomes the nearest, what is no number nothing") {
+TEST_CASE("HandLimits: feasible angles stay, others are clamped, and NaN becomes 0") {
     Random random(5);
     for (int trial = 0; trial < 500; ++trial) {
         Angles a = random_angles(random);
-        const Angles once = limited(a);
-        const Angles twice = limited(once);
+        const Angles once = clamp_to_limits(a);
+        const Angles twice = clamp_to_limits(once);
         for (std::size_t i = 0; i < 4; ++i) {
             CHECK(once.fingers[i].mcp == a.fingers[i].mcp);
             CHECK(once.fingers[i].side == twice.fingers[i].side);
@@ -232,14 +236,14 @@ TEST_CASE("limits: what a hand can do stays, what it cannot becomes the nearest,
         a.fingers[2].pip = 3.0;
         a.thumb.ip = -2.0;
         a.arch = std::numeric_limits<double>::quiet_NaN();
-        const Angles bound = limited(a);
+        const Angles bound = clamp_to_limits(a);
         CHECK(bound.fingers[2].pip == pip_span.high);
         CHECK(bound.thumb.ip == thumb_ip_span.low);
         CHECK(bound.arch == 0.0);
     }
     Angles spread;
     spread.fingers[3].side = 0.3;
-    CHECK(limited(spread).fingers[3].side == 0.3);
+    CHECK(clamp_to_limits(spread).fingers[3].side == 0.3);
     spread.fingers[3].mcp = 0.5 * pi;
-    CHECK(limited(spread).fingers[3].side == 0.0);
+    CHECK(clamp_to_limits(spread).fingers[3].side == 0.0);
 }

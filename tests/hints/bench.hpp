@@ -1,12 +1,13 @@
 // A lesson fed by hand (tests/lesson/script.hpp) and what hints see of it.
 #pragma once
 
-#include "game/hints/hints.hpp"
+#include "game/lesson/hints.hpp"
 #include "tests/lesson/script.hpp"
+#include "tests/support/haptic_world.hpp"
 
 namespace bolt::test {
 
-using namespace bolt::hints;
+using namespace bolt::lesson;
 
 // What may be said soon after something else: who has got so far has done what was asked before.
 inline bool at_work(Situation s) {
@@ -25,6 +26,7 @@ struct Bench : Script {
     bool wrench = false;
     double room = std::numeric_limits<double>::infinity();
     Hints hints;
+    HapticWorld world{2};
 
     explicit Bench(Mode mode = Mode::guided, content::Strategy strategy = content::Strategy::torque,
                    Task task = Task::tighten)
@@ -32,7 +34,7 @@ struct Bench : Script {
         assembly.passes.push_back({content::StepKind::recheck, 1.0, {0, 1}});
         lesson = begin(assembly, mode, task);
         for (const double x : {0.0, 0.2}) {
-            servo::NutPlace nut;
+            servo::NutGeometry nut;
             nut.seat = Vec3(x, 0.0, 0.0);
             nut.across_flats = 0.024;
             nut.height = 0.014;
@@ -60,8 +62,10 @@ struct Bench : Script {
         for (const int joint : {0, 1}) pull(joint, 70.0);
     }
 
-    [[nodiscard]] Scene scene() const { return {lesson, setup, state.joints, output, rounded, wrench, room}; }
-    [[nodiscard]] Situation now() const { return situation(scene()); }
+    [[nodiscard]] Scene scene() {
+        return {lesson, setup, world.write(state.joints, rounded, output, wrench, room)};
+    }
+    [[nodiscard]] Situation now() { return situation(scene()); }
     const std::optional<Hint>& frame(double dt = 0.05, bool asked = false) {
         return update(hints, scene(), dt, asked);
     }

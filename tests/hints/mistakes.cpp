@@ -1,4 +1,4 @@
-#include "game/hints/mistakes.hpp"
+#include "game/lesson/mistakes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 
 using namespace bolt;
 using namespace bolt::lesson;
-using namespace bolt::hints;
+using namespace bolt::lesson;
 using test::Bench;
 
 namespace {
@@ -35,7 +35,7 @@ struct Watch {
 
 }  // namespace
 
-TEST_CASE("each mistake is shown with its why and what to do, in every language and in full") {
+TEST_CASE("Mistakes: each mistake is shown with its why and what to do, in every language and in full") {
     struct Case {
         Cause cause;
         const char* why;
@@ -105,7 +105,8 @@ TEST_CASE("each mistake is shown with its why and what to do, in every language 
 }
 
 TEST_CASE(
-    "a graver mistake takes the place of a lesser one when that could be read, and never the other way") {
+    "Mistakes: a graver mistake takes the place of a lesser one when that could be read, and never the other "
+    "way") {
     Watch w;
     w.b.seat_both();
     w.b.turn(0, 80.0);
@@ -120,7 +121,7 @@ TEST_CASE(
     CHECK(w.after(1.0) == Cause::none);
 }
 
-TEST_CASE("a step that is taken back takes its mistake along") {
+TEST_CASE("Mistakes: a step that is taken back takes its mistake along") {
     Watch w;
     w.b.seat_both();
     w.b.turn(0, 80.0);

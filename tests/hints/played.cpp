@@ -5,15 +5,15 @@
 #include <set>
 
 #include "content/format/load.hpp"
-#include "game/hints/hints.hpp"
-#include "game/hints/mistakes.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/servo_setup.hpp"
+#include "game/lesson/hints.hpp"
+#include "game/lesson/mistakes.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tests/hints/bench.hpp"
+#include "tests/support/haptic_world.hpp"
 
 using namespace bolt;
 using namespace bolt::lesson;
-using namespace bolt::hints;
 using test::at_work;
 
 namespace {
@@ -56,12 +56,13 @@ int unfilled(const std::string& said) { return said.empty() || said.find('{') !=
 
 Told play_through(const char* trainee, std::uint64_t seed, Mode mode, Task task) {
     const content::Assembly& assembly = cover();
-    const servo::Setup setup = play::make_setup(assembly, joint::Law::mechanistic, {}, seed, 1e-3);
+    const servo::Setup setup = session::make_setup(assembly, joint::Law::mechanistic, {}, seed, 1e-3);
     servo::State state = servo::initial_state(setup);
-    if (task == Task::loosen) REQUIRE(play::pretighten(assembly, setup, state).has_value());
+    if (task == Task::loosen) REQUIRE(session::pretighten(assembly, setup, state).has_value());
     Lesson lesson = begin(assembly, mode, task);
-    operators::Operator hand(operators::find_profile(trainee).value(), seed, setup);
+    trainees::Operator hand(trainees::find_profile(trainee).value(), seed, setup);
     Hints hints;
+    test::HapticWorld world(state.joints.size());
     Mistakes mistakes;
     Told told;
     bool wrench = false;
@@ -76,7 +77,7 @@ Told play_through(const char* trainee, std::uint64_t seed, Mode mode, Task task)
         for (const Event& event : lesson.events) note(mistakes, lesson, event);
         lesson.events.clear();
         if (state.tick % frame_ticks != 0) continue;
-        const Scene scene{lesson, setup, state.joints, output, state.rounded, wrench};
+        const Scene scene{lesson, setup, world.write(state.joints, state.rounded, output, wrench)};
         const std::optional<Hint>& hint = update(hints, scene, frame_time);
         ++told.frames;
         if (const auto& mistake = update(mistakes, frame_time)) {
@@ -110,7 +111,7 @@ Told play_through(const char* trainee, std::uint64_t seed, Mode mode, Task task)
 
 }  // namespace
 
-TEST_CASE("guided: from the first tick to the last somebody is told what to do about the due joint") {
+TEST_CASE("Hints: guided: from the first tick to the last somebody is told what to do about the due joint") {
     std::set<Situation> seen;
     int mistakes = 0;
     for (const Task task : {Task::tighten, Task::loosen})
@@ -142,7 +143,7 @@ TEST_CASE("guided: from the first tick to the last somebody is told what to do a
     }
 }
 
-TEST_CASE("assessment: not a word; practice: only to who gets nowhere") {
+TEST_CASE("Hints: assessment: not a word; practice: only to who gets nowhere") {
     for (const char* trainee : {"novice", "clumsy"}) {
         const Told examined = play_through(trainee, 1, Mode::assessment, Task::tighten);
         CHECK(examined.finished);

@@ -4,12 +4,12 @@
 
 #include <set>
 
-#include "game/hints/controls.hpp"
+#include "game/lesson/controls.hpp"
 #include "tests/hints/bench.hpp"
 
 using namespace bolt;
 using namespace bolt::lesson;
-using namespace bolt::hints;
+using namespace bolt::lesson;
 using test::Bench;
 
 namespace {
@@ -253,7 +253,7 @@ words::Words words_in(std::string_view language) {
 
 }  // namespace
 
-TEST_CASE("every state of a lesson is known for what it is") {
+TEST_CASE("Hints: every state of a lesson is known for what it is") {
     std::set<Situation> seen(std::begin(announced), std::end(announced));
     for (const Case& c : cases) {
         CAPTURE(c.text);
@@ -267,7 +267,8 @@ TEST_CASE("every state of a lesson is known for what it is") {
     CHECK(seen.size() == situation_count);
 }
 
-TEST_CASE("a guided lesson has a hint in every state, of the due joint, in every language and in full") {
+TEST_CASE(
+    "Hints: a guided lesson has a hint in every state, of the due joint, in every language and in full") {
     std::vector<words::Words> languages;
     for (const char* language : {"en", "de", "zh"}) languages.push_back(words_in(language));
     for (const Case& c : cases) {
@@ -305,7 +306,7 @@ TEST_CASE("a guided lesson has a hint in every state, of the due joint, in every
     }
 }
 
-TEST_CASE("assessment: no hint in any state, at any time, asked for or not") {
+TEST_CASE("Hints: assessment: no hint in any state, at any time, asked for or not") {
     for (const Case& c : cases) {
         Bench b(Mode::assessment, c.strategy, c.task);
         c.arrange(b);
@@ -313,7 +314,7 @@ TEST_CASE("assessment: no hint in any state, at any time, asked for or not") {
     }
 }
 
-TEST_CASE("practice: nothing in any state until long has passed, or somebody asks") {
+TEST_CASE("Hints: practice: nothing in any state until long has passed, or somebody asks") {
     for (const Case& c : cases) {
         CAPTURE(c.text);
         Bench b(Mode::practice, c.strategy, c.task);
@@ -329,7 +330,7 @@ TEST_CASE("practice: nothing in any state until long has passed, or somebody ask
     }
 }
 
-TEST_CASE("what is said has the numbers of the step") {
+TEST_CASE("Hints: what is said has the numbers of the step") {
     const words::Words en = words_in("en");
     Bench b;
     b.seat_both();
@@ -355,7 +356,7 @@ TEST_CASE("what is said has the numbers of the step") {
           "Move the hand to the wrench and close it on the handle: press T or click on the wrench.");
 }
 
-TEST_CASE("who wears a glove is told how what they hold is moved, and closes the hand itself") {
+TEST_CASE("Hints: who wears a glove is told how what they hold is moved, and closes the hand itself") {
     const auto loaded = words::load_words(words::words_folder(), "en");
     REQUIRE(loaded.ok());
     const Controls keys = keyboard_controls(loaded.words, "Space", "T"),

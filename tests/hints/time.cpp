@@ -7,7 +7,7 @@
 
 using namespace bolt;
 using namespace bolt::lesson;
-using namespace bolt::hints;
+using namespace bolt::lesson;
 using test::at_work;
 using test::Bench;
 
@@ -25,7 +25,7 @@ struct Searching : Bench {
 
 }  // namespace
 
-TEST_CASE("guided: the longer nothing comes of it the more is shown") {
+TEST_CASE("Hints: guided: the longer nothing comes of it the more is shown") {
     Searching b;
     int level = 0;
     double time = 0.0;
@@ -47,7 +47,7 @@ TEST_CASE("guided: the longer nothing comes of it the more is shown") {
     CHECK(reached[2] == doctest::Approx(guided_times.level[3]).epsilon(0.05));
 }
 
-TEST_CASE("practice: each time somebody asks one level more, and it goes with its state") {
+TEST_CASE("Hints: practice: each time somebody asks one level more, and it goes with its state") {
     Searching b(Mode::practice);
     b.wait(4.0);
     for (const int level : {0, 1, 2, 3, 3}) {
@@ -60,7 +60,7 @@ TEST_CASE("practice: each time somebody asks one level more, and it goes with it
     CHECK_FALSE(b.wait(2.0));
 }
 
-TEST_CASE("who gets on is not helped more: on the way, and while the nut turns") {
+TEST_CASE("Hints: who gets on is not helped more: on the way, and while the nut turns") {
     Searching b;
     for (int i = 0; i < 600; ++i) {  // 30 s on a long way round
         b.output.tool.position = Vec3(0.0, 20.0 - 0.03 * i, 0.0);
@@ -75,7 +75,7 @@ TEST_CASE("who gets on is not helped more: on the way, and while the nut turns")
     CHECK(turning.hints.shown->situation == Situation::run_down);
 }
 
-TEST_CASE("taking hold and losing it again and again is no progress") {
+TEST_CASE("Hints: taking hold and losing it again and again is no progress") {
     Searching b;
     b.near(0);
     b.wait(3.0);
@@ -88,7 +88,7 @@ TEST_CASE("taking hold and losing it again and again is no progress") {
     CHECK(b.hints.shown->level == 3);
 }
 
-TEST_CASE("coming back for the next stroke is progress") {
+TEST_CASE("Hints: coming back for the next stroke is progress") {
     Searching b;
     b.near(0);
     b.wait(3.0);
@@ -105,7 +105,7 @@ TEST_CASE("coming back for the next stroke is progress") {
     }
 }
 
-TEST_CASE("who sets on for the next stroke has time for it, however long ago the nut was turned") {
+TEST_CASE("Hints: who sets on for the next stroke has time for it, however long ago the nut was turned") {
     Searching b;
     b.near(0);
     b.wait(3.5);
@@ -119,7 +119,8 @@ TEST_CASE("who sets on for the next stroke has time for it, however long ago the
 }
 
 TEST_CASE(
-    "between two twists of the fingers nothing else is said; a hand that stays away is told to come back") {
+    "Hints: between two twists of the fingers nothing else is said; a hand that stays away is told to come "
+    "back") {
     Bench b;
     b.idle();
     b.near(0);
@@ -133,7 +134,7 @@ TEST_CASE(
     CHECK(b.wait(1.0)->situation == Situation::grip_nut);
 }
 
-TEST_CASE("where all changes all the time, what is said is not left behind for long") {
+TEST_CASE("Hints: where all changes all the time, what is said is not left behind for long") {
     Searching b;
     b.wait(4.0);
     REQUIRE(b.hints.shown->situation == Situation::find_by_wrench);
@@ -150,7 +151,7 @@ TEST_CASE("where all changes all the time, what is said is not left behind for l
     CHECK(followed);
 }
 
-TEST_CASE("what is to stop is said at once, what is wrong nearly so") {
+TEST_CASE("Hints: what is to stop is said at once, what is wrong nearly so") {
     Searching b;
     b.wait(0.5);
     b.turn(0, 20.0);
@@ -174,7 +175,7 @@ TEST_CASE("what is to stop is said at once, what is wrong nearly so") {
     CHECK(wrong.wait(0.5)->situation != Situation::wrong_joint);
 }
 
-TEST_CASE("a round is announced, then each next joint, for three seconds or until the hand is there") {
+TEST_CASE("Hints: a round is announced, then each next joint, for three seconds or until the hand is there") {
     Bench b;
     b.idle();
     CHECK(b.frame()->situation == Situation::round_run_down);
@@ -200,7 +201,7 @@ TEST_CASE("a round is announced, then each next joint, for three seconds or unti
     CHECK(loose.frame()->situation == Situation::round_loosen);
 }
 
-TEST_CASE("a step that is begun anew is announced as one, and help begins anew") {
+TEST_CASE("Hints: a step that is begun anew is announced as one, and help begins anew") {
     Searching b;
     b.wait(12.0);
     CHECK(b.hints.shown->level == 2);
@@ -212,7 +213,7 @@ TEST_CASE("a step that is begun anew is announced as one, and help begins anew")
     CHECK(b.hints.shown->joint == 0);
 }
 
-TEST_CASE("nothing flickers, whatever the hand does") {
+TEST_CASE("Hints: nothing flickers, whatever the hand does") {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         CAPTURE(seed);
         Random random(seed, 1);

@@ -1,4 +1,4 @@
-#include "tools/imagediff/flip.hpp"
+#include "tools/verify/imagediff/flip.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/base/random.hpp"
-#include "tools/imagediff/compare.hpp"
+#include "tools/verify/imagediff/compare.hpp"
 
 using namespace bolt;
 using namespace bolt::imagediff;
@@ -30,7 +30,7 @@ double difference(const Picture& a, const Picture& b) { return mean(flip(a, b));
 
 }  // namespace
 
-TEST_CASE("the same picture is no different, and the measure is symmetric") {
+TEST_CASE("FLIP: equal pictures have no difference, and the measure is symmetric") {
     Random random(1);
     Picture a = plain({0, 0, 0}), b = a;
     for (std::uint8_t& value : a.rgb) value = static_cast<std::uint8_t>(random.bits());
@@ -40,7 +40,7 @@ TEST_CASE("the same picture is no different, and the measure is symmetric") {
     CHECK(difference(a, b) > 0.2);
 }
 
-TEST_CASE("plain pictures: the colour difference alone, by hand") {
+TEST_CASE("FLIP: plain pictures have the colour difference computed by hand") {
     // Green against blue is the largest that the measure knows.
     CHECK(difference(plain({0, 255, 0}), plain({0, 0, 255})) == doctest::Approx(1.0).epsilon(1e-3));
     // Black against white is 100 apart in lightness. Green (CIELAB 87.73, −86.18, 83.18) and blue
@@ -59,7 +59,7 @@ TEST_CASE("plain pictures: the colour difference alone, by hand") {
     }
 }
 
-TEST_CASE("a lone pixel and a line are noticed where they are") {
+TEST_CASE("FLIP: a single pixel and a line are found at their place") {
     const Picture grey = plain({120, 120, 120}, 48);
     Picture dot = grey;
     set(dot, 24, 24, {255, 255, 255});
@@ -73,7 +73,7 @@ TEST_CASE("a lone pixel and a line are noticed where they are") {
     CHECK(shift[24 * 48 + 24] > shift[24 * 48 + 46]);  // the edge stands out beside the step alone
 }
 
-TEST_CASE("compare says how large and how many; pictures of different size are an error") {
+TEST_CASE("Image difference: returns the size and number of differences; different sizes are an error") {
     Picture a = plain({10, 20, 30}, 10), b = a;
     set(b, 3, 4, {10, 27, 30});
     const auto difference = compare(a, b);

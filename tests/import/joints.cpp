@@ -186,6 +186,27 @@ TEST_CASE("no joint where there is none: other axis, no hexagon, no nut, wrong w
     CHECK(imported.report.joints == 0);
     CHECK_FALSE(std::filesystem::exists(folder / "out" / "assembly.json"));
     CHECK(node_named(load(folder / "out" / "parts.glb"), "lonely_bolt") >= 0);
+    // After the remark on the missing colour each fastener has its reason (the odd nut is named with its
+    // bolt), and the last remark names the next step.
+    const std::vector<std::string>& all = imported.report.remarks;
+    REQUIRE(!all.empty());
+    CHECK(all.front().starts_with("material "));
+    const std::vector<std::string> remarks(all.begin() + 1, all.end());
+    const char* reasons[] = {
+        "lonely_bolt: looks like a bolt (cylinder 16.00 mm, hexagon 24.00 mm across flats), but no nut is "
+        "coaxial with "
+        "it: the nearest one, beside, is 1.00 mm off its axis",
+        "odd: looks like a bolt (cylinder 16.00 mm, hexagon 20.00 mm across flats), but no metric size has "
+        "both; "
+        "expected M16 with a cylinder 15.36 to 16.64 mm wide and a hexagon 24 mm across flats",
+        "beside: looks like a nut (hole 13.83 mm, hexagon 24.00 mm across flats), but no bolt is paired with "
+        "it",
+        "nut_on_pin: looks like a nut", "write their joints into assembly.json by hand"};
+    REQUIRE(remarks.size() == std::size(reasons));
+    for (std::size_t i = 0; i < std::size(reasons); ++i) {
+        CAPTURE(remarks[i]);
+        CHECK(remarks[i].find(reasons[i]) != std::string::npos);
+    }
 }
 
 TEST_CASE("every size from M4 to M39 is told by its bolt, fine threads by the nut's hole") {

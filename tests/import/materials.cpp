@@ -10,8 +10,8 @@
 
 #include "content/format/load.hpp"
 #include "support.hpp"
-#include "tools/import/names.hpp"
-#include "tools/import/pick_material.hpp"
+#include "tools/author/import/names.hpp"
+#include "tools/author/import/pick_material.hpp"
 
 using namespace import_test;
 using namespace bolt::step_import;

@@ -13,7 +13,7 @@
 #include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/import/import_step.hpp"
+#include "tools/author/import/import_step.hpp"
 
 namespace import_test {
 

@@ -66,7 +66,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("up to its setting it is the plain wrench, bit for bit, and loosening always") {
+TEST_CASE("Torque wrench: up to its setting it is the plain wrench, bit for bit, and loosening always") {
     Bench click, plain;
     plain.handle.click = {};
     Random random(5);
@@ -80,7 +80,7 @@ TEST_CASE("up to its setting it is the plain wrench, bit for bit, and loosening 
     CHECK(click.clicks == 1);
 }
 
-TEST_CASE("it trips at play + setting / stiffness, within what the hand goes in a tick") {
+TEST_CASE("Torque wrench: it trips at play + setting / stiffness, within what the hand goes in a tick") {
     for (const double dt : {1e-3, 2.5e-4}) {
         Bench bench(dt);
         const double speed = 0.2;
@@ -93,7 +93,8 @@ TEST_CASE("it trips at play + setting / stiffness, within what the hand goes in 
     }
 }
 
-TEST_CASE("held still it swings until the torque has fallen, with its time constant and in no leap") {
+TEST_CASE(
+    "Torque wrench: held still it swings with its time constant, continuously, until the torque has fallen") {
     for (const double dt : {1e-3, 2.5e-4}) {
         Bench bench(dt);
         while (bench.clicks == 0) bench.to(bench.hand + 0.05 * dt);
@@ -114,7 +115,7 @@ TEST_CASE("held still it swings until the torque has fallen, with its time const
     }
 }
 
-TEST_CASE("who pulls on comes to the end of the swing, and over the setting") {
+TEST_CASE("Torque wrench: a further pull reaches the end of the swing and exceeds the setting") {
     Bench bench;
     const double low = bench.handle.click.falls_to * setting;
     const double speed = 0.02, extra = stiffness * bench.handle.click.settles * speed;
@@ -127,7 +128,9 @@ TEST_CASE("who pulls on comes to the end of the swing, and over the setting") {
     CHECK(bench.clicks == 1);
 }
 
-TEST_CASE("let go of it swings back below its lower torque only, and holds up to its setting again") {
+TEST_CASE(
+    "Torque wrench: released it swings back only below its lower torque, and then holds up to its setting "
+    "again") {
     Bench bench;
     const Click& c = bench.handle.click;
     bench.slowly_to(play + 0.5 * swing + c.falls_to * setting / stiffness);
@@ -147,7 +150,9 @@ TEST_CASE("let go of it swings back below its lower torque only, and holds up to
     CHECK(bench.clicks == 2);
 }
 
-TEST_CASE("a nut that turns at less than the setting never makes it click; one that turns at more stops") {
+TEST_CASE(
+    "Torque wrench: a nut that turns below the setting never clicks; one that needs more stops at the "
+    "click") {
     Bench loose;
     loose.held_by = constant(0.9 * setting);
     loose.slowly_to(2.0);
@@ -167,7 +172,7 @@ TEST_CASE("a nut that turns at less than the setting never makes it click; one t
     CHECK(tight.nut.angle == doctest::Approx(stopped).epsilon(1e-3));
 }
 
-TEST_CASE("it never gives energy: random hands and nuts, at 1 and at 4 kHz") {
+TEST_CASE("Torque wrench: it never generates energy with random hands and nuts at 1 and 4 kHz") {
     Random random(17);
     for (int trial = 0; trial < 400; ++trial) {
         CAPTURE(trial);
@@ -193,7 +198,7 @@ TEST_CASE("it never gives energy: random hands and nuts, at 1 and at 4 kHz") {
     }
 }
 
-TEST_CASE("under every law a joint is tightened to the click, the same to the bit each time") {
+TEST_CASE("Torque wrench: under every law a joint is tightened to the click, the same to the bit each time") {
     const auto run = [](const GroupParameters& group, double dt, double trips) {
         std::vector<JointState> joints = initial_state(group, 1);
         Handle handle;

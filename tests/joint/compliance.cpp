@@ -5,7 +5,7 @@
 using namespace bolt;
 using namespace bolt::joint;
 
-TEST_CASE("turn from snug to 80.9 kN of a fully threaded M16 in steel: 23, 35 and 56 degrees") {
+TEST_CASE("Compliance: a fully threaded M16 in steel needs 23, 35 and 56 degrees from snug to 80.9 kN") {
     const ThreadSize m16 = parse_thread("M16").value();
     const std::pair<double, double> published[] = {{20e-3, 23.0}, {40e-3, 35.0}, {80e-3, 56.0}};
     for (const auto& [grip, degrees] : published) {
@@ -16,7 +16,7 @@ TEST_CASE("turn from snug to 80.9 kN of a fully threaded M16 in steel: 23, 35 an
     }
 }
 
-TEST_CASE("a sleeve: when the member is as wide as the bearing the cone is a cylinder") {
+TEST_CASE("Compliance: a sleeve: when the member is as wide as the bearing the cone is a cylinder") {
     const Member layer{0.05, 110e9};
     const double sleeve = 0.05 / 110e9 / (0.25 * pi * (square(0.0225) - square(0.0175)));
     CHECK(member_compliance({&layer, 1}, 0.0225, 0.0175, 0.0225) / sleeve ==
@@ -24,8 +24,8 @@ TEST_CASE("a sleeve: when the member is as wide as the bearing the cone is a cyl
 }
 
 TEST_CASE(
-    "the cone's closed form equals numerical integration, also cut by the outer diameter and over two "
-    "layers") {
+    "Compliance: the cone's closed form equals numerical integration, also cut by the outer diameter and "
+    "over two layers") {
     const Member layers[] = {{0.030, 110e9}, {0.012, 70e9}, {0.040, 205e9}};
     constexpr double d_w = 0.0225, hole = 0.0175;
     for (const double D_A : {0.0, 0.030, 0.040, 0.080}) {
@@ -45,7 +45,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("longer grips, softer members and thinner shanks give") {
+TEST_CASE("Compliance: longer grips, softer members and thinner shanks are more compliant") {
     const ThreadSize m16 = parse_thread("M16").value();
     CHECK(bolt_compliance(m16.thread, 205e9, 0.1, 0.0) > bolt_compliance(m16.thread, 205e9, 0.1, 0.05));
     CHECK(bolt_compliance(m16.thread, 205e9, 0.1, 0.05) > bolt_compliance(m16.thread, 205e9, 0.08, 0.05));

@@ -17,7 +17,7 @@ CornerGrip whole() {
 
 }  // namespace
 
-TEST_CASE("the pressure on a corner of 120 degrees lies between a column's and a punch's") {
+TEST_CASE("Corner: the pressure on a corner of 120 degrees lies between a column's and a punch's") {
     const double hardness = 3.0;  // of a flow stress of 1
     const double column = 2.0 / std::sqrt(3.0), punch = column * (1.0 + 0.5 * pi);
     CHECK(corner_pressure(hardness) == doctest::Approx(column * (1.0 + pi / 6.0)).epsilon(1e-12));
@@ -25,7 +25,7 @@ TEST_CASE("the pressure on a corner of 120 degrees lies between a column's and a
     CHECK(corner_pressure(hardness) < punch);
 }
 
-TEST_CASE("hardness as ISO 898-2 asks of the nut that belongs to the bolt") {
+TEST_CASE("Corner: hardness as ISO 898-2 asks of the nut that belongs to the bolt") {
     const auto of = [](const char* name, double d) {
         return nut_hardness(property_class(name, d).value(), d) / 9.80665e6;
     };
@@ -37,7 +37,9 @@ TEST_CASE("hardness as ISO 898-2 asks of the nut that belongs to the bolt") {
     CHECK(nut_hardness(property_class("A2-70", 16e-3).value(), 16e-3) == doctest::Approx(2.1e9));
 }
 
-TEST_CASE("half on it bears half, half the spread a quarter, nothing on it nothing") {
+TEST_CASE(
+    "Corner: the load is proportional to the overlap: half overlap half, half the spread a quarter, none "
+    "zero") {
     const double p = corner_pressure(130 * 9.80665e6);
     const double full = corner_torque(p, whole());
     // p e s²/12.
@@ -59,7 +61,7 @@ TEST_CASE("half on it bears half, half the spread a quarter, nothing on it nothi
     CHECK(corner_torque(p, grip) == 0.0);
 }
 
-TEST_CASE("tilted it bears less, without a step where that begins") {
+TEST_CASE("Corner: a tilted jaw bears less, and continuously so") {
     const double p = 1e9;
     CornerGrip grip = whole();
     const double full = corner_torque(p, grip);
@@ -77,7 +79,7 @@ TEST_CASE("tilted it bears less, without a step where that begins") {
     }
 }
 
-TEST_CASE("the play of a whole nut, and how it grows with what is lost") {
+TEST_CASE("Corner: backlash of an intact nut, and its growth with the lost corner") {
     const double w = 24.2e-3, s = 24e-3;
     const double whole_play = rounded_half_play(w, s, 0.0);
     CHECK(std::cos(whole_play) + std::sin(whole_play) / std::sqrt(3.0) ==

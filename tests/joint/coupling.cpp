@@ -35,7 +35,8 @@ double stored(const Handle& handle, double nut) {
 }  // namespace
 
 TEST_CASE(
-    "a torque below the lead's is held by friction that points on, above it by friction that points back") {
+    "Hand and nut: a torque below the lead's is held by friction that points on, above it by friction that "
+    "points back") {
     const Resistance r = constant(100.0, -70.0, 20.0);  // 80 of friction on, 90 off
     const double inertia = coupling_inertia(2000.0, 1e-3);
     const std::pair<double, double> torques[] = {{0.0, -20.0 / 90.0},   {10.0, -10.0 / 90.0},
@@ -50,7 +51,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("at the end of the bolt the nut stops and the hand winds up its spring") {
+TEST_CASE("Hand and nut: at the end of the bolt the nut stops and the hand winds up its spring") {
     const GroupParameters group = test::single(test::m16_flange_joint());
     std::vector<JointState> joints = initial_state(group, 1);
     for (int i = 1; i <= 100; ++i) {
@@ -63,7 +64,7 @@ TEST_CASE("at the end of the bolt the nut stops and the hand winds up its spring
     }
 }
 
-TEST_CASE("a nut that comes off the jaw into the play stops at once") {
+TEST_CASE("Hand and nut: a nut that leaves the jaw face for the backlash stops at once") {
     for (const double dt : {2.5e-4, 1e-3, 4e-3}) {
         const double drag = 0.05;
         const NutStep step = step_nut(constant(drag, -drag), coupling_inertia(2000.0, dt), {0.0, 1.0},
@@ -74,7 +75,9 @@ TEST_CASE("a nut that comes off the jaw into the play stops at once") {
     }
 }
 
-TEST_CASE("the coupling gives back no more than the hand put in, with a nearly free nut in a wide play") {
+TEST_CASE(
+    "Hand and nut: the coupling gives back no more than the hand put in, with a nearly free nut in a wide "
+    "play") {
     Random random(17);
     for (const double dt : {2.5e-4, 1e-3, 4e-3}) {
         for (int trial = 0; trial < 30; ++trial) {
@@ -99,7 +102,7 @@ TEST_CASE("the coupling gives back no more than the hand put in, with a nearly f
     }
 }
 
-TEST_CASE("a jaw that stands lets a fast nut run out of it and does not hold it back") {
+TEST_CASE("Hand and nut: a jaw at rest does not hold back a fast nut") {
     for (const double sign : {1.0, -1.0}) {
         const double dt = 1e-3, wound = 1e-4, play = to_radians(2.5);
         const NutStep step = step_nut(constant(0.05, -0.05), coupling_inertia(2000.0, dt), {0.0, 20.0 * sign},
@@ -109,7 +112,7 @@ TEST_CASE("a jaw that stands lets a fast nut run out of it and does not hold it 
     }
 }
 
-TEST_CASE("fingers that a running nut overtakes slow it with their limit, whichever way it runs") {
+TEST_CASE("Hand and nut: fingers slow a faster nut with their limit torque in both directions") {
     for (const double sign : {1.0, -1.0}) {
         Handle fingers = spring(0.0, 0.0, 5.0);
         fingers.torque_limit = 0.03;

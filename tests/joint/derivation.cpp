@@ -35,7 +35,7 @@ MechanisticState tightened(const MechanisticParameters& p, double force, double 
 
 }  // namespace
 
-TEST_CASE("in a group the flange's own give adds to bolt and members") {
+TEST_CASE("Derive: in a group the flange's own compliance adds to bolt and members") {
     std::vector<JointDesign> designs(2, plain());
     designs[1].seat = Vec3(0.1, 0.0, 0.0);
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
@@ -52,7 +52,7 @@ TEST_CASE("in a group the flange's own give adds to bolt and members") {
     }
 }
 
-TEST_CASE("joints couple as far as ten lengths of the plate and no further") {
+TEST_CASE("Derive: joints couple as far as ten lengths of the plate and no further") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     const double l = plate.length();
     for (const double lengths : {1.0, 5.0, 9.9}) {
@@ -70,13 +70,13 @@ TEST_CASE("joints couple as far as ten lengths of the plate and no further") {
 
 // Compliances are of the order of 1e-9 m/N, and doctest's Approx adds 1 to what its epsilon is of: such small
 // numbers are compared as ratios.
-TEST_CASE("as a ratio: own deflection is Hertz's l2/8D") {
+TEST_CASE("Derive: the deflection under one bolt equals Hertz's l2/8D") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     const double hertz = square(plate.length()) / (8.0 * plate.rigidity);
     CHECK(plate.deflection_per_force(0.0) / hertz == doctest::Approx(1.0).epsilon(1e-9));
 }
 
-TEST_CASE("the slopes of the resistance are its derivatives over the angle of the elastic joint") {
+TEST_CASE("Derive: the slopes of the resistance are its derivatives over the angle of the elastic joint") {
     JointDesign design = plain();
     design.friction.static_ratio = 1.3;
     const GroupParameters group = test::single(design);
@@ -101,7 +101,7 @@ TEST_CASE("the slopes of the resistance are its derivatives over the angle of th
     }
 }
 
-TEST_CASE("a bolt takes more before it yields when its thread carries less torque: at rest and loosening") {
+TEST_CASE("Derive: less thread torque raises the yield load, at rest and while loosening") {
     const GroupParameters group = test::single(plain());
     const MechanisticParameters& p = group.joints[0];
     const auto yields_at = [&](double share) {
@@ -126,7 +126,7 @@ TEST_CASE("a bolt takes more before it yields when its thread carries less torqu
     CHECK(yields_at(0.0) > 1.02 * yields_at(-1.0));
 }
 
-TEST_CASE("linearity begins at three quarters of the elastic stiffness, yield at half of it") {
+TEST_CASE("Derive: linearity begins at three quarters of the elastic stiffness, yield at half of it") {
     const GroupParameters group = test::single(plain());
     const MechanisticParameters& p = group.joints[0];
     MechanisticState s;
@@ -151,7 +151,7 @@ TEST_CASE("linearity begins at three quarters of the elastic stiffness, yield at
     CHECK(s.stage == Stage::yield);
 }
 
-TEST_CASE("the seat closes over half the rms roughness and the misfit") {
+TEST_CASE("Derive: the seat closes over half the rms roughness and the misfit") {
     for (const double Rz : {6.3e-6, 16e-6, 100e-6}) {
         JointDesign design = plain();
         design.roughness_Rz = Rz;
@@ -161,7 +161,7 @@ TEST_CASE("the seat closes over half the rms roughness and the misfit") {
     }
 }
 
-TEST_CASE("from the first shearing to a free nut it turns three quarters of its height") {
+TEST_CASE("Derive: stripping lasts over three quarters of the nut's height") {
     JointDesign design = plain();
     design.nut_strength = 300e6;
     const GroupParameters group = test::single(design);
@@ -184,7 +184,7 @@ TEST_CASE("from the first shearing to a free nut it turns three quarters of its 
           doctest::Approx(0.75 * design.thread.size.nut_height / (2e-3 / (2.0 * pi))).epsilon(0.1));
 }
 
-TEST_CASE("a necked bolt breaks at 80 % of its greatest load") {
+TEST_CASE("Derive: a necked bolt breaks at 80 % of its greatest load") {
     const ThreadSize m16 = parse_thread("M16").value();
     for (const std::string& name : property_class_names()) {
         const PropertyClass grade = property_class(name, 0.016).value();
@@ -194,7 +194,7 @@ TEST_CASE("a necked bolt breaks at 80 % of its greatest load") {
     }
 }
 
-TEST_CASE("faces under a tenth of the reference load settle a tenth of the amount") {
+TEST_CASE("Derive: a tenth of the reference load causes a tenth of the embedding") {
     JointDesign design = plain();
     design.embedding_time = 5.0;
     const GroupParameters group = test::single(design);
@@ -206,7 +206,7 @@ TEST_CASE("faces under a tenth of the reference load settle a tenth of the amoun
     }
 }
 
-TEST_CASE("a nut's weight helps it down a standing bolt and hinders it up a hanging one") {
+TEST_CASE("Derive: the weight of the nut helps it down and hinders it up") {
     JointDesign design = plain();
     design.nut_mass = 0.05;
     const auto on = [&](const Vec3& axis) {
@@ -225,7 +225,9 @@ TEST_CASE("a nut's weight helps it down a standing bolt and hinders it up a hang
     }
 }
 
-TEST_CASE("a locking nut breaks away with the static ratio of its prevailing torque and then runs with it") {
+TEST_CASE(
+    "Derive: a locking nut breaks away with the static ratio of its prevailing torque and then runs with "
+    "it") {
     JointDesign design = plain();
     design.prevailing_torque = 32.0;
     design.friction.static_ratio = 1.25;
@@ -238,7 +240,7 @@ TEST_CASE("a locking nut breaks away with the static ratio of its prevailing tor
     CHECK(resistance(p, s).loosen == doctest::Approx(-32.0));
 }
 
-TEST_CASE("the friction of thread and bearing scatter apart, by the same measure") {
+TEST_CASE("Derive: friction of thread and bearing scatter independently with the same spread") {
     JointDesign design = plain();
     design.friction.scatter = 0.06;
     const std::vector<JointDesign> designs(400, design);
@@ -259,7 +261,9 @@ TEST_CASE("the friction of thread and bearing scatter apart, by the same measure
     CHECK(std::sqrt(vy) / (y / n) == doctest::Approx(0.06).epsilon(0.15));
 }
 
-TEST_CASE("the published law loosens in its yield stage with the loosening lever of the clamp force there") {
+TEST_CASE(
+    "Derive: the published law loosens in its yield stage with the loosening lever of the clamp force "
+    "there") {
     const PublishedParameters p;
     const GroupParameters group = make_published_group(p);
     const PublishedBoundaries b = published_boundaries(p);

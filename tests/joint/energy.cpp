@@ -58,7 +58,7 @@ Cycle random_cycle(const GroupParameters& group, Random& random, bool take_frict
 
 }  // namespace
 
-TEST_CASE("no closed cycle of the nut gives energy: 300 random joints and motions") {
+TEST_CASE("Energy: no closed cycle of 300 random joints and motions generates energy") {
     Random random(11);
     for (int trial = 0; trial < 300; ++trial) {
         CAPTURE(trial);
@@ -68,7 +68,7 @@ TEST_CASE("no closed cycle of the nut gives energy: 300 random joints and motion
     }
 }
 
-TEST_CASE("also with the friction taken off: plasticity and embedding alone only take") {
+TEST_CASE("Energy: plasticity and embedding without friction only dissipate") {
     // The clamp force is sampled at the end of a step, so a closed elastic cycle sums to zero only to the
     // step's order; one step of the largest is allowed for that, and shrinking the steps must shrink what is
     // found.
@@ -81,7 +81,7 @@ TEST_CASE("also with the friction taken off: plasticity and embedding alone only
     }
 }
 
-TEST_CASE("the energy test can fail: friction with the wrong sign is found") {
+TEST_CASE("Energy: the check can fail: it detects friction of the wrong sign") {
     Random random(11);
     GroupParameters group = test::single(test::m16_flange_joint());
     group.joints[0].levers.thread *= -1.0;
@@ -89,7 +89,7 @@ TEST_CASE("the energy test can fail: friction with the wrong sign is found") {
     CHECK(random_cycle(group, random, false).work < 0.0);
 }
 
-TEST_CASE("equal runs have equal bits") {
+TEST_CASE("Energy: equal runs have equal bits") {
     const auto run = [] {
         Random random(21);
         std::vector<double> out;
@@ -115,7 +115,7 @@ TEST_CASE("equal runs have equal bits") {
     for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == b[i]);
 }
 
-TEST_CASE("hostile motion: jumps of many turns, reversals every step, no step is not finite") {
+TEST_CASE("Energy: jumps of many turns and reversals every step give finite results") {
     Random random(31);
     for (int trial = 0; trial < 60; ++trial) {
         CAPTURE(trial);

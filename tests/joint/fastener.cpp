@@ -8,7 +8,7 @@
 using namespace bolt;
 using namespace bolt::joint;
 
-TEST_CASE("M16x2 is the thread of ISO 724 and ISO 898-1") {
+TEST_CASE("Fasteners: M16x2 is the thread of ISO 724 and ISO 898-1") {
     const Thread t = metric_thread(16e-3, 2e-3);
     CHECK(t.d2 * 1e3 == doctest::Approx(14.701).epsilon(1e-4));
     CHECK(t.d3 * 1e3 == doctest::Approx(13.546).epsilon(1e-4));
@@ -16,7 +16,7 @@ TEST_CASE("M16x2 is the thread of ISO 724 and ISO 898-1") {
     CHECK(to_degrees(t.lead_angle()) == doctest::Approx(2.48).epsilon(2e-3));
 }
 
-TEST_CASE("stress areas agree with ISO 898-1 to its rounding") {
+TEST_CASE("Fasteners: stress areas agree with ISO 898-1 to its rounding") {
     const std::pair<const char*, double> published[] = {
         {"M4", 8.78},     {"M5", 14.2},     {"M6", 20.1},   {"M8", 36.6},       {"M10", 58.0},
         {"M12", 84.3},    {"M14", 115},     {"M16", 157},   {"M18", 192},       {"M20", 245},
@@ -29,7 +29,7 @@ TEST_CASE("stress areas agree with ISO 898-1 to its rounding") {
     }
 }
 
-TEST_CASE("every name that is offered parses, and a slip is answered with the nearest") {
+TEST_CASE("Fasteners: every listed name parses, and a misspelt one suggests the nearest") {
     for (const std::string& name : thread_names()) CHECK(parse_thread(name).has_value());
     const auto slip = parse_thread("N16");
     REQUIRE_FALSE(slip.has_value());
@@ -45,13 +45,15 @@ TEST_CASE("every name that is offered parses, and a slip is answered with the ne
     CHECK(grade.error().expected == "did you mean \"8.8\"?");
 }
 
-TEST_CASE("class 8.8 is stronger above M16") {
+TEST_CASE("Fasteners: class 8.8 is stronger above M16") {
     CHECK(property_class("8.8", 0.016).value().R_p02 == 640e6);
     CHECK(property_class("8.8", 0.018).value().R_p02 == 660e6);
     CHECK(property_class("8.8", 0.018).value().R_m == 830e6);
 }
 
-TEST_CASE("the tables make sense: nuts wider than threads, washers wider than holes, bearings within flats") {
+TEST_CASE(
+    "Fasteners: the tables are consistent: nuts wider than threads, washers wider than holes, bearings "
+    "within flats") {
     for (const FastenerSize& s : fastener_sizes()) {
         CAPTURE(s.name);
         CHECK(s.nut_bearing < s.across_flats);
@@ -65,7 +67,7 @@ TEST_CASE("the tables make sense: nuts wider than threads, washers wider than ho
     }
 }
 
-TEST_CASE("ISO 4014 thread lengths of the reducer's bolts") {
+TEST_CASE("Fasteners: ISO 4014 thread lengths of the reducer's bolts") {
     CHECK(thread_length(0.016, 0.180) == doctest::Approx(0.044));
     CHECK(thread_length(0.016, 0.075) == doctest::Approx(0.038));
     CHECK(thread_length(0.016, 0.030) == doctest::Approx(0.030));
@@ -111,7 +113,7 @@ TEST_CASE("VDI 2230 table A1: every row") {
     CHECK(rows == 223);
 }
 
-TEST_CASE("fine threads within 2 %") {
+TEST_CASE("Fasteners: fine threads within 2 %") {
     int rows = 0;
     for (const test::Row& row : test::read_table("oracles/vdi2230_a2_fine.csv")) {
         CAPTURE(row.at("size"));
@@ -124,7 +126,7 @@ TEST_CASE("fine threads within 2 %") {
     CHECK(rows == 81);
 }
 
-TEST_CASE("stainless, elastic torsion: within 2 % of a value that is printed so") {
+TEST_CASE("Fasteners: stainless with elastic torsion agrees within 2 % of the printed value") {
     int numbers = 0;
     for (const test::Row& row : test::read_table("oracles/stainless.csv")) {
         CAPTURE(row.at("size"));
@@ -142,7 +144,7 @@ TEST_CASE("stainless, elastic torsion: within 2 % of a value that is printed so"
     CHECK(numbers == 46);
 }
 
-TEST_CASE("the exact tangent and VDI's closed form agree to first order") {
+TEST_CASE("Fasteners: the exact tangent and VDI's closed form agree to first order") {
     const ThreadSize m16 = parse_thread("M16").value();
     const double D_Km = bearing_mean_diameter(m16.size.head_bearing, m16.size.hole);
     for (const double mu : {0.08, 0.12, 0.24, 0.30}) {
@@ -154,7 +156,7 @@ TEST_CASE("the exact tangent and VDI's closed form agree to first order") {
     }
 }
 
-TEST_CASE("loosening over tightening torque of M16") {
+TEST_CASE("Fasteners: loosening over tightening torque of M16") {
     const ThreadSize m16 = parse_thread("M16").value();
     const double D_Km = bearing_mean_diameter(m16.size.head_bearing, m16.size.hole);
     const std::pair<double, double> published[] = {

@@ -8,27 +8,27 @@
 using namespace bolt;
 using namespace bolt::joint;
 
-TEST_CASE("kei against Abramowitz and Stegun, table 9.12") {
+TEST_CASE("Flange: kei against Abramowitz and Stegun, table 9.12") {
     const std::pair<double, double> published[] = {{0.0, -0.7853981634}, {1.0, -0.4949946365},
                                                    {2.0, -0.2024000678}, {3.0, -0.0511218840},
                                                    {4.0, 0.0021983995},  {5.0, 0.0111875865}};
     for (const auto& [x, value] : published) CHECK(std::abs(kelvin_kei(x) - value) < 1e-9);
 }
 
-TEST_CASE("own deflection is Hertz's closed form l2/8D") {
+TEST_CASE("Flange: own deflection is Hertz's closed form l2/8D") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     CHECK(plate.rigidity == doctest::Approx(110e9 * 0.024 * 0.024 * 0.024 / (12 * (1 - 0.0625))));
     const double hertz = square(plate.length()) / (8 * plate.rigidity);
     CHECK(plate.deflection_per_force(0.0) / hertz == doctest::Approx(1.0).epsilon(1e-9));
 }
 
-TEST_CASE("neighbours are pressed down near by and lifted further out") {
+TEST_CASE("Flange: neighbours are pressed down nearby and lifted farther out") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     CHECK(plate.deflection_per_force(plate.length()) > 0.0);
     CHECK(plate.deflection_per_force(5.0 * plate.length()) < 0.0);
 }
 
-TEST_CASE("the coupling is symmetric and stores energy: positive for any forces") {
+TEST_CASE("Flange: the coupling is symmetric and stores energy: positive for any forces") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     Random random(5);
     std::vector<Vec3> seats;
@@ -53,7 +53,7 @@ TEST_CASE("the coupling is symmetric and stores energy: positive for any forces"
     }
 }
 
-TEST_CASE("tightening one joint unloads its neighbours, and a second round brings them back") {
+TEST_CASE("Flange: tightening one joint unloads its neighbours, and a second round restores them") {
     std::vector<JointDesign> designs;
     for (int i = 0; i < 4; ++i) {
         JointDesign d = test::m16_flange_joint();
@@ -92,7 +92,7 @@ TEST_CASE("tightening one joint unloads its neighbours, and a second round bring
     CHECK(spread_after < spread_before);
 }
 
-TEST_CASE("the sweep settles on the solution of the coupled equations") {
+TEST_CASE("Flange: the sweep converges to the solution of the coupled equations") {
     std::vector<JointDesign> designs;
     for (int i = 0; i < 6; ++i) {
         JointDesign d = test::m16_flange_joint();

@@ -52,7 +52,9 @@ JointDesign steady(JointDesign d) {
 
 }  // namespace
 
-TEST_CASE("tightening is continuous with a continuous slope from the first turn to far past yield") {
+TEST_CASE(
+    "Mechanistic law: tightening is continuous with a continuous slope from the first turn to far past "
+    "yield") {
     // By refinement: where a quantity is continuous its jumps fall with the step; at a real jump they stay.
     const GroupParameters group = test::single(steady(test::m16_flange_joint()));
     const double speed = to_radians(60.0);
@@ -69,7 +71,7 @@ TEST_CASE("tightening is continuous with a continuous slope from the first turn 
     CHECK(fine.clamp < 0.1 * coarse.clamp);
 }
 
-TEST_CASE("a loaded joint that is turned back and tightened past its old peak again has no kink either") {
+TEST_CASE("Mechanistic law: unloading and tightening past the old peak has no kink either") {
     const GroupParameters group = test::single(steady(test::m16_flange_joint()));
     // 500 degrees: well past yield. Back 20 degrees, on again to 540, all with a smooth speed.
     const auto go_on = [&](double dt) {
@@ -95,7 +97,7 @@ TEST_CASE("a loaded joint that is turned back and tightened past its old peak ag
     CHECK(fine < 0.4 * coarse);
 }
 
-TEST_CASE("the refinement test can fail: the published law jumps and stays jumping") {
+TEST_CASE("Mechanistic law: the refinement check can fail: it detects the jumps of the published law") {
     PublishedParameters p;
     p.theta_max_deg = 360.0;
     const GroupParameters group = make_published_group(p);
@@ -107,7 +109,8 @@ TEST_CASE("the refinement test can fail: the published law jumps and stays jumpi
 }
 
 TEST_CASE(
-    "running torque over clamp force is Motosh's, tightening and loosening, and their ratio as published") {
+    "Mechanistic law: running torque over clamp force is Motosh's, tightening and loosening, and their ratio "
+    "as published") {
     const std::pair<double, double> published[] = {
         {0.08, 0.646}, {0.12, 0.749}, {0.14, 0.781}, {0.20, 0.841}, {0.30, 0.891}};
     for (const auto& [mu, ratio] : published) {
@@ -127,7 +130,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a first tightening of M16 class 8.8 at friction 0.12 passes VDI's 80.9 kN at its 206 N m") {
+TEST_CASE(
+    "Mechanistic law: a first tightening of M16 class 8.8 at friction 0.12 passes VDI's 80.9 kN at its 206 N "
+    "m") {
     for (const double static_ratio : {1.0, 1.2}) {
         JointDesign design = test::m16_flange_joint();
         design.friction.static_ratio = static_ratio;  // what breaks away has slid long before
@@ -139,7 +144,8 @@ TEST_CASE("a first tightening of M16 class 8.8 at friction 0.12 passes VDI's 80.
 }
 
 TEST_CASE(
-    "breakaway: after a rest the first torque is the static ratio's, and it is gone after some degrees") {
+    "Mechanistic law: breakaway: after a rest the first torque is the static ratio's, and it is gone after "
+    "some degrees") {
     JointDesign design = test::m16_flange_joint();
     design.friction.static_ratio = 1.25;
     design.running_torque = 0.0;
@@ -163,7 +169,7 @@ TEST_CASE(
     CHECK(joints[0].mechanistic.dwell < 0.01);
 }
 
-TEST_CASE("snug to 80.9 kN: the elastic part of the law gives VDI's angles") {
+TEST_CASE("Mechanistic law: snug to 80.9 kN: the elastic part of the law gives VDI's angles") {
     const std::pair<double, double> published[] = {{20e-3, 23.0}, {40e-3, 35.0}, {80e-3, 56.0}};
     for (const auto& [grip, degrees] : published) {
         JointDesign design = test::m16_flange_joint();
@@ -188,8 +194,8 @@ TEST_CASE("snug to 80.9 kN: the elastic part of the law gives VDI's angles") {
 }
 
 TEST_CASE(
-    "yield begins at the elastic limit under tension and torsion, hardens, and re-tightens at the higher "
-    "level") {
+    "Mechanistic law: yield begins at the elastic limit under tension and torsion, hardens, and re-tightens "
+    "at the higher level") {
     const GroupParameters group = test::single(steady(test::m16_flange_joint()));
     const MechanisticParameters& p = group.joints[0];
     std::vector<JointState> joints = initial_state(group, 1);
@@ -215,7 +221,7 @@ TEST_CASE(
     CHECK(joints[0].clamp > 0.99 * peak);
 }
 
-TEST_CASE("0.2 % plastic strain at R_p0.2, R_m at uniform elongation") {
+TEST_CASE("Mechanistic law: 0.2 % plastic strain at R_p0.2, R_m at uniform elongation") {
     const ThreadSize m16 = parse_thread("M16").value();
     for (const std::string& name : property_class_names()) {
         const PropertyClass grade = property_class(name, 0.016).value();
@@ -231,7 +237,8 @@ TEST_CASE("0.2 % plastic strain at R_p0.2, R_m at uniform elongation") {
     }
 }
 
-TEST_CASE("turned far enough the bolt necks and breaks; a weak nut strips first; both are final") {
+TEST_CASE(
+    "Mechanistic law: overturning necks and breaks the bolt, or strips a weak nut first; both are final") {
     for (const bool weak_nut : {false, true}) {
         JointDesign design = test::m16_flange_joint();
         if (weak_nut) design.nut_strength = 300e6;
@@ -251,7 +258,7 @@ TEST_CASE("turned far enough the bolt necks and breaks; a weak nut strips first;
     }
 }
 
-TEST_CASE("embedding takes f_Z/(delta_S + delta_P) of the clamp force, and no more") {
+TEST_CASE("Mechanistic law: embedding takes f_Z/(delta_S + delta_P) of the clamp force, and no more") {
     JointDesign design = test::m16_flange_joint();
     design.roughness_Rz = 16e-6;
     const GroupParameters group = test::single(design);
@@ -271,7 +278,7 @@ TEST_CASE("embedding takes f_Z/(delta_S + delta_P) of the clamp force, and no mo
     CHECK(joints[0].mechanistic.embedding / left == doctest::Approx(1.0).epsilon(0.25));
 }
 
-TEST_CASE("prevailing torque is there from the first turn, both ways") {
+TEST_CASE("Mechanistic law: prevailing torque acts from the first turn in both directions") {
     JointDesign design = test::m16_flange_joint();
     design.prevailing_torque = 32.0;
     design.friction.static_ratio = 1.0;
@@ -284,7 +291,8 @@ TEST_CASE("prevailing torque is there from the first turn, both ways") {
 }
 
 TEST_CASE(
-    "re-use goes the way that was measured: oiled falls and stays, dry rises at once, MoS2 is used up") {
+    "Mechanistic law: re-use follows the measurements: oiled falls and stays, dry rises at once, MoS2 wears "
+    "off") {
     // M8 10.9, 20 N m, twenty times: K = T/(F d) of the measured series and of the law.
     std::map<std::string, std::vector<double>> measured;
     for (const test::Row& row : test::read_table("oracles/repeated_tightening_m8.csv"))
@@ -318,7 +326,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("scatter: each bolt of a seed has its own friction, and the same seed the same") {
+TEST_CASE("Mechanistic law: each bolt has its own friction, reproducible by the seed") {
     JointDesign design = test::m16_flange_joint();
     design.friction.scatter = 0.06;
     const std::vector<JointDesign> designs(400, design);
@@ -336,7 +344,7 @@ TEST_CASE("scatter: each bolt of a seed has its own friction, and the same seed 
     CHECK(deviation / mean == doctest::Approx(0.06).epsilon(0.15));
 }
 
-TEST_CASE("stages are passed in order while tightening, and none twice") {
+TEST_CASE("Mechanistic law: tightening passes the stages in order and none twice") {
     const GroupParameters group = test::single(test::m16_flange_joint());
     const std::vector<CurveSample> run = torque_angle_curve(group, CurveOptions{});
     int stage = 0, changes = 0;

@@ -36,7 +36,7 @@ struct Tight {
 
 }  // namespace
 
-TEST_CASE("the nut stands, to the bit, until the torque overcomes the resistance") {
+TEST_CASE("Nut: the nut stays, to the bit, until the torque exceeds the resistance") {
     Tight tight;
     const double stands_at = tight.joints[0].nut.angle;
     const Resistance r = resistance(tight.group, 0, tight.joints[0]);
@@ -50,7 +50,7 @@ TEST_CASE("the nut stands, to the bit, until the torque overcomes the resistance
     CHECK(last <= r.tighten);
 }
 
-TEST_CASE("at rest there is no chatter: a held torque below the resistance moves nothing, ever") {
+TEST_CASE("Nut: a constant torque below the resistance never moves it") {
     Tight tight;
     const double stands_at = tight.joints[0].nut.angle;
     const Resistance r = resistance(tight.group, 0, tight.joints[0]);
@@ -65,7 +65,7 @@ TEST_CASE("at rest there is no chatter: a held torque below the resistance moves
     }
 }
 
-TEST_CASE("turned on slowly it follows the hand and carries exactly the running torque") {
+TEST_CASE("Nut: turned slowly it follows the hand at exactly the running torque") {
     Tight tight;
     double hand = tight.joints[0].nut.angle;
     for (int i = 0; i < 3000; ++i) {
@@ -78,7 +78,7 @@ TEST_CASE("turned on slowly it follows the hand and carries exactly the running 
     CHECK(tight.joints[0].mechanistic.share == 1.0);
 }
 
-TEST_CASE("a hand that lets go leaves the nut where it is: tension does not unscrew it") {
+TEST_CASE("Nut: after release it stays: tension does not unscrew it") {
     Tight tight;
     const double stands_at = tight.joints[0].nut.angle;
     for (int i = 0; i < 10'000; ++i) step_group(tight.group, tight.joints, 0, Handle{}, 1e-3);
@@ -86,7 +86,7 @@ TEST_CASE("a hand that lets go leaves the nut where it is: tension does not unsc
     CHECK(tight.joints[0].torque == 0.0);
 }
 
-TEST_CASE("backlash: inside the play there is no torque, at its edge the torque begins from nothing") {
+TEST_CASE("Nut: there is no torque within the backlash, and it rises continuously from its edge") {
     Tight tight;
     const double nut = tight.joints[0].nut.angle, play = 0.015;
     double last = 0.0;
@@ -101,7 +101,7 @@ TEST_CASE("backlash: inside the play there is no torque, at its edge the torque 
     }
 }
 
-TEST_CASE("fingers slip at their limit and give no more") {
+TEST_CASE("Nut: fingers slip at their limit torque") {
     Tight tight;
     Handle fingers = spring(tight.joints[0].nut.angle + 1.0);
     fingers.stiffness = 5.0;
@@ -111,7 +111,7 @@ TEST_CASE("fingers slip at their limit and give no more") {
     CHECK(tight.joints[0].nut.speed == 0.0);
 }
 
-TEST_CASE("a jaw pushes and never pulls, whatever the nut does") {
+TEST_CASE("Nut: a jaw pushes and never pulls, whatever the nut does") {
     Random random(9);
     Tight tight;
     double hand = tight.joints[0].nut.angle;
@@ -124,7 +124,7 @@ TEST_CASE("a jaw pushes and never pulls, whatever the nut does") {
     }
 }
 
-TEST_CASE("the wrench makes no energy: over any wandering of the hand the nut takes what the hand gives") {
+TEST_CASE("Nut: the wrench generates no energy over any motion of the hand") {
     // Work of the coupling on the nut minus what the joint can store stays positive.
     Random random(10);
     for (int trial = 0; trial < 20; ++trial) {
@@ -142,7 +142,7 @@ TEST_CASE("the wrench makes no energy: over any wandering of the hand the nut ta
     }
 }
 
-TEST_CASE("step size does not change what is felt: the same pull at 1 and at 4 kHz") {
+TEST_CASE("Nut: the same pull gives the same torque at 1 and 4 kHz") {
     const auto peak = [](double dt) {
         Tight tight;
         double hand = tight.joints[0].nut.angle, highest = 0.0;

@@ -22,14 +22,16 @@ double per_area(double (*torque)(const PublishedParameters&, double, Direction))
 }
 }  // namespace
 
-TEST_CASE("eq. 1: running down takes -0.5761 N mm; the printed -0.588 has cos 30 degrees rounded to 0.85") {
+TEST_CASE(
+    "Published law: eq. 1: running down takes -0.5761 N mm; the printed -0.588 has cos 30 degrees rounded to "
+    "0.85") {
     CHECK(published_navigation_torque(p, on) * 1e3 == four(-0.5761));
     const double G = 33.3e-3 * 9.8;
     CHECK(-G * (0.5 - 0.3 * 0.85) * 14.7 / 2 == doctest::Approx(-0.588).epsilon(1e-3));
     CHECK(published_navigation_torque(p, off) * 1e3 == four(-1.8225));
 }
 
-TEST_CASE("eq. 2, bearing: -492.27 A h' + 5.149; the print takes mu1 = 0.3 and calls it T1") {
+TEST_CASE("Published law: eq. 2, bearing: -492.27 A h' + 5.149; the print takes mu1 = 0.3 and calls it T1") {
     CHECK(per_area(published_bearing_torque) == four(-492.27));
     CHECK(published_bearing_torque(p, 0.0, on) * 1e3 == four(5.149));
     PublishedParameters slip = p;
@@ -39,7 +41,9 @@ TEST_CASE("eq. 2, bearing: -492.27 A h' + 5.149; the print takes mu1 = 0.3 and c
     CHECK(published_bearing_torque(slip, 0.0, on) * 1e3 == four(3.8617));
 }
 
-TEST_CASE("eq. 2, thread: 348.478 A h' - 3.645; the print takes cos 30 degrees = 0.86 and calls it T2") {
+TEST_CASE(
+    "Published law: eq. 2, thread: 348.478 A h' - 3.645; the print takes cos 30 degrees = 0.86 and calls it "
+    "T2") {
     CHECK(per_area(published_thread_torque) == four(348.478));
     CHECK(published_thread_torque(p, 0.0, on) * 1e3 == doctest::Approx(-3.645).epsilon(1e-4));
     CHECK(31.2 * (0.5 + 0.3 * 0.86) * 14.7 == four(347.6491));
@@ -47,12 +51,13 @@ TEST_CASE("eq. 2, thread: 348.478 A h' - 3.645; the print takes cos 30 degrees =
 }
 
 TEST_CASE(
-    "eq. 2, sum: the print's -21.5557 A h' + 0.2254 is the difference of two torques that both resist") {
+    "Published law: eq. 2, sum: the print's -21.5557 A h' + 0.2254 is the difference of two torques that "
+    "both resist") {
     CHECK(-369.2048 + 347.6491 == four(-21.5557));
     CHECK(3.8617 - 3.6363 == doctest::Approx(0.2254).epsilon(1e-3));
 }
 
-TEST_CASE("eq. 3: 14.354 N m per degree, lever arm 12.464 mm; the print rounds to 14.4") {
+TEST_CASE("Published law: eq. 3: 14.354 N m per degree, lever arm 12.464 mm; the print rounds to 14.4") {
     CHECK(published_linear_slope(p) == four(14.354));
     CHECK(published_lever(p, on) * 1e3 == four(12.464));
     CHECK(published_degrees_per_newton(p) == doctest::Approx(0.868e-3).epsilon(1e-3));
@@ -63,7 +68,7 @@ TEST_CASE("eq. 3: 14.354 N m per degree, lever arm 12.464 mm; the print rounds t
     CHECK(published_lever(radii, on) * 1e3 == four(6.734));
 }
 
-TEST_CASE("eq. 4: 59.976 N m a quarter turn before the end, 72.126 at the end, in degrees") {
+TEST_CASE("Published law: eq. 4: 59.976 N m a quarter turn before the end, 72.126 at the end, in degrees") {
     CHECK(published_yield_torque(p, 7128.0) == four(59.976));
     CHECK(published_yield_torque(p, 7218.0) == four(72.126));
     CHECK(p.theta_max_deg / 360.0 == four(20.05));
@@ -72,7 +77,9 @@ TEST_CASE("eq. 4: 59.976 N m a quarter turn before the end, 72.126 at the end, i
     CHECK(0.0015 * square(to_radians(90.0)) == doctest::Approx(0.0037).epsilon(0.01));
 }
 
-TEST_CASE("the linear stage takes 4.178 degrees and meets the yield stage without a jump in torque") {
+TEST_CASE(
+    "Published law: the linear stage takes 4.178 degrees and meets the yield stage without a jump in "
+    "torque") {
     const PublishedBoundaries b = published_boundaries(p);
     CHECK(b.yield - b.linearity == four(4.178));
     const PublishedState fresh;
@@ -81,7 +88,8 @@ TEST_CASE("the linear stage takes 4.178 degrees and meets the yield stage withou
 }
 
 TEST_CASE(
-    "the errors of the law are there: it jumps at the start of stages 2 and 3, and its slope falls to 0.27") {
+    "Published law: it has the paper's discontinuities: jumps at the start of stages 2 and 3, and a slope "
+    "that falls to 0.27") {
     const PublishedBoundaries b = published_boundaries(p);
     const PublishedState s;
     const auto torque = [&](double degrees) { return published_read(p, s, degrees, on).torque; };
@@ -90,7 +98,7 @@ TEST_CASE(
     CHECK((torque(b.yield + 1e-4) - torque(b.yield)) / 1e-4 == doctest::Approx(0.27).epsilon(1e-3));
 }
 
-TEST_CASE("stages follow each other over the angle, and each is told from the state") {
+TEST_CASE("Published law: the stages follow in order over the angle and are read off the state") {
     const PublishedBoundaries b = published_boundaries(p);
     const PublishedState s;
     CHECK(published_read(p, s, 0.0, on).stage == Stage::navigation);
@@ -99,7 +107,8 @@ TEST_CASE("stages follow each other over the angle, and each is told from the st
     CHECK(published_read(p, s, b.yield + 0.1, on).stage == Stage::yield);
 }
 
-TEST_CASE("loosening differs: less torque by the lead, and along a set elastic line after yield") {
+TEST_CASE(
+    "Published law: loosening differs: less torque by the lead, and along a set elastic line after yield") {
     const PublishedBoundaries b = published_boundaries(p);
     PublishedState s;
     CHECK(published_lever(p, on) - published_lever(p, off) == doctest::Approx(2e-3 / pi).epsilon(1e-9));
@@ -115,7 +124,7 @@ TEST_CASE("loosening differs: less torque by the lead, and along a set elastic l
     CHECK(published_read(p, s, p.theta_max_deg - 1e-6, on).clamp == doctest::Approx(clamp).epsilon(1e-3));
 }
 
-TEST_CASE("the whole curve from the tool's entry point prints the oracle's figures") {
+TEST_CASE("Published law: the whole curve from the tool's entry point prints the oracle's figures") {
     const GroupParameters group = make_published_group(p);
     CurveOptions options;
     const std::vector<CurveSample> run = torque_angle_curve(group, options);

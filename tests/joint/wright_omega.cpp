@@ -10,14 +10,14 @@
 using namespace bolt;
 using namespace bolt::joint;
 
-TEST_CASE("known values: omega(1) = 1, omega(0) = 0.567143..., omega(1 + e) = e") {
+TEST_CASE("Wright omega: omega(1) = 1, omega(0) = 0.567143..., omega(1 + e) = e") {
     CHECK(wright_omega(1.0) == doctest::Approx(1.0).epsilon(1e-15));
     CHECK(wright_omega(0.0) == doctest::Approx(0.56714329040978387300).epsilon(1e-15));
     CHECK(wright_omega(1.0 + std::exp(1.0)) == doctest::Approx(std::exp(1.0)).epsilon(1e-15));
     CHECK(wright_omega(-1000.0) == 0.0);
 }
 
-TEST_CASE("omega + ln omega = x over its whole range, and it never falls") {
+TEST_CASE("Wright omega: omega + ln omega = x over its whole range, and it never falls") {
     Random random(3);
     for (int i = 0; i < 200'000; ++i) {
         const double x = i < 100'000 ? random.uniform(-40.0, 40.0) : random.uniform(-600.0, 1e7);
@@ -33,7 +33,7 @@ TEST_CASE("omega + ln omega = x over its whole range, and it never falls") {
     }
 }
 
-TEST_CASE("a value thought to be near changes the work, not the answer, however wrong it is") {
+TEST_CASE("Wright omega: a bad starting value changes the effort, not the result") {
     Random random(4);
     for (int i = 0; i < 200'000; ++i) {
         const double x = i < 100'000 ? random.uniform(-40.0, 40.0) : random.uniform(0.0, 1e4);
@@ -46,7 +46,8 @@ TEST_CASE("a value thought to be near changes the work, not the answer, however 
     CHECK(wright_omega(2.0, std::nan("")) == wright_omega(2.0));
 }
 
-TEST_CASE("the seat spring inverts its own closure, is positive, and ends as the elastic line") {
+TEST_CASE(
+    "Wright omega: the seat spring inverts its own closure, is positive, and ends as the elastic line") {
     const SeatSpring seat{5.5e-9, 6.5e-6, 31.4};
     for (const double force : {1e-6, 1.0, 31.4, 1e3, 3e4, 1e5}) {
         CHECK(seat.at(seat.closure(force)).force == doctest::Approx(force).epsilon(1e-12));

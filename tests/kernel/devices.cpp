@@ -26,13 +26,13 @@ struct Said {
 Said devices(std::vector<std::string> options = {}) {
     std::vector<std::string> command{"boltwright", "devices"};
     command.insert(command.end(), options.begin(), options.end());
-    const Result<Finished> finished = run_program(command, Hear::output_and_errors);
-    return finished ? Said{finished->exit_code, finished->said} : Said{-1, finished.error().message()};
+    const Result<ProgramResult> finished = run_program(command, Capture::output_and_errors);
+    return finished ? Said{finished->exit_code, finished->output} : Said{-1, finished.error().message()};
 }
 
 }  // namespace
 
-TEST_CASE("boltwright devices with nothing plugged in says so, and fails only where something was named") {
+TEST_CASE("Kernel, devices: without devices the command says so, and fails only if one was named") {
     const Said all = devices();
     CHECK_MESSAGE(all.exit_code == 0, all.text);
     CHECK(all.has("none by USB"));
@@ -41,9 +41,9 @@ TEST_CASE("boltwright devices with nothing plugged in says so, and fails only wh
     CHECK(one.has("no device 256f:c62e"));
 }
 
-TEST_CASE("boltwright devices says what is there and what it can") {
+TEST_CASE("Kernel, devices: lists devices and their capabilities") {
     const auto puck = plugged(std::make_unique<emulate::Puck>());
-    const auto board = plugged(std::make_unique<emulate::Wheel>(emulate::WheelDesign{.serial = "AB12"}));
+    const auto board = plugged(std::make_unique<emulate::Wheel>(emulate::WheelOptions{.serial = "AB12"}));
     listed("256f:c62e");
     listed("1209:ffb0:AB12");
     const Said all = devices();
@@ -73,7 +73,7 @@ TEST_CASE("boltwright devices says what is there and what it can") {
     CHECK(near.has("256f:c62e"));
 }
 
-TEST_CASE("who has no device plugs in an emulated one by bolt-emulate") {
+TEST_CASE("Kernel, devices: bolt-emulate plugs in an emulated device") {
     for (const auto& [kind, id] :
          {std::pair{"puck", "256f:c62e"}, {"board", "1209:ffb0"}, {"wheel", "1234:5678"}}) {
         CAPTURE(kind);
@@ -90,15 +90,15 @@ TEST_CASE("who has no device plugs in an emulated one by bolt-emulate") {
         int status = -1;
         waitpid(child, &status, 0);
         CHECK(status == 0);
-        CHECK(becomes([] { return list().empty(); }));
+        CHECK(becomes([] { return list_devices().empty(); }));
     }
     CHECK(holds_for_nobody([] {
-        const auto refused = run_program({"bolt-emulate", "puck"}, Hear::output_and_errors);
-        return refused && refused->exit_code == 4 && refused->said.find("root") != std::string::npos;
+        const auto refused = run_program({"bolt-emulate", "puck"}, Capture::output_and_errors);
+        return refused && refused->exit_code == 4 && refused->output.find("root") != std::string::npos;
     }));
 }
 
-TEST_CASE("boltwright devices tells who may not open a device what to do") {
+TEST_CASE("Kernel, devices: missing permission comes with a remedy") {
     const auto puck = plugged(std::make_unique<emulate::Puck>());
     REQUIRE(chmod(listed("256f:c62e").path.c_str(), 0600) == 0);
     CHECK(holds_for_nobody([] {

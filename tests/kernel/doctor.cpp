@@ -1,4 +1,4 @@
-// `boltwright doctor` with devices named: a station that is tried, as a user calls it.
+// `boltwright doctor` with named devices, called as a user calls it.
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ using namespace bolt::test;
 
 namespace {
 
-// The doctor at work, and what it has said so far.
+// A running doctor and its output so far.
 class Doctor {
   public:
     explicit Doctor(const std::vector<std::string>& options) {
@@ -95,7 +95,8 @@ double turned(const emulate::Uhid& board, double hand, std::uint32_t buttons) {
 
 }  // namespace
 
-TEST_CASE("doctor tries a puck and a board: what they are for, what is felt of a tight nut, what is pulled") {
+TEST_CASE(
+    "Kernel, doctor: a puck and a board are tried: their roles, the force of a tight nut, and unplugging") {
     auto puck = std::make_unique<emulate::Uhid>(plugged(std::make_unique<emulate::Puck>()));
     auto board = std::make_unique<emulate::Uhid>(plug_board());
     listed(pucks);
@@ -140,7 +141,7 @@ TEST_CASE("doctor tries a puck and a board: what they are for, what is felt of a
     MESSAGE(said);
 }
 
-TEST_CASE("doctor: a station at which nothing is wrong is good enough") {
+TEST_CASE("Kernel, doctor: a station without faults passes") {
     const auto puck = plugged(std::make_unique<emulate::Puck>());
     const auto board = plug_board();
     listed(pucks);
@@ -154,7 +155,7 @@ TEST_CASE("doctor: a station at which nothing is wrong is good enough") {
         CHECK_MESSAGE(said.find(words) != std::string::npos, said);
 }
 
-TEST_CASE("doctor says what is wrong before it begins, and what could be tried") {
+TEST_CASE("Kernel, doctor: problems are reported before the trial starts, with a remedy") {
     const auto said_to = [](std::vector<std::string> options, int code) {
         options.insert(options.begin(), "cover-m8");
         Doctor doctor(options);
@@ -163,7 +164,7 @@ TEST_CASE("doctor says what is wrong before it begins, and what could be tried")
     };
     CHECK(said_to({"--device", pucks}, 4).find("no device 256f:c62e") != std::string::npos);
     const auto board = plug_board();
-    const Listed node = listed(boards);
+    const ListedDevice node = listed(boards);
     CHECK(said_to({"--device", "1209:ffb1"}, 4).find("did you mean 1209:ffb0?") != std::string::npos);
     CHECK(said_to({"--seconds", "0"}, 4).find("boltwright doctor --device 1209:ffb0 tries") !=
           std::string::npos);  // no Vulkan here
@@ -174,9 +175,9 @@ TEST_CASE("doctor says what is wrong before it begins, and what could be tried")
     std::filesystem::remove("/tmp/said");
     CHECK(holds_for_nobody([] {
         const auto refused =
-            run_program({"boltwright", "doctor", "cover-m8", "--device", boards}, Hear::output_and_errors);
+            run_program({"boltwright", "doctor", "cover-m8", "--device", boards}, Capture::output_and_errors);
         return refused && refused->exit_code == 4 &&
-               refused->said.find("Permission denied") != std::string::npos &&
-               refused->said.find("60-boltwright.rules") != std::string::npos;
+               refused->output.find("Permission denied") != std::string::npos &&
+               refused->output.find("60-boltwright.rules") != std::string::npos;
     }));
 }

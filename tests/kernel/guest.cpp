@@ -22,10 +22,10 @@ emulate::Uhid plugged(std::unique_ptr<emulate::HidDevice> device) {
     return std::move(*plug);
 }
 
-device::Listed listed(const std::string& id) {
-    device::Listed found;
+device::ListedDevice listed(const std::string& id) {
+    device::ListedDevice found;
     const auto is_there = [&] {
-        for (const device::Listed& l : device::list())
+        for (const device::ListedDevice& l : device::list_devices())
             if (l.id == id) {
                 found = l;
                 return true;

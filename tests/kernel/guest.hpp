@@ -1,4 +1,4 @@
-// What the tests inside the software machine have in common.
+// Helpers of the tests inside the virtual machine.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -7,24 +7,24 @@
 #include <memory>
 #include <string>
 
-#include "haptics/device/hid_line.hpp"
-#include "haptics/device/list.hpp"
+#include "haptics/device/hid_devices.hpp"
+#include "haptics/device/hid_transport.hpp"
 #include "tools/emulate/uhid.hpp"
 
 namespace bolt::test {
 
-// Waits, at most so many seconds, until it is so.
+// Polls until the condition holds; times out after this many seconds.
 bool becomes(const std::function<bool()>& so, double seconds = 5.0);
 
 emulate::Uhid plugged(std::unique_ptr<emulate::HidDevice> device);
 
 // The device of that id, when the kernel has made its node.
-device::Listed listed(const std::string& id);
+device::ListedDevice listed(const std::string& id);
 
-// What a check finds when nobody in particular runs it.
+// Runs the check as an unprivileged user; returns its result.
 bool holds_for_nobody(const std::function<bool()>& check);
 
-// What an emulated device is or does.
+// Calls `look` with the emulated device, as its type.
 template <class Device, class Look>
 void with(const emulate::Uhid& plug, const Look& look) {
     plug.with([&](emulate::HidDevice& device) { look(dynamic_cast<Device&>(device)); });

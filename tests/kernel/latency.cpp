@@ -1,14 +1,13 @@
-// How long a report is on its way from the device to whoever reads it, and an order to the device. Measured
-// by the guest's clock, which counts instructions: it says what is done in between, not how fast this machine
-// is.
+// The latency of a report from the device to its reader, and of a command to the device. The guest's clock
+// counts instructions, so the result does not depend on the speed of this machine.
 #include <algorithm>
 #include <array>
 #include <atomic>
 
-#include "haptics/device/hid_node.hpp"
+#include "haptics/device/hidapi_transport.hpp"
 #include "tests/kernel/guest.hpp"
 #include "tools/emulate/puck.hpp"
-#include "tools/emulate/wheel_reports.hpp"
+#include "tools/emulate/wheel_descriptors.hpp"
 
 using namespace bolt;
 using namespace bolt::device;
@@ -29,8 +28,8 @@ class Metronome : public emulate::HidDevice {
     explicit Metronome(Times& times) : times_(times) {
         design_ = {0x1209, 0xffb0, "Metronome", "", emulate::board_descriptor()};
     }
-    [[nodiscard]] const emulate::HidDesign& design() const override { return design_; }
-    std::vector<emulate::Bytes> go_on(double now) override {
+    [[nodiscard]] const emulate::HidDescription& design() const override { return design_; }
+    std::vector<emulate::Bytes> advance(double now) override {
         if (now < next_ || number_ == reports) return {};
         next_ = now + 0.0009;
         emulate::Bytes report(25);
@@ -49,7 +48,7 @@ class Metronome : public emulate::HidDevice {
 
   private:
     Times& times_;
-    emulate::HidDesign design_;
+    emulate::HidDescription design_;
     std::size_t number_ = 0;
     double next_ = 0.0;
 };
@@ -65,10 +64,10 @@ void tell(const std::string& what, std::vector<double>& took) {
 
 }  // namespace
 
-TEST_CASE("a report is read, and an order is heard, within a period of the device") {
+TEST_CASE("Kernel: reports and commands pass within one device period") {
     Times times;
     const auto plug = plugged(std::make_unique<Metronome>(times));
-    const Listed l = listed("1209:ffb0");
+    const ListedDevice l = listed("1209:ffb0");
     auto line = open_hid(l.path);
     REQUIRE(line);
     std::vector<double> reads, writes, orders;

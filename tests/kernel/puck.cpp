@@ -8,7 +8,7 @@ using namespace bolt::test;
 
 namespace {
 
-// The last that it says within so long.
+// The last sample within this time.
 Sample after(Device& device, double seconds) {
     std::optional<Sample> last;
     for (const double until = steady_seconds() + seconds; steady_seconds() < until;) {
@@ -22,25 +22,25 @@ Sample after(Device& device, double seconds) {
 
 }  // namespace
 
-TEST_CASE("with nothing plugged in nothing is listed") {
-    CHECK(list(true).empty());
-    CHECK(!opener("256f:c62e")());
+TEST_CASE("Kernel: without devices the list is empty") {
+    CHECK(list_devices(true).empty());
+    CHECK(!factory_for("256f:c62e")());
 }
 
-TEST_CASE("a SpaceMouse is found, told what it is, and read") {
-    const auto plug = plugged(std::make_unique<emulate::Puck>(emulate::PuckDesign{.serial = "S1"}));
-    const Listed l = listed("256f:c62e:S1");
+TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
+    const auto plug = plugged(std::make_unique<emulate::Puck>(emulate::PuckOptions{.serial = "S1"}));
+    const ListedDevice l = listed("256f:c62e:S1");
     CHECK(l.kind == HidKind::puck);
     CHECK(l.name == "Emulated SpaceMouse");
     CHECK(l.path.starts_with("/dev/hidraw"));
     REQUIRE_MESSAGE(!l.trouble, (l.trouble ? l.trouble->message() : ""));
-    auto device = opener(l.id)();
+    auto device = factory_for(l.id)();
     REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
     CHECK((*device)->describe().sensing == Sensing::rate);
     with<emulate::Puck>(plug, [](emulate::Puck& p) { p.share = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
     const Sample pushed = after(**device, 0.1);
-    CHECK(pushed.velocity.x == doctest::Approx(PuckFeel{}.speed));
-    CHECK(pushed.angular_velocity.y == doctest::Approx(PuckFeel{}.turn_speed));
+    CHECK(pushed.velocity.x == doctest::Approx(PuckResponse{}.speed));
+    CHECK(pushed.angular_velocity.y == doctest::Approx(PuckResponse{}.turn_speed));
     with<emulate::Puck>(plug, [](emulate::Puck& p) {
         p.share = {};
         p.buttons = 1;
@@ -50,10 +50,10 @@ TEST_CASE("a SpaceMouse is found, told what it is, and read") {
     CHECK(rests.buttons == 1U);
 }
 
-TEST_CASE("unplugged while it is read it is lost at once; plugged in again it is opened within two seconds") {
+TEST_CASE("Kernel: unplugging while reading is a loss at once; after a replug it opens within 2 s") {
     auto plug = std::make_unique<emulate::Uhid>(plugged(std::make_unique<emulate::Puck>()));
     const std::string id = listed("256f:c62e").id;
-    const Open open = opener(id);
+    const DeviceFactory open = factory_for(id);
     for (int round = 0; round < 5; ++round) {
         auto device = open();
         REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
@@ -85,12 +85,12 @@ TEST_CASE("unplugged while it is read it is lost at once; plugged in again it is
     }
 }
 
-TEST_CASE("two of the same are two, and stay apart") {
+TEST_CASE("Kernel: two identical pucks have different ids") {
     const auto one = plugged(std::make_unique<emulate::Puck>());
     listed("256f:c62e");
     const auto two = plugged(std::make_unique<emulate::Puck>());
     listed("256f:c62e#2");
-    auto first = opener("256f:c62e")(), second = opener("256f:c62e#2")();
+    auto first = factory_for("256f:c62e")(), second = factory_for("256f:c62e#2")();
     REQUIRE(first);
     REQUIRE(second);
     with<emulate::Puck>(one, [](emulate::Puck& p) { p.share[0] = 1.0; });
@@ -98,11 +98,11 @@ TEST_CASE("two of the same are two, and stay apart") {
     CHECK(after(**second, 0.05).velocity.x == 0.0);
 }
 
-TEST_CASE("spoiled reports through the kernel do not stop a puck") {
+TEST_CASE("Kernel: corrupt reports do not stop a puck") {
     const auto plug = plugged(std::make_unique<emulate::Puck>(
-        emulate::PuckDesign{.faults = {.cut = 0.3, .strange = 0.2, .changed = 0.0, .seed = 2}}));
-    auto device = opener(listed("256f:c62e").id)();
+        emulate::PuckOptions{.faults = {.cut = 0.3, .strange = 0.2, .changed = 0.0, .seed = 2}}));
+    auto device = factory_for(listed("256f:c62e").id)();
     REQUIRE(device);
     with<emulate::Puck>(plug, [](emulate::Puck& p) { p.share[0] = 1.0; });
-    CHECK(after(**device, 0.5).velocity.x == doctest::Approx(PuckFeel{}.speed));
+    CHECK(after(**device, 0.5).velocity.x == doctest::Approx(PuckResponse{}.speed));
 }

@@ -5,10 +5,11 @@
 set -euo pipefail
 program=$1 kernel=$2 content=$3
 shift 3
+. "$(dirname "$0")/../support/skip.sh" kernel
 for needed in qemu-system-x86_64 busybox cpio; do
-    command -v $needed >/dev/null || { echo "$needed is not there"; exit 77; }
+    command -v $needed >/dev/null || skip_all "$needed is not installed"
 done
-[[ -e $kernel/vmlinuz ]] || { echo "$kernel has no kernel: tools/fetch-kernel.sh fetches it"; exit 77; }
+[[ -e $kernel/vmlinuz ]] || skip_all "$kernel has no kernel; expected what tools/fetch-kernel.sh fetches"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 root=$work/root

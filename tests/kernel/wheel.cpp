@@ -14,13 +14,13 @@ using namespace bolt::test;
 namespace {
 
 struct Bench {
-    explicit Bench(const emulate::WheelDesign& design)
+    explicit Bench(const emulate::WheelOptions& design)
         : plug(plugged(std::make_unique<emulate::Wheel>(design))),
           found(listed(design.board ? "1209:ffb0" : "1234:5678")) {
-        Rig rig;
+        WheelConfig rig;
         rig.full_torque = design.full_torque;
         rig.range = to_radians(design.degrees);
-        auto opened = opener(found.id, rig)();
+        auto opened = factory_for(found.id, rig)();
         REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().message()));
         device = std::move(*opened);
     }
@@ -34,7 +34,7 @@ struct Bench {
             REQUIRE_MESSAGE(written, (written ? "" : written.error().message()));
         }
     }
-    // What the motor does, a little later.
+    // The motor's torque after a short time.
     double motor() const {
         double torque = 0.0;
         with<emulate::Wheel>(plug, [&](emulate::Wheel& w) { torque = w.torque(); });
@@ -42,14 +42,14 @@ struct Bench {
     }
 
     emulate::Uhid plug;
-    Listed found;
+    ListedDevice found;
     std::unique_ptr<Device> device;
     Sample last;
 };
 
 }  // namespace
 
-TEST_CASE("a wheel is found, and the torque that is written is the torque of its motor, which turns it") {
+TEST_CASE("Kernel: a wheel is found and renders the written torque") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
         Bench b({.board = board});
@@ -67,7 +67,7 @@ TEST_CASE("a wheel is found, and the torque that is written is the torque of its
     }
 }
 
-TEST_CASE("a spring over the real line rests where statics have it") {
+TEST_CASE("Kernel: a spring rendered through hidraw rests at static equilibrium") {
     Bench b({});
     with<emulate::Wheel>(b.plug, [](emulate::Wheel& w) {
         w.hand_stiffness = 5.0;
@@ -77,31 +77,33 @@ TEST_CASE("a spring over the real line rests where statics have it") {
     CHECK(b.last.turn == doctest::Approx(0.2).epsilon(0.03));
 }
 
-TEST_CASE("unplugged under torque it is lost, closed without hanging, and pulls nothing when it comes back") {
-    auto b = std::make_unique<Bench>(emulate::WheelDesign{});
+TEST_CASE(
+    "Kernel: a wheel unplugged under torque is lost, closes without hanging, and has no torque after the "
+    "replug") {
+    auto b = std::make_unique<Bench>(emulate::WheelOptions{});
     b->run(0.1, [] { return 1.5; });
     CHECK(b->motor() == doctest::Approx(1.5).epsilon(0.01));
-    b->plug = plugged(std::make_unique<emulate::Wheel>(emulate::WheelDesign{.serial = "again"}));
+    b->plug = plugged(std::make_unique<emulate::Wheel>(emulate::WheelOptions{.serial = "again"}));
     const auto lost = [&] {
         return !b->device->write({.torque = {0.0, 0.0, -1.0}}) || !b->device->read(0.002);
     };
     CHECK(becomes(lost, 0.1));
     b->device.reset();
-    auto again = opener(listed("1209:ffb0:again").id)();
+    auto again = factory_for(listed("1209:ffb0:again").id)();
     REQUIRE_MESSAGE(again, (again ? "" : again.error().message()));
     CHECK(b->motor() == 0.0);
     REQUIRE((*again)->write({.torque = {0.0, 0.0, -1.0}}));
     CHECK(becomes([&] { return b->motor() > 0.0; }, 0.1));
 }
 
-TEST_CASE("a program that is killed leaves its force for a second at most") {
+TEST_CASE("Kernel: the force outlives a killed program by one second at most") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
         Bench b({.board = board});
         b.device.reset();
         const pid_t child = fork();
         if (child == 0) {
-            auto device = opener(b.found.id)();
+            auto device = factory_for(b.found.id)();
             while (device) static_cast<void>((*device)->write({.torque = {0.0, 0.0, -1.0}}));
             _exit(1);
         }
@@ -113,13 +115,13 @@ TEST_CASE("a program that is killed leaves its force for a second at most") {
     }
 }
 
-TEST_CASE("a board that does not answer is not waited for without end") {
+TEST_CASE("Kernel: a mute board times out") {
     auto dead = std::make_unique<emulate::Wheel>();
     dead->stalled = true;
     const auto plug = plugged(std::move(dead));
     const std::string id = listed("1209:ffb0").id;
     const double begun = steady_seconds();
-    const auto device = opener(id)();
+    const auto device = factory_for(id)();
     REQUIRE(!device);
     CHECK(device.error().message().find("does not say how far") != std::string::npos);
     CHECK(steady_seconds() - begun < 2.0);

@@ -1,16 +1,16 @@
 // Simulated hands: what they do under a force, held against the closed form, and that they know of it by
 // nothing else.
-#include "game/operators/arm.hpp"
+#include "game/trainees/arm.hpp"
 
 #include <doctest/doctest.h>
 
 #include "content/format/load.hpp"
 #include "game/lesson/lesson.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/servo_setup.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/trainees/trainee.hpp"
 
 using namespace bolt;
-using namespace bolt::operators;
+using namespace bolt::trainees;
 
 namespace {
 
@@ -30,7 +30,7 @@ double angle_between(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-TEST_CASE("a steady force moves a hand by F/k, a torque turns it by T/k, and it comes back") {
+TEST_CASE("Arm: a steady force moves a hand by F/k, a torque turns it by T/k, and it comes back") {
     const Impedance i;
     Arm arm;
     const Vec3 force(0.6, -1.2, 0.3), torque(0.02, 0.05, -0.01);
@@ -43,14 +43,14 @@ TEST_CASE("a steady force moves a hand by F/k, a torque turns it by T/k, and it 
     CHECK(angle_between(back, meant) < 1e-9);
 }
 
-TEST_CASE("without a force a hand is where it means to be, at once and exactly") {
+TEST_CASE("Arm: without a force a hand is where it means to be, at once and exactly") {
     Arm arm;
     const Pose pose = held_for({}, arm, {}, 0.5);
     CHECK(pose.position == meant.position);
     CHECK(angle_between(pose, meant) < 1e-12);
 }
 
-TEST_CASE("a free hand falls as its mass does at first, and swings as a damped spring does") {
+TEST_CASE("Arm: a free hand falls as its mass does at first, and swings as a damped spring does") {
     Impedance i;
     i.damping = 2.0 * 0.2 * std::sqrt(i.mass * i.stiffness);  // a fifth of critical
     Arm arm;
@@ -70,7 +70,7 @@ TEST_CASE("a free hand falls as its mass does at first, and swings as a damped s
     CHECK(omega * dt < 0.05);
 }
 
-TEST_CASE("a hand that reaches is not stronger than it is told to be") {
+TEST_CASE("Arm: a hand that reaches is not stronger than it is told to be") {
     Impedance i;
     Arm arm;
     // Ten newtons against a spring that gives six: it is carried off as four newtons carry a damped mass.
@@ -78,7 +78,8 @@ TEST_CASE("a hand that reaches is not stronger than it is told to be") {
     CHECK(arm.velocity.x == doctest::Approx((10.0 - i.force) / i.damping).epsilon(1e-3));
 }
 
-TEST_CASE("what has hold of a nut gives way to nothing; what it was away fades; taking up moves nothing") {
+TEST_CASE(
+    "Arm: what has hold of a nut gives way to nothing; what it was away fades; taking up moves nothing") {
     const Impedance i;
     Arm arm;
     const Pose pushed = held_for(i, arm, {Vec3(2.0, 0, 0), Vec3(0, 0.1, 0)}, 1.0);
@@ -102,7 +103,7 @@ std::uint64_t hand_of(double force, bool guides) {
     force::OutputLimits device;
     device.force = force;
     device.torque = 0.1 * force;
-    const servo::Setup setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, device, 5, dt);
+    const servo::Setup setup = session::make_setup(loaded.assembly, joint::Law::mechanistic, device, 5, dt);
     servo::State state = servo::initial_state(setup);
     lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
     lesson.guides = guides;
@@ -122,7 +123,7 @@ std::uint64_t hand_of(double force, bool guides) {
 }  // namespace
 
 TEST_CASE(
-    "a hand knows that it is led by the force alone: on a dead device guiding changes no bit of what it "
+    "Arm: a hand knows that it is led by the force alone: on a dead device guiding changes no bit of what it "
     "does") {
     CHECK(hand_of(0.0, true) == hand_of(0.0, false));
     CHECK(hand_of(20.0, true) != hand_of(20.0, false));

@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "content/format/load.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/servo_setup.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tests/lesson/script.hpp"
 
 using namespace bolt;
@@ -50,7 +50,7 @@ std::vector<Moment> play_through(Script& s) {
 
 }  // namespace
 
-TEST_CASE("a step that is gone back to knows of the joints what it knew when it began") {
+TEST_CASE("Undo: a step that is gone back to knows of the joints what it knew when it began") {
     for (std::size_t steps = 1; steps <= 6; ++steps) {
         CAPTURE(steps);
         Script s;
@@ -70,7 +70,8 @@ TEST_CASE("a step that is gone back to knows of the joints what it knew when it 
 }
 
 TEST_CASE(
-    "what was pulled too far is as if not done once its step is taken back, and costs points all the same") {
+    "Undo: what was pulled too far is as if not done once its step is taken back, and costs points all the "
+    "same") {
     Script s;
     s.seat_both();
     const auto before = s.state.joints;
@@ -91,7 +92,7 @@ TEST_CASE(
     CHECK(result.score == 98.0);
 }
 
-TEST_CASE("mistakes stay counted, and events tell what happened") {
+TEST_CASE("Undo: mistakes stay counted, and events tell what happened") {
     Script s;
     s.seat_both();
     s.pull(1, 20.0);  // out of turn
@@ -116,7 +117,7 @@ TEST_CASE("mistakes stay counted, and events tell what happened") {
     CHECK(s.lesson.joints[1].result.order_errors == 2);
 }
 
-TEST_CASE("a step begun anew is the same step, announces no pass, and forgets its pulls") {
+TEST_CASE("Undo: a step begun anew is the same step, announces no pass, and forgets its pulls") {
     Script s;
     s.seat_both();
     s.pull(0, 20.0);
@@ -133,7 +134,7 @@ TEST_CASE("a step begun anew is the same step, announces no pass, and forgets it
     CHECK(s.lesson.current == 3);
 }
 
-TEST_CASE("there is no way back in assessment, before the first step, or from the end into nothing") {
+TEST_CASE("Undo: there is no way back in assessment, before the first step, or from the end into nothing") {
     Script examined(Mode::assessment);
     examined.seat_both();
     const std::size_t told = examined.lesson.events.size();
@@ -154,17 +155,17 @@ TEST_CASE("there is no way back in assessment, before the first step, or from th
     CHECK(s.lesson.current == 5);
 }
 
-TEST_CASE("from every step back, joints put back or not, a simulated trainee comes to the end") {
+TEST_CASE("Undo: from every step back, joints put back or not, a simulated trainee comes to the end") {
     const content::Loaded loaded = content::load_assembly("cover-m8");
     REQUIRE(loaded.ok());
     const content::Assembly& assembly = loaded.assembly;
-    const servo::Setup setup = play::make_setup(assembly, joint::Law::mechanistic, {}, 5, 1e-3);
+    const servo::Setup setup = session::make_setup(assembly, joint::Law::mechanistic, {}, 5, 1e-3);
     for (const Task task : {Task::tighten, Task::loosen})
         for (const bool restored : {true, false}) {
             servo::State state = servo::initial_state(setup);
-            if (task == Task::loosen) REQUIRE(play::pretighten(assembly, setup, state).has_value());
+            if (task == Task::loosen) REQUIRE(session::pretighten(assembly, setup, state).has_value());
             Lesson lesson = begin(assembly, Mode::guided, task);
-            operators::Operator hand(operators::find_profile("expert").value(), 5, setup);
+            trainees::Operator hand(trainees::find_profile("expert").value(), 5, setup);
             std::vector<std::vector<joint::JointState>> before{state.joints};
             std::size_t furthest = 0;
             int backs = 0;

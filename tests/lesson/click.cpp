@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "content/format/load.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/servo_setup.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tests/lesson/script.hpp"
 
 using namespace bolt;
@@ -31,10 +31,10 @@ struct Played {
 Played play_through(const content::Assembly& assembly, const char* trainee, std::uint64_t seed,
                     joint::Law law = joint::Law::mechanistic) {
     const content::Assembly under = under_law(assembly, law);
-    const servo::Setup setup = play::make_setup(under, law, {}, seed, 1e-3);
+    const servo::Setup setup = session::make_setup(under, law, {}, seed, 1e-3);
     servo::State state = servo::initial_state(setup);
     Lesson lesson = begin(under, Mode::practice, Task::tighten);
-    operators::Operator hand(operators::find_profile(trainee).value(), seed, setup);
+    trainees::Operator hand(trainees::find_profile(trainee).value(), seed, setup);
     Played played;
     played.deviation = setup.wrench.deviation;
     while (lesson.due() != nullptr && state.tick < 1'200'000) {
@@ -57,7 +57,8 @@ Played play_through(const content::Assembly& assembly, const char* trainee, std:
 
 }  // namespace
 
-TEST_CASE("a torque wrench is set to the step's torque, and to nothing where none is asked for") {
+TEST_CASE(
+    "Torque wrench: a torque wrench is set to the step's torque, and to nothing where none is asked for") {
     Script s;
     s.idle();
     CHECK(setting(s.lesson) == 0.0);  // run down
@@ -74,7 +75,7 @@ TEST_CASE("a torque wrench is set to the step's torque, and to nothing where non
     CHECK(setting(s.lesson) == 0.0);  // all is done
 }
 
-TEST_CASE("a click is told once, with its torque") {
+TEST_CASE("Torque wrench: a click is told once, with its torque") {
     Script s;
     s.seat_both();
     s.tick(0, servo::Grip::wrench, 34.5, 0.0, true);
@@ -87,7 +88,9 @@ TEST_CASE("a click is told once, with its torque") {
         }
 }
 
-TEST_CASE("by strategy yield a step is done at the click too, that of this step and not one before") {
+TEST_CASE(
+    "Torque wrench: by strategy yield a step is done at the click too, that of this step and not one "
+    "before") {
     Script s(Mode::guided, content::Strategy::yield);
     s.assembly.wrench.click_swing = 0.07;
     s.seat_both();
@@ -103,7 +106,7 @@ TEST_CASE("by strategy yield a step is done at the click too, that of this step 
     CHECK(s.lesson.current == 5);
 }
 
-TEST_CASE("pulled on past the click it is too much, and said to be") {
+TEST_CASE("Torque wrench: pulled on past the click it is too much, and said to be") {
     Script s;
     s.assembly.wrench.click_swing = 0.07;
     s.seat_both();
@@ -114,7 +117,7 @@ TEST_CASE("pulled on past the click it is too much, and said to be") {
     CHECK(judge_joint(s.lesson, 0, s.state).torque_verdict == Verdict::high);
 }
 
-TEST_CASE("trainees stop at the click, under both laws, and do better with it than without") {
+TEST_CASE("Torque wrench: trainees stop at the click, under both laws, and do better with it than without") {
     const content::Assembly plain = cover_with("wrench"), torque = cover_with("torque_wrench");
     for (const joint::Law law : {joint::Law::mechanistic, joint::Law::published}) {
         const Played expert = play_through(torque, "expert", 3, law);

@@ -48,7 +48,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("torque and angle are each LOW, OK or HIGH, and the worse of the two counts") {
+TEST_CASE("Judge: torque and angle are each LOW, OK or HIGH, and the worse of the two counts") {
     struct Case {
         double torque, angle;
         Verdict torque_verdict, angle_verdict, overall;
@@ -73,7 +73,7 @@ TEST_CASE("torque and angle are each LOW, OK or HIGH, and the worse of the two c
     }
 }
 
-TEST_CASE("without an angle window no angle is judged") {
+TEST_CASE("Judge: without an angle window no angle is judged") {
     Bench bench;
     bench.assembly.joints[0].spec.has_angle = false;
     bench.done(0, 70.0, 9.0);
@@ -81,7 +81,8 @@ TEST_CASE("without an angle window no angle is judged") {
     CHECK(bench.joint().overall == Verdict::ok);
 }
 
-TEST_CASE("a joint that is off its seat again, broken or stripped is not OK, whatever its torque was") {
+TEST_CASE(
+    "Judge: a joint that is off its seat again, broken or stripped is not OK, whatever its torque was") {
     Bench bench;
     bench.state.joints[0].stage = joint::Stage::navigation;
     CHECK(bench.joint().overall == Verdict::low);
@@ -93,14 +94,14 @@ TEST_CASE("a joint that is off its seat again, broken or stripped is not OK, wha
     }
 }
 
-TEST_CASE("what the nut was turned with later counts too") {
+TEST_CASE("Judge: what the nut was turned with later counts too") {
     Bench bench;
     bench.lesson.joints[0].turned_torque = 95.0;
     CHECK(bench.joint().torque == 95.0);
     CHECK(bench.joint().torque_verdict == Verdict::high);
 }
 
-TEST_CASE("the score: every deduction has its reason, and nothing goes below zero") {
+TEST_CASE("Judge: the score: every deduction has its reason, and nothing goes below zero") {
     CHECK(Bench().result().score == 100.0);
     CHECK(Bench().result().reasons.empty());
     CHECK(Bench().result().finished);
@@ -132,7 +133,7 @@ TEST_CASE("the score: every deduction has its reason, and nothing goes below zer
     CHECK(left.result().reasons.back().text == "the lesson was left at step 2 of 4");
 }
 
-TEST_CASE("duration is ticks times dt") {
+TEST_CASE("Judge: duration is ticks times dt") {
     Bench bench;
     bench.state.tick = 4500;
     CHECK(bench.result().duration == doctest::Approx(4.5));

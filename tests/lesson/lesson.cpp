@@ -5,12 +5,12 @@
 #include <filesystem>
 
 #include "content/format/load.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/replay.hpp"
-#include "game/play/servo_setup.hpp"
-#include "game/play/summary.hpp"
-#include "game/play/train.hpp"
-#include "game/record/session.hpp"
+#include "game/session/replay.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/session/session_file.hpp"
+#include "game/session/summary.hpp"
+#include "game/trainees/train.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace bolt;
@@ -35,12 +35,12 @@ Played play_through(const content::Assembly& given, const char* trainee, std::ui
                     Mode mode = Mode::guided, Task task = Task::tighten,
                     joint::Law law = joint::Law::mechanistic) {
     const content::Assembly assembly = under_law(given, law);
-    const servo::Setup setup = play::make_setup(assembly, law, {}, seed, 1e-3);
+    const servo::Setup setup = session::make_setup(assembly, law, {}, seed, 1e-3);
     Played played;
     played.state = servo::initial_state(setup);
-    if (task == Task::loosen) REQUIRE(play::pretighten(assembly, setup, played.state).has_value());
+    if (task == Task::loosen) REQUIRE(session::pretighten(assembly, setup, played.state).has_value());
     Lesson lesson = begin(assembly, mode, task);
-    operators::Operator hand(operators::find_profile(trainee).value(), seed, setup);
+    trainees::Operator hand(trainees::find_profile(trainee).value(), seed, setup);
     while (lesson.due() != nullptr && played.state.tick < 3'600'000) {
         const servo::Input input = hand.act(setup, played.state, lesson);
         const servo::Output output = servo::tick(setup, played.state, input);
@@ -59,7 +59,7 @@ Played play_through(const content::Assembly& given, const char* trainee, std::ui
 
 }  // namespace
 
-TEST_CASE("the plan has every joint in every pass, in the assembly's order") {
+TEST_CASE("Lesson: the plan has every joint in every pass, in the assembly's order") {
     const content::Assembly& assembly = zq350();
     const std::vector<Step> steps = make_plan(assembly, Task::tighten);
     REQUIRE(steps.size() == assembly.passes.size() * 12);
@@ -74,7 +74,8 @@ TEST_CASE("the plan has every joint in every pass, in the assembly's order") {
 }
 
 TEST_CASE(
-    "the expert tightens all twelve joints within their windows, feels every stage, and is alike over "
+    "Lesson: the expert tightens all twelve joints within their windows, feels every stage, and is alike "
+    "over "
     "seeds") {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Played played = play_through(zq350(), "expert", seed);
@@ -92,7 +93,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("trainees differ as they should: expert above novice above clumsy, over seeds") {
+TEST_CASE("Lesson: trainees differ as they should: expert above novice above clumsy, over seeds") {
     double score[3] = {0.0, 0.0, 0.0};
     const char* names[] = {"expert", "novice", "clumsy"};
     for (int who = 0; who < 3; ++who)
@@ -107,12 +108,12 @@ TEST_CASE("trainees differ as they should: expert above novice above clumsy, ove
     CHECK(score[2] > 0.0);
 }
 
-TEST_CASE("the same seed gives the same bits, another seed others") {
+TEST_CASE("Lesson: the same seed gives the same bits, another seed others") {
     CHECK(play_through(zq350(), "novice", 5).hash == play_through(zq350(), "novice", 5).hash);
     CHECK(play_through(zq350(), "novice", 5).hash != play_through(zq350(), "novice", 6).hash);
 }
 
-TEST_CASE("every variant, law, mode and task of the reducer can be played to its end") {
+TEST_CASE("Lesson: every variant, law, mode and task of the reducer can be played to its end") {
     for (const char* variant : {"carbon_steel", "stainless"}) {
         const content::Loaded loaded = content::load_assembly("zq350", variant);
         REQUIRE(loaded.ok());
@@ -133,14 +134,15 @@ TEST_CASE("every variant, law, mode and task of the reducer can be played to its
         CHECK(play_through(zq350(), "novice", 2, mode).result.finished);
 }
 
-TEST_CASE("loosening feels different: breakaway is below the tightening torque") {
+TEST_CASE("Lesson: loosening feels different: breakaway is below the tightening torque") {
     const Played off = play_through(zq350(), "expert", 1, Mode::guided, Task::loosen);
     for (std::size_t i = 0; i < off.result.joints.size(); ++i)
         CHECK(off.result.joints[i].torque < zq350().joints[i].spec.torque.target);
 }
 
 TEST_CASE(
-    "events come in order and tell a whole story: engage and release alternate, every step begins and ends") {
+    "Lesson: events come in order and tell a whole story: engage and release alternate, every step begins "
+    "and ends") {
     const Played played = play_through(zq350(), "clumsy", 3);
     std::uint64_t tick = 0;
     int held = -1, begun = 0, ended = 0;
@@ -163,8 +165,29 @@ TEST_CASE(
     CHECK(ended == 60);
 }
 
-TEST_CASE("under the published law no target is beyond its end, and no angle of another law is judged") {
+TEST_CASE("Plan: under the published law an assembly's own targets replace those of its joint types") {
+    const content::Assembly assembly = zq350();
+    REQUIRE(assembly.published_targets);
+    const content::Assembly published = under_law(assembly, joint::Law::published);
+    CHECK(published.law == joint::Law::published);
+    for (const content::AssemblyJoint& joint : published.joints) {
+        CHECK(joint.spec.torque.target == 72.1);
+        CHECK(joint.spec.torque.low == assembly.published_targets->torque.low);
+        CHECK(joint.spec.snug_torque == assembly.published_targets->snug_torque);
+        CHECK_FALSE(joint.spec.has_angle);
+    }
+    for (const Step& step : make_plan(published, Task::tighten))
+        if (step.kind == StepKind::tighten) CHECK(step.torque == doctest::Approx(72.1 * step.fraction));
+    const content::Assembly twice = under_law(published, joint::Law::published);
+    CHECK(twice.joints[0].spec.torque.target == 72.1);
+    CHECK(under_law(assembly, joint::Law::mechanistic).joints[0].spec.torque.target == 78.0);
+}
+
+TEST_CASE(
+    "Plan: without targets of its own no target is beyond the end of the published law, and no angle is "
+    "judged") {
     content::Assembly assembly = zq350();
+    assembly.published_targets.reset();
     assembly.joints[3].spec.torque = {200.0, 190.0, 210.0};
     const content::Assembly published = under_law(assembly, joint::Law::published);
     for (const content::AssemblyJoint& joint : published.joints) {
@@ -175,40 +198,42 @@ TEST_CASE("under the published law no target is beyond its end, and no angle of 
     CHECK(under_law(assembly, joint::Law::mechanistic).joints[3].spec.torque.target == 200.0);
 }
 
-TEST_CASE("a recorded lesson replays from its inputs to the same bits") {
+TEST_CASE("Lesson: a recorded lesson replays from its inputs to the same bits") {
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
-    play::TrainOptions options;
-    options.trainee = operators::find_profile("expert").value();
+    trainees::TrainOptions options;
+    options.trainee = trainees::find_profile("expert").value();
     options.course.seed = 9;
-    const auto result = play::train(zq350(), options, file, [](const play::Progress&) { return true; });
+    const auto result =
+        trainees::train(zq350(), options, file, [](const trainees::Progress&) { return true; });
     REQUIRE(result.has_value());
-    const auto reader = record::Reader::open(file);
+    const auto reader = session::Reader::open(file);
     REQUIRE(reader.has_value());
     CHECK(reader->complete());
     // From the file: the assembly's text, the seed and the inputs.
-    auto at = play::prepare_again(*reader);
+    auto at = session::prepare_again(*reader);
     REQUIRE(at);
-    const auto replayed = play::replay(*reader, std::move(*at), [](const play::Moment&) { return true; });
+    const auto replayed =
+        session::replay(*reader, std::move(*at), [](const session::Moment&) { return true; });
     REQUIRE(replayed);
     CHECK(replayed->ticks == reader->tick_count());
     CHECK(replayed->ticks > 100'000);
     CHECK(replayed->wrong == 0);
     // And it sees one that is not: another seed is another friction.
-    auto other = play::prepare_again(*reader);
+    auto other = session::prepare_again(*reader);
     REQUIRE(other);
-    other->setup = play::make_setup(other->assembly, joint::Law::mechanistic, {}, reader->header().seed + 1,
-                                    reader->header().dt);
-    const auto wrong = play::replay(*reader, std::move(*other),
-                                    [](const play::Moment& moment) { return moment.time < 60.0; });
+    other->setup = session::make_setup(other->assembly, joint::Law::mechanistic, {},
+                                       reader->header().seed + 1, reader->header().dt);
+    const auto wrong = session::replay(*reader, std::move(*other),
+                                       [](const session::Moment& moment) { return moment.time < 60.0; });
     REQUIRE(wrong);
     CHECK(wrong->wrong > 0);
     CHECK(wrong->first_wrong < wrong->ticks);
     std::filesystem::remove(file);
 }
 
-TEST_CASE("summary: the fields that were promised, and the table names every joint") {
-    play::Played played;
+TEST_CASE("Lesson: summary: the fields that were promised, and the table names every joint") {
+    session::Played played;
     LessonResult& result = played.result;
     result.score = 87.5;
     for (const content::AssemblyJoint& joint : zq350().joints) {
@@ -220,9 +245,9 @@ TEST_CASE("summary: the fields that were promised, and the table names every joi
         r.overall = Verdict::ok;
         result.joints.push_back(r);
     }
-    play::CourseOptions options;
+    session::CourseOptions options;
     options.operator_name = "expert";
-    const std::string json = play::summary_json(zq350(), options, played);
+    const std::string json = session::summary_json(zq350(), options, played);
     for (const char* field :
          {"\"assembly\": \"zq350\"", "\"law\": \"mechanistic\"", "\"operator\": \"expert\"", "\"seed\": 1",
           "\"duration_s\"", "\"score\": 87.5", "\"torque_Nm\": 71.25", "\"angle_deg\": 33.5",
@@ -230,13 +255,13 @@ TEST_CASE("summary: the fields that were promised, and the table names every joi
         CAPTURE(field);
         CHECK(json.find(field) != std::string::npos);
     }
-    const std::string table = play::summary_table(zq350(), result);
+    const std::string table = session::summary_table(zq350(), result);
     for (const content::AssemblyJoint& joint : zq350().joints)
         CHECK(table.find(joint.design.id) != std::string::npos);
 }
 
-TEST_CASE("a name that is no trainee is answered with the nearest") {
-    const auto slip = operators::find_profile("exprt");
+TEST_CASE("Lesson: a name that is no trainee is answered with the nearest") {
+    const auto slip = trainees::find_profile("exprt");
     REQUIRE_FALSE(slip.has_value());
     CHECK(slip.error().expected == "did you mean expert?");
     CHECK(slip.error().code == ErrorCode::usage);

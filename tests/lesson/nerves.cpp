@@ -1,5 +1,5 @@
 // What a simulated trainee notices of the nut in its hand, held against what it was given to feel.
-#include "game/operators/nerves.hpp"
+#include "game/trainees/delayed_perception.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,11 +8,11 @@
 
 #include "content/format/load.hpp"
 #include "game/lesson/lesson.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/servo_setup.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/trainees/trainee.hpp"
 
 using namespace bolt;
-using namespace bolt::operators;
+using namespace bolt::trainees;
 
 namespace {
 
@@ -45,7 +45,7 @@ double noticed_at(const Bolt& bolt) {
 
 }  // namespace
 
-TEST_CASE("what is felt was so a reaction time ago") {
+TEST_CASE("Perception: what is felt was so a reaction time ago") {
     Nerves nerves(reaction, dt, stiffness);
     for (int i = 0; i < 1000; ++i) {
         const Feeling& felt = nerves.feel(2.0 * i * dt, 0.0, 0.1 * i, true);
@@ -55,7 +55,9 @@ TEST_CASE("what is felt was so a reaction time ago") {
     }
 }
 
-TEST_CASE("a bolt that gives is felt soon, one that grows on never, and a nut that sticks tells nothing") {
+TEST_CASE(
+    "Perception: a bolt that gives is felt soon, one that grows on never, and a nut that sticks tells "
+    "nothing") {
     const Bolt bolt;
     const double noticed = noticed_at(bolt);
     CHECK(noticed > bolt.gives_at);
@@ -65,8 +67,8 @@ TEST_CASE("a bolt that gives is felt soon, one that grows on never, and a nut th
     CHECK(noticed_at({.breakaway = 59.0, .after = bolt.slope}) == 0.0);
 }
 
-TEST_CASE("the torque of a nut is felt as it is, on a device with torque and on one without") {
-    servo::NutPlace nut;
+TEST_CASE("Perception: the torque of a nut is felt as it is, on a device with torque and on one without") {
+    servo::NutGeometry nut;
     const Vec3 handle(0.6, 0.0, 0.8);
     force::OutputLimits with, without;
     without.torque = 0.0;
@@ -78,14 +80,14 @@ TEST_CASE("the torque of a nut is felt as it is, on a device with torque and on 
     CHECK(felt_torque({.scale = 0.0, .as_force = 0.0}, nut, handle, {}) == 0.0);
 }
 
-TEST_CASE("skill decides how well a torque is met: nobody overtightens by reacting late alone") {
+TEST_CASE("Perception: skill decides how well a torque is met: nobody overtightens by reacting late alone") {
     const content::Loaded loaded = content::load_assembly("cover-m8");
     REQUIRE(loaded.ok());
     const auto torques = [&](const char* trainee) {
         std::vector<double> shares;
         for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
             const servo::Setup setup =
-                play::make_setup(loaded.assembly, joint::Law::mechanistic, {}, seed, dt);
+                session::make_setup(loaded.assembly, joint::Law::mechanistic, {}, seed, dt);
             servo::State state = servo::initial_state(setup);
             lesson::Lesson lesson =
                 lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);

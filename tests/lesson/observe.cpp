@@ -24,7 +24,7 @@ void break_away(Script& s, std::size_t joint, double running) {
 
 }  // namespace
 
-TEST_CASE("a nut that is not on its seat yet is not run down") {
+TEST_CASE("Lesson: a nut that is not on its seat yet is not run down") {
     Script s;
     s.idle();
     s.tick(0, servo::Grip::fingers, 0.1, 1.0);
@@ -35,7 +35,8 @@ TEST_CASE("a nut that is not on its seat yet is not run down") {
 }
 
 TEST_CASE(
-    "tightening below the window's low edge leaves the step due; reaching it ends the step at letting go") {
+    "Lesson: tightening below the window's low edge leaves the step due; reaching it ends the step at "
+    "letting go") {
     Script s;
     s.seat_both();
     REQUIRE(s.lesson.current == 2);
@@ -45,7 +46,7 @@ TEST_CASE(
     CHECK(s.lesson.current == 3);
 }
 
-TEST_CASE("a step ends when the hand lets go, not before") {
+TEST_CASE("Lesson: a step ends when the hand lets go, not before") {
     Script s;
     s.seat_both();
     for (int i = 0; i <= 100; ++i) s.tick(0, servo::Grip::wrench, 0.4 * i, 1.0);
@@ -54,7 +55,7 @@ TEST_CASE("a step ends when the hand lets go, not before") {
     CHECK(s.lesson.current == 3);
 }
 
-TEST_CASE("by strategy yield a full step waits for yield, and gives up past the window") {
+TEST_CASE("Lesson: by strategy yield a full step waits for yield, and gives up past the window") {
     Script s(Mode::guided, content::Strategy::yield);
     s.seat_both();
     s.pull(0, 35.0);
@@ -72,7 +73,8 @@ TEST_CASE("by strategy yield a full step waits for yield, and gives up past the 
 }
 
 TEST_CASE(
-    "work out of turn is an order error once a visit, work on what is done a re-hit; a touch is neither") {
+    "Lesson: work out of turn is an order error once a visit, work on what is done a re-hit; a touch is "
+    "neither") {
     Script s;
     s.seat_both();
     s.tick(1, servo::Grip::wrench, 0.2);
@@ -86,7 +88,7 @@ TEST_CASE(
     CHECK(s.count("mistake") == 2);
 }
 
-TEST_CASE("fingers that spin a nut out of turn grip it again and again, and are out of turn once") {
+TEST_CASE("Lesson: fingers that spin a nut out of turn grip it again and again, and are out of turn once") {
     Script s;
     s.idle();
     const auto grips = [&s](int times) {
@@ -102,7 +104,7 @@ TEST_CASE("fingers that spin a nut out of turn grip it again and again, and are 
     CHECK(s.lesson.joints[1].result.order_errors == 2);
 }
 
-TEST_CASE("fingers that feel once more whether a nut is down make no mistake, a wrench there does") {
+TEST_CASE("Lesson: fingers that feel once more whether a nut is down make no mistake, a wrench there does") {
     Script s;
     s.seat(0);
     REQUIRE(s.lesson.current == 1);
@@ -116,7 +118,8 @@ TEST_CASE("fingers that feel once more whether a nut is down make no mistake, a 
 }
 
 TEST_CASE(
-    "nor do they at the last nut, whose step began the next pass, until a nut out of turn comes off its "
+    "Lesson: nor do they at the last nut, whose step began the next pass, until a nut out of turn comes off "
+    "its "
     "seat") {
     Script s;
     s.seat_both();
@@ -131,7 +134,8 @@ TEST_CASE(
     CHECK(s.lesson.joints[1].result.order_errors == 1);
 }
 
-TEST_CASE("a nut turned back from its seat was turned the wrong way: once a visit, and not by its play") {
+TEST_CASE(
+    "Lesson: a nut turned back from its seat was turned the wrong way: once a visit, and not by its play") {
     const auto told = [](const Script& s, Cause cause) {
         return std::count_if(s.lesson.events.begin(), s.lesson.events.end(),
                              [&](const Event& event) { return event.cause == cause; });
@@ -175,7 +179,7 @@ TEST_CASE("a nut turned back from its seat was turned the wrong way: once a visi
     }
 }
 
-TEST_CASE("pulled too far out of its step: the torque is not forgotten") {
+TEST_CASE("Lesson: pulled too far out of its step: the torque is not forgotten") {
     Script s;
     s.seat_both();
     s.pull(0, 95.0);
@@ -188,7 +192,7 @@ TEST_CASE("pulled too far out of its step: the torque is not forgotten") {
     CHECK(judge_joint(s.lesson, 1, s.state).overall == Verdict::ok);
 }
 
-TEST_CASE("a nut that is taken off its seat begins anew: torque, snug and yield") {
+TEST_CASE("Lesson: a nut that is taken off its seat begins anew: torque, snug and yield") {
     Script s;
     s.seat_both();
     s.pull(0, 95.0);
@@ -204,7 +208,7 @@ TEST_CASE("a nut that is taken off its seat begins anew: torque, snug and yield"
     CHECK(judge_joint(s.lesson, 0, s.state).torque == doctest::Approx(70.0).epsilon(less_breakaway));
 }
 
-TEST_CASE("a nut that is turned by fits and starts is turned") {
+TEST_CASE("Lesson: a nut that is turned by fits and starts is turned") {
     Script s;
     s.seat_both();
     for (int frame = 0; frame < 60; ++frame)  // as a mouse moves a hand: then and now, less than a degree
@@ -215,7 +219,7 @@ TEST_CASE("a nut that is turned by fits and starts is turned") {
     CHECK(s.count("mistake") == 1);
 }
 
-TEST_CASE("breakaway alone does not count as tightening torque") {
+TEST_CASE("Lesson: breakaway alone does not count as tightening torque") {
     Script s;
     s.seat_both();
     s.pull(0, 70.0);
@@ -227,7 +231,8 @@ TEST_CASE("breakaway alone does not count as tightening torque") {
 }
 
 TEST_CASE(
-    "in assessment a joint left for the next counts as left, a brush does not, and the last is handed in") {
+    "Lesson: in assessment a joint left for the next counts as left, a brush does not, and the last is "
+    "handed in") {
     Script s(Mode::assessment);
     s.seat_both();
     s.tick(0, servo::Grip::wrench, 0.3);
@@ -250,7 +255,7 @@ TEST_CASE(
     CHECK(judge_joint(s.lesson, 1, s.state).overall == Verdict::low);
 }
 
-TEST_CASE("the other modes never end a step that is not done") {
+TEST_CASE("Lesson: the other modes never end a step that is not done") {
     for (const Mode mode : {Mode::guided, Mode::practice}) {
         Script s(mode);
         s.seat_both();
@@ -261,7 +266,7 @@ TEST_CASE("the other modes never end a step that is not done") {
     }
 }
 
-TEST_CASE("a bolt that breaks keeps its torque, is named, and the lesson goes on") {
+TEST_CASE("Lesson: a bolt that breaks keeps its torque, is named, and the lesson goes on") {
     Script s;
     s.seat_both();
     for (int i = 0; i <= 100; ++i) s.tick(0, servo::Grip::wrench, 1.2 * i, 1.0);
@@ -279,7 +284,7 @@ TEST_CASE("a bolt that breaks keeps its torque, is named, and the lesson goes on
     CHECK(causes == std::vector{Cause::over_torque, Cause::broken});
 }
 
-TEST_CASE("fingers exchanged for the wrench without letting go are a new visit") {
+TEST_CASE("Lesson: fingers exchanged for the wrench without letting go are a new visit") {
     Script s;
     s.idle();
     s.tick(0, servo::Grip::fingers, 0.1, 1.0);
@@ -289,7 +294,7 @@ TEST_CASE("fingers exchanged for the wrench without letting go are a new visit")
     CHECK(s.count("engage") == 2);
 }
 
-TEST_CASE("every pass is announced once, when it begins, with its share of the target") {
+TEST_CASE("Lesson: every pass is announced once, when it begins, with its share of the target") {
     Script s;
     s.seat_both();
     for (const double torque : {35.0, 70.0})
@@ -310,7 +315,7 @@ TEST_CASE("every pass is announced once, when it begins, with its share of the t
     CHECK(announced[2] == "tighten to 100 %");
 }
 
-TEST_CASE("in assessment, the last joint left for another is out of turn: nothing follows it") {
+TEST_CASE("Lesson: in assessment, the last joint left for another is out of turn: nothing follows it") {
     Script s(Mode::assessment);
     s.seat_both();
     for (const auto& [joint, torque] : {std::pair{0, 35.0}, {1, 35.0}, {0, 70.0}}) s.pull(joint, torque);
@@ -321,7 +326,8 @@ TEST_CASE("in assessment, the last joint left for another is out of turn: nothin
     CHECK(s.lesson.joints[0].result.rehits == 1);
 }
 
-TEST_CASE("more torque than the window is told once, and again only when the nut has been off its seat") {
+TEST_CASE(
+    "Lesson: more torque than the window is told once, and again only when the nut has been off its seat") {
     Script s;
     s.seat_both();
     s.pull(0, 76.9);
@@ -342,7 +348,7 @@ TEST_CASE("more torque than the window is told once, and again only when the nut
     CHECK(told == 1);
 }
 
-TEST_CASE("breakaway alone is not told as too much") {
+TEST_CASE("Lesson: breakaway alone is not told as too much") {
     Script s;
     s.seat_both();
     s.pull(0, 62.0);

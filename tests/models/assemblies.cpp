@@ -1,4 +1,4 @@
-// The shipped STEP models against the assembly files that they belong to, read back from the STEP file.
+// The shipped STEP models, read back and compared with their assembly files.
 #include <doctest/doctest.h>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -20,23 +20,22 @@
 #include "haptics/joint/fastener.hpp"
 #include "support.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/models/cover/cover.hpp"
-#include "tools/models/flange/flange.hpp"
-#include "tools/models/solids.hpp"
+#include "tools/assets/models/shipped.hpp"
+#include "tools/assets/models/solids.hpp"
 
 using namespace bolt;
 using namespace bolt::models;
 
 namespace {
 
-struct Shipped {
+struct ShippedModel {
     std::string name;
     Status (*build)(Document&);
 };
 
-const Shipped shipped[] = {{"dn200-pn16", add_dn200_pn16}, {"cover-m8", add_cover_m8}};
+const ShippedModel shipped[] = {{"dn200-pn16", add_dn200_pn16}, {"cover-m8", add_cover_m8}};
 
-std::string written(const Shipped& model, const test::Folder& folder) {
+std::string written(const ShippedModel& model, const test::Folder& folder) {
     Document document(model.name);
     const Status built = model.build(document);
     REQUIRE_MESSAGE(built.has_value(), (built ? "" : built.error().message()));
@@ -51,11 +50,11 @@ std::string shipped_file(const std::string& name) {
 }
 
 struct Instance {
-    TopoDS_Shape shape;  // in its place
+    TopoDS_Shape shape;  // moved to its placement
     gp_Trsf placement;
 };
 
-// Everything in a STEP file by the name of its instance.
+// All instances of a STEP file by name.
 std::map<std::string, Instance> instances(const std::string& path) {
     Handle(TDocStd_Document) document = new TDocStd_Document("MDTV-XCAF");
     STEPCAFControl_Reader reader;
@@ -86,8 +85,8 @@ std::map<std::string, Instance> instances(const std::string& path) {
 
 gp_Vec to_cad(const Vec3& v) { return {v.x, -v.z, v.y}; }
 
-// Cylinders of a radius that lie on the line through a point.
-int coaxial(const TopoDS_Shape& shape, const gp_Lin& axis, double radius) {
+// The number of cylindrical faces of a radius about an axis.
+int count_coaxial(const TopoDS_Shape& shape, const gp_Lin& axis, double radius) {
     int count = 0;
     for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
         const BRepAdaptor_Surface surface(TopoDS::Face(faces.Current()));
@@ -102,7 +101,7 @@ int coaxial(const TopoDS_Shape& shape, const gp_Lin& axis, double radius) {
 
 }  // namespace
 
-TEST_CASE("joints, bolts, nuts and holes stand where the assembly file says, within 0.01 mm") {
+TEST_CASE("Models: joints, bolts, nuts and holes are within 0.01 mm of the assembly file") {
     for (const std::string name : {"zq350", "dn200-pn16", "cover-m8"}) {
         CAPTURE(name);
         const auto loaded = content::load_assembly(name);
@@ -113,7 +112,7 @@ TEST_CASE("joints, bolts, nuts and holes stand where the assembly file says, wit
             CAPTURE(design.id);
             REQUIRE(found.count(joint.node) == 1);
             const gp_Trsf& placement = found.at(joint.node).placement;
-            // The design's seat is the nut's, on top of the washer.
+            // The seat of a design is under the nut, on top of the washer.
             const joint::FastenerSize& size = design.thread.size;
             const double washer = size.washer_thickness * 1e3;
             const gp_Vec axis = to_cad(design.axis);
@@ -140,27 +139,27 @@ TEST_CASE("joints, bolts, nuts and holes stand where the assembly file says, wit
             int members = 0;
             for (const auto& [part, instance] : found)
                 if (instance.shape.ShapeType() == TopAbs_SOLID &&
-                    coaxial(instance.shape, line, 0.5e3 * size.hole) > 0)
+                    count_coaxial(instance.shape, line, 0.5e3 * size.hole) > 0)
                     ++members;
             CHECK(members >= 2);
         }
     }
 }
 
-TEST_CASE("every part of a shipped model is one sound solid") {
-    for (const Shipped& model : shipped) {
+TEST_CASE("Models: every part of a shipped model is one valid solid") {
+    for (const ShippedModel& model : shipped) {
         CAPTURE(model.name);
         for (const auto& [name, instance] : instances(shipped_file(model.name))) {
             if (instance.shape.ShapeType() == TopAbs_COMPOUND) continue;  // a group
             CAPTURE(name);
             CHECK(instance.shape.ShapeType() == TopAbs_SOLID);
-            CHECK(is_sound(instance.shape));
+            CHECK(is_valid_solid(instance.shape));
         }
     }
 }
 
-TEST_CASE("the program writes the shipped file, byte for byte, without a date or a path in it") {
-    for (const Shipped& model : shipped) {
+TEST_CASE("Models: the shipped file is reproduced byte for byte and contains no date and no path") {
+    for (const ShippedModel& model : shipped) {
         CAPTURE(model.name);
         constexpr std::size_t limit = std::size_t{1} << 28U;
         const test::Folder folder;
@@ -175,7 +174,7 @@ TEST_CASE("the program writes the shipped file, byte for byte, without a date or
     }
 }
 
-TEST_CASE("a name that is given twice and a folder that is not there are errors") {
+TEST_CASE("Models: a duplicate name and a missing folder are errors") {
     Document twice("twice");
     const Part part = twice.add_part("block", box(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 1)), finish::brass);
     twice.add_instance(twice.root(), "left", part);

@@ -1,5 +1,5 @@
-// Bolts, nuts and washers against ISO 68-1, 724, 4014, 4032 and 7089, as measured on the solids.
-#include "tools/models/fasteners.hpp"
+// Bolts, nuts and washers, measured on their solids and compared with ISO 68-1, 724, 4014, 4032 and 7089.
+#include "tools/assets/models/fasteners.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include "engine/base/math.hpp"
 #include "haptics/joint/fastener.hpp"
 #include "support.hpp"
-#include "tools/models/solids.hpp"
+#include "tools/assets/models/solids.hpp"
 
 using namespace bolt;
 using namespace bolt::models;
@@ -25,8 +25,8 @@ gp_Lin parallel_to_axis(double radius, double angle) {
     return {gp_Pnt(radius * std::cos(angle), radius * std::sin(angle), 0.0), gp::DZ()};
 }
 
-// Widths of what a line parallel to the axis cuts, between z0 and z1: at the pitch diameter all are P/2.
-std::vector<double> widths(const std::vector<double>& at, double z0, double z1) {
+// Distances between consecutive crossings within z0 to z1. On a line at the pitch diameter all are P/2.
+std::vector<double> spacings(const std::vector<double>& at, double z0, double z1) {
     std::vector<double> result;
     for (std::size_t i = 0; i + 1 < at.size(); ++i)
         if (at[i] > z0 && at[i + 1] < z1) result.push_back(at[i + 1] - at[i]);
@@ -35,7 +35,7 @@ std::vector<double> widths(const std::vector<double>& at, double z0, double z1) 
 
 }  // namespace
 
-TEST_CASE("bolts have the diameters, the head and the length of the tables") {
+TEST_CASE("Bolts: diameters, head and length are those of the tables") {
     struct {
         std::string size;
         double length;
@@ -47,7 +47,7 @@ TEST_CASE("bolts have the diameters, the head and the length of the tables") {
         const auto spec = iso_4014(size, length);
         REQUIRE(spec);
         const TopoDS_Shape bolt = made(hex_bolt(*spec));
-        CHECK(is_sound(bolt));
+        CHECK(is_valid_solid(bolt));
         const double d = table->thread.d * 1e3, d2 = table->thread.d2 * 1e3, d3 = table->thread.d3 * 1e3;
         const double P = table->thread.pitch * 1e3;
 
@@ -64,7 +64,7 @@ TEST_CASE("bolts have the diameters, the head and the length of the tables") {
         const double full = length - joint::thread_length(d * 1e-3, length * 1e-3) * 1e3;
         for (const double angle : {0.3, 1.7, 3.9, 5.5}) {
             const auto cut =
-                widths(crossings(bolt, parallel_to_axis(0.5 * d2, angle)), full + 0.1, length - P);
+                spacings(crossings(bolt, parallel_to_axis(0.5 * d2, angle)), full + 0.1, length - P);
             CHECK(cut.size() > 10);
             for (const double width : cut) CHECK(width == doctest::Approx(0.5 * P).epsilon(0.01));
         }
@@ -76,12 +76,12 @@ TEST_CASE("bolts have the diameters, the head and the length of the tables") {
     }
 }
 
-TEST_CASE("nuts have the tables' height and width, and a bore larger than the bolt by the allowance g") {
+TEST_CASE("Nuts: height and width are those of the tables, the bore exceeds the bolt by the allowance g") {
     for (const std::string size : {"M8", "M16", "M20"}) {
         CAPTURE(size);
         const auto table = joint::parse_thread(size);
         const TopoDS_Shape nut = made(hex_nut(*iso_4032(size)));
-        CHECK(is_sound(nut));
+        CHECK(is_valid_solid(nut));
         const double d = table->thread.d * 1e3, P = table->thread.pitch * 1e3, g = 0.015 + 0.011 * P;
         const auto found = radii(nut);
         CHECK(found.size() == 2);
@@ -92,14 +92,14 @@ TEST_CASE("nuts have the tables' height and width, and a bore larger than the bo
         CHECK(std::abs(e.z0) < 0.01);
         CHECK(e.z1 == doctest::Approx(table->size.nut_height * 1e3).epsilon(1e-4));
         const double D2 = table->thread.d2 * 1e3 + g;
-        const auto cut = widths(crossings(nut, parallel_to_axis(0.5 * D2, 2.2)), 0.08 * d,
-                                table->size.nut_height * 1e3 - 0.08 * d);
+        const auto cut = spacings(crossings(nut, parallel_to_axis(0.5 * D2, 2.2)), 0.08 * d,
+                                  table->size.nut_height * 1e3 - 0.08 * d);
         CHECK(cut.size() > 3);
         for (const double width : cut) CHECK(width == doctest::Approx(0.5 * P).epsilon(0.01));
     }
 }
 
-TEST_CASE("the washer is that of ISO 7089") {
+TEST_CASE("Washers: dimensions are those of ISO 7089") {
     const auto table = joint::parse_thread("M16");
     const TopoDS_Shape disc = made(washer(*iso_7089("M16")));
     CHECK(has(radii(disc), 0.5 * table->size.washer_inner * 1e3));
@@ -107,7 +107,7 @@ TEST_CASE("the washer is that of ISO 7089") {
     CHECK(extent(disc).z1 == doctest::Approx(3.0));
 }
 
-TEST_CASE("a nut in its place on the bolt touches nothing, and out of phase it would") {
+TEST_CASE("Threads: a nut in phase does not overlap the bolt, a nut out of phase does") {
     for (const std::string size : {"M8", "M16"}) {
         CAPTURE(size);
         const auto spec = iso_4014(size, 40.0);
@@ -128,12 +128,13 @@ TEST_CASE("a nut in its place on the bolt touches nothing, and out of phase it w
     }
 }
 
-TEST_CASE("threads stay within their triangles") {
+TEST_CASE("Threads: a mesh stays within its triangle budget") {
     CHECK(triangles(made(hex_bolt(*iso_4014("M16", 180.0))), 0.08, 0.4) <= 10000);
     CHECK(triangles(made(hex_nut(*iso_4032("M16"))), 0.08, 0.4) <= 4000);
 }
 
-TEST_CASE("every size of the table becomes a sound bolt and nut, plain ones too") {
+TEST_CASE(
+    "Fasteners: every size of the table becomes a valid bolt and nut, with helical and cosmetic threads") {
     for (const joint::FastenerSize& row : joint::fastener_sizes()) {
         CAPTURE(row.name);
         const std::string size(row.name);

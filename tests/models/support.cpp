@@ -20,7 +20,7 @@ namespace bolt::models {
 
 namespace {
 
-std::vector<double> without_doubles(std::vector<double> values) {
+std::vector<double> sorted_distinct(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end(), [](double a, double b) { return b - a < 1e-6; }),
                  values.end());
@@ -40,7 +40,7 @@ std::vector<double> radii(const TopoDS_Shape& shape, double x, double y) {
             std::hypot(at.X() - x, at.Y() - y) < 0.01)
             result.push_back(cylinder.Radius());
     }
-    return without_doubles(std::move(result));
+    return sorted_distinct(std::move(result));
 }
 
 std::vector<double> flat_to_flat(const TopoDS_Shape& shape) {
@@ -56,7 +56,7 @@ std::vector<double> flat_to_flat(const TopoDS_Shape& shape) {
             if (a.Axis().Direction().IsParallel(b.Axis().Direction(), 1e-9) &&
                 a.Distance(b.Location()) > 1e-6)
                 result.push_back(a.Distance(b.Location()));
-    return without_doubles(std::move(result));
+    return sorted_distinct(std::move(result));
 }
 
 std::vector<double> crossings(const TopoDS_Shape& shape, const gp_Lin& line) {
@@ -65,7 +65,7 @@ std::vector<double> crossings(const TopoDS_Shape& shape, const gp_Lin& line) {
     intersector.Perform(line, -1e3, 1e3);
     std::vector<double> result;
     for (int i = 1; i <= intersector.NbPnt(); ++i) result.push_back(intersector.WParameter(i));
-    return without_doubles(std::move(result));
+    return sorted_distinct(std::move(result));
 }
 
 std::vector<gp_Pnt> surface_points(const TopoDS_Shape& shape, double deflection, std::size_t every) {
@@ -85,7 +85,7 @@ std::vector<gp_Pnt> surface_points(const TopoDS_Shape& shape, double deflection,
 double depth_inside(const TopoDS_Shape& solid, const gp_Pnt& point) {
     BRepClass3d_SolidClassifier classifier(solid, point, 1e-6);
     if (classifier.State() != TopAbs_IN) return 0.0;
-    TopExp_Explorer shell(solid, TopAbs_SHELL);  // to the solid itself the distance would be 0
+    TopExp_Explorer shell(solid, TopAbs_SHELL);  // the distance to the solid itself would be 0
     return BRepExtrema_DistShapeShape(BRepBuilderAPI_MakeVertex(point), shell.Current()).Value();
 }
 

@@ -1,4 +1,4 @@
-// What the tests of the models measure on a solid. Millimetres.
+// Measurements on solids. Millimetres.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -7,21 +7,22 @@
 
 namespace bolt::models {
 
-// Radii of the cylindrical faces around an axis parallel to Z through (x, y), without doubles, ascending.
+// Distinct radii of the cylindrical faces about an axis parallel to Z through (x, y), ascending.
 std::vector<double> radii(const TopoDS_Shape& shape, double x = 0.0, double y = 0.0);
 
-// Distances between parallel plane faces that stand on Z (both ways), without doubles, ascending.
+// Distinct distances between parallel plane faces that are parallel to Z, ascending.
 std::vector<double> flat_to_flat(const TopoDS_Shape& shape);
 
-// Where a line goes in and out of the shape, as parameters along it.
+// Parameters along the line at which it crosses the shape, ascending.
 std::vector<double> crossings(const TopoDS_Shape& shape, const gp_Lin& line);
 
-// Points on the faces of a shape, from its mesh.
+// Every `every`-th vertex of a mesh of the shape.
 std::vector<gp_Pnt> surface_points(const TopoDS_Shape& shape, double deflection, std::size_t every);
 
-// How far a point lies inside a solid, by the solid's own faces; 0 outside.
+// Distance from a point inside the solid to its faces; 0 outside.
 double depth_inside(const TopoDS_Shape& solid, const gp_Pnt& point);
 
+// Triangles of a mesh with these tolerances.
 int triangles(const TopoDS_Shape& shape, double deflection, double angle);
 
 struct Extent {
@@ -29,6 +30,7 @@ struct Extent {
 };
 Extent extent(const TopoDS_Shape& shape);
 
+// True if one of the values is within the tolerance of `wanted`.
 bool has(const std::vector<double>& values, double wanted, double tolerance = 0.01);
 
 }  // namespace bolt::models

@@ -1,5 +1,5 @@
-// The thread as a height field: its polygons close up, and say what the profile of ISO 68-1 says.
-#include "tools/models/thread_field.hpp"
+// The thread as a height field: its polygons are closed and follow the profile of ISO 68-1.
+#include "tools/assets/models/thread.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,7 +14,7 @@ using namespace bolt::models;
 
 namespace {
 
-ThreadField some_bolt(double d, double pitch, double z0, double length) {
+ThreadField bolt_thread(double d, double pitch, double z0, double length) {
     ThreadField field;
     field.pitch = pitch;
     field.r_crest = 0.5 * d;
@@ -29,7 +29,7 @@ ThreadField some_bolt(double d, double pitch, double z0, double length) {
     return field;
 }
 
-// Sides that only one face has, apart from those on the two ends.
+// Sides that only one face has, except those on the two ends.
 int open_sides(const FieldMesh& mesh, const ThreadField& field) {
     std::map<std::pair<int, int>, int> sides;
     for (const FieldFace& face : mesh.faces)
@@ -60,22 +60,22 @@ double area(const FieldMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("the faces of a thread cover the cylinder once and leave no side open") {
+TEST_CASE("Thread field: the faces cover the cylinder once and leave no side open") {
     Random random(7);
     for (int i = 0; i < 60; ++i) {
         const double d = 3.0 + 40.0 * random.uniform(), pitch = d * (0.05 + 0.12 * random.uniform());
         const double z0 = 5.0 * random.uniform(), length = z0 + pitch * (4.0 + 20.0 * random.uniform());
         CAPTURE(d);
         CAPTURE(pitch);
-        const ThreadField field = some_bolt(d, pitch, z0, length);
+        const ThreadField field = bolt_thread(d, pitch, z0, length);
         const FieldMesh mesh = polygons(field);
         CHECK(open_sides(mesh, field) == 0);
         CHECK(area(mesh) == doctest::Approx(2.0 * pi * (length - z0)).epsilon(1e-9));
     }
 }
 
-TEST_CASE("every corner lies on the planes of all its faces, between root or chamfer and crest") {
-    const ThreadField field = some_bolt(16.0, 2.0, 27.0, 75.0);
+TEST_CASE("Thread field: every corner lies on the planes of all its faces, not above the crest") {
+    const ThreadField field = bolt_thread(16.0, 2.0, 27.0, 75.0);
     const FieldMesh mesh = polygons(field);
     for (const FieldFace& face : mesh.faces)
         for (const int v : face.corners) {
@@ -86,8 +86,8 @@ TEST_CASE("every corner lies on the planes of all its faces, between root or cha
         }
 }
 
-TEST_CASE("a side that is left out is noticed") {
-    const ThreadField field = some_bolt(16.0, 2.0, 27.0, 75.0);
+TEST_CASE("Thread field: the check finds a missing face") {
+    const ThreadField field = bolt_thread(16.0, 2.0, 27.0, 75.0);
     FieldMesh mesh = polygons(field);
     mesh.faces.erase(mesh.faces.begin() + 20);
     CHECK(open_sides(mesh, field) > 0);

@@ -1,4 +1,4 @@
-// The wrenches: their frame, their jaw against the nut, and that they are forged, not cut from plate.
+// The wrenches: frame, fit of the jaw on the nut, and the forged shape.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -6,16 +6,16 @@
 
 #include "engine/base/math.hpp"
 #include "support.hpp"
-#include "tools/models/solids.hpp"
-#include "tools/models/wrench/wrench.hpp"
+#include "tools/assets/models/solids.hpp"
+#include "tools/assets/models/wrench.hpp"
 
 using namespace bolt;
 using namespace bolt::models;
 
 namespace {
 
-// Made once: it takes seconds.
-TopoDS_Shape made(const WrenchSpec& spec) {
+// Cached, because building a wrench takes seconds.
+TopoDS_Shape cached_wrench(const WrenchSpec& spec) {
     static std::map<double, TopoDS_Shape> by_size;
     TopoDS_Shape& wrench = by_size[spec.size];
     if (!wrench.IsNull()) return wrench;
@@ -31,16 +31,16 @@ bool inside(const TopoDS_Shape& solid, double x, double y, double z) {
 
 }  // namespace
 
-TEST_CASE("a wrench takes the nut of its size, seated in the jaw at the head's angle") {
+TEST_CASE("Wrenches: the jaw fits the nut of its size at the head's angle") {
     struct {
         double size, grip;
     } const wrenches[] = {{13.0, 140.0}, {24.0, 230.0}, {30.0, 380.0}};
     for (const auto& [size, grip] : wrenches) {
         CAPTURE(size);
         const WrenchSpec spec = wrench_spec(size, grip);
-        const TopoDS_Shape wrench = made(spec);
+        const TopoDS_Shape wrench = cached_wrench(spec);
 
-        // Across the jaw: first metal at ±jaw/2, square to the mouth's direction.
+        // Across the mouth's direction, the flats of the jaw are at ±jaw/2.
         const gp_Dir mouth(-std::cos(spec.head_angle), -std::sin(spec.head_angle), 0.0);
         const gp_Dir across = gp_Dir(gp_Vec(gp::DZ()).Crossed(gp_Vec(mouth)));
         double nearest = 1e9, farthest = -1e9;
@@ -52,10 +52,10 @@ TEST_CASE("a wrench takes the nut of its size, seated in the jaw at the head's a
         }
         CHECK(nearest == doctest::Approx(0.5 * spec.jaw).epsilon(1e-5));
         CHECK(farthest == doctest::Approx(-0.5 * spec.jaw).epsilon(1e-5));
-        // The mouth is open: nothing on the way out, from the middle.
+        // The mouth is open: the ray from the middle towards it crosses nothing.
         for (const double at : crossings(wrench, gp_Lin(gp_Pnt(0, 0, 0), mouth))) CHECK(at < 0.0);
 
-        // The nut's hexagon, with two flats along the jaw, touches nothing; turned by 10° it would not fit.
+        // The nut's hexagon fits with two flats along the jaw, and overlaps when turned by 10°.
         const auto worst = [&](double turned) {
             double depth = 0.0;
             for (int i = 0; i < 48; ++i) {
@@ -72,9 +72,9 @@ TEST_CASE("a wrench takes the nut of its size, seated in the jaw at the head's a
     }
 }
 
-TEST_CASE("a wrench is forged: waisted, hollowed on both sides, without sharp edges along the handle") {
+TEST_CASE("Wrenches: the handle is waisted, hollowed on both sides and has rounded edges") {
     const WrenchSpec spec = wrench_spec(24.0, 230.0);
-    const TopoDS_Shape wrench = made(spec);
+    const TopoDS_Shape wrench = cached_wrench(spec);
     const double z = 0.5 * spec.handle_thickness;
     const Extent e = extent(wrench);
     CHECK(std::abs(e.x1 - spec.end) < 1.0);
@@ -87,10 +87,10 @@ TEST_CASE("a wrench is forged: waisted, hollowed on both sides, without sharp ed
             side = std::max(side, at);
         CHECK(side > 0.4 * spec.handle_width);
         CHECK_FALSE(inside(wrench, x, side - 0.2, z - 0.2));  // the edge is rounded off
-        CHECK(inside(wrench, x, side - 2.2, z - 0.2));        // the rim stands
+        CHECK(inside(wrench, x, side - 2.2, z - 0.2));        // the rim is solid
         CHECK(inside(wrench, x, side - 2.2, 0.2 - z));
     }
-    // The hollows, between the letters.
+    // The hollows between the raised letters.
     CHECK_FALSE(inside(wrench, 170.0, 0.0, z - 0.3));
     CHECK_FALSE(inside(wrench, 170.0, 0.0, 0.3 - z));
     CHECK(inside(wrench, 170.0, 0.0, 0.0));

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <span>
 
-#include "game/report/plot.hpp"
-#include "game/report/style.hpp"
+#include "game/plot/plot.hpp"
+#include "game/plot/style.hpp"
 #include "tests/no_shock/script.hpp"
 
 using namespace bolt;
@@ -22,9 +22,9 @@ constexpr double speeds[] = {0.05, 0.1, 0.2, 0.35, 0.5};  // m/s
 
 GodObjectParameters for_device(double dt) {
     GodObjectParameters p;
-    force::CouplingRange range;
+    proxy::CouplingRange range;
     range.dt = dt;
-    p.coupling = force::make_coupling(range);
+    p.coupling = proxy::make_coupling(range);
     p.radius = 0.165;
     return p;
 }
@@ -66,16 +66,16 @@ std::string csv(const std::vector<Result>& results) {
 }
 
 // One line a collision: greatest step over the speed.
-report::Plot step_plot(const std::vector<Result>& results) {
-    report::Plot plot;
+plot::Plot step_plot(const std::vector<Result>& results) {
+    plot::Plot plot;
     plot.width = 760.0;
     plot.height = 320.0;
     plot.title = "Greatest change of force in a millisecond, by collision";
-    plot.x = {report::covering_ticks(0.0, 0.5), "speed, m/s"};
-    plot.y = {report::covering_ticks(0.0, 200.0), "change in 1 ms, % of the greatest force"};
+    plot.x = {plot::covering_ticks(0.0, 0.5), "speed, m/s"};
+    plot.y = {plot::covering_ticks(0.0, 200.0), "change in 1 ms, % of the greatest force"};
     const auto lines = [&](Shock Result::*method, std::string_view style) {
         for (std::size_t i = 0; i < results.size(); i += std::size(speeds)) {
-            report::Line line{{}, style, false};
+            plot::Line line{{}, style, false};
             for (std::size_t k = 0; k < std::size(speeds); ++k)
                 line.points.push_back({results[i + k].speed, 100.0 * (results[i + k].*method).step});
             plot.lines.push_back(line);
@@ -88,31 +88,31 @@ report::Plot step_plot(const std::vector<Result>& results) {
     return plot;
 }
 
-report::Plot time_plot(const Script& script, double speed, double dt) {
+plot::Plot time_plot(const Script& script, double speed, double dt) {
     const GodObjectParameters p = for_device(dt);
-    report::Plot plot;
+    plot::Plot plot;
     plot.width = 760.0;
     plot.height = 320.0;
     plot.title = "Force over time: pressed on a block, slid over its edge and off it";
     const auto line = [&](const Run& run, std::string_view style) {
-        report::Line l{{}, style, false};
+        plot::Line l{{}, style, false};
         for (std::size_t i = 0; i < run.size(); ++i)
             l.points.push_back({static_cast<double>(i) * dt, glm::length(run[i].command.force)});
         plot.lines.push_back(l);
-        plot.x = {report::covering_ticks(0.0, static_cast<double>(run.size()) * dt), "time, s"};
+        plot.x = {plot::covering_ticks(0.0, static_cast<double>(run.size()) * dt), "time, s"};
     };
     line(with_penalty(p.coupling, script, speed, dt, Penalty::every_point), "ln rest");
     line(with_penalty(p.coupling, script, speed, dt, Penalty::deepest), "ln cl");
     line(with_god_object(p, script, speed, dt), "ln p2");
-    plot.y = {report::covering_ticks(0.0, p.coupling.force), "force on the hand, N"};
+    plot.y = {plot::covering_ticks(0.0, p.coupling.force), "force on the hand, N"};
     return plot;
 }
 
 std::string figure(const std::vector<Result>& results, const Script& script, double dt) {
-    const report::Plot steps = step_plot(results), time = time_plot(script, 0.2, dt);
+    const plot::Plot steps = step_plot(results), time = time_plot(script, 0.2, dt);
     constexpr double head = 28.0;
-    report::Svg svg(760.0, head + steps.height + time.height,
-                    "God-object and penalty contact: what the hand is given");
+    plot::Svg svg(760.0, head + steps.height + time.height,
+                  "God-object and penalty contact: what the hand is given");
     double x = 10.0;
     for (const auto& [style, words] :
          {std::pair("ln p2", "god-object"), std::pair("ln cl", "penalty, deepest point of each obstacle"),
@@ -122,12 +122,12 @@ std::string figure(const std::vector<Result>& results, const Script& script, dou
         x += 260.0;
     }
     svg.enter({0.0, head, steps.width, steps.height});
-    report::draw_into(svg, steps);
+    plot::draw_into(svg, steps);
     svg.leave();
     svg.enter({0.0, head + steps.height, time.width, time.height});
-    report::draw_into(svg, time);
+    plot::draw_into(svg, time);
     svg.leave();
-    return report::standalone(svg.finish(), report::style_sheet());
+    return plot::standalone(svg.finish(), plot::style_sheet());
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/god_object/support.hpp"
+#include "tests/proxy/support.hpp"
 
 namespace bolt::test {
 
@@ -21,7 +21,8 @@ Script script(const std::string& name, std::vector<Obstacle> obstacles, std::vec
         if (const Box* box = std::get_if<Box>(&obstacle)) add_edges_as_pins(s.scene, *box, 0.002);
         if (const Rod* rod = std::get_if<Rod>(&obstacle)) s.scene.pins.push_back({rod->b, rod->radius});
         for (std::size_t i = first; i < s.scene.pins.size(); ++i)
-            s.scene.pins[i].body = static_cast<std::int32_t>(&obstacle - obstacles.data());
+            s.scene.pins[i].obstacle =
+                    collision::ObstacleId::fixed(static_cast<std::size_t>(&obstacle - obstacles.data()));
     }
     s.scene.obstacles = std::move(obstacles);
     return s;
@@ -78,32 +79,32 @@ Run with_god_object(const GodObjectParameters& parameters, const Script& script,
     return run;
 }
 
-Run with_penalty(const force::Coupling& coupling, const Script& script, double speed, double dt,
+Run with_penalty(const proxy::Coupling& coupling, const Script& script, double speed, double dt,
                  Penalty which) {
     Run run;
     std::array<Contact, 1024> contacts;
-    force::Coupling bounded = coupling;
+    proxy::Coupling bounded = coupling;
     bounded.stiffness = bounded.torsion = 1.0;
     bounded.damping = bounded.torsion_damping = 0.0;
     for (const Pose& device : device_poses(script, speed, dt)) {
-        const Found found = script.scene(device, 1e-6, contacts);
-        force::Offset sum;
+        const ContactQueryResult found = script.scene(device, 1e-6, contacts);
+        proxy::Offset sum;
         std::uint64_t bodies = 0;  // a bit each; the deepest come first
         for (std::size_t i = 0; i < found.count; ++i) {
             const Contact& c = contacts[i];
-            const std::uint64_t body = std::uint64_t{1} << static_cast<unsigned>(c.body);
+            const std::uint64_t body = std::uint64_t{1} << c.obstacle.index();
             if (which == Penalty::deepest && (bodies & body) != 0) continue;
             bodies |= body;
             const Vec3 force = coupling.stiffness * std::max(0.0, -c.distance) * c.normal;
             sum.linear += force;
             sum.angular += glm::cross(c.on_tool - device.position, force);
         }
-        run.push_back({device.position, force::coupling_force(bounded, sum, sum, dt)});
+        run.push_back({device.position, proxy::coupling_force(bounded, sum, sum, dt)});
     }
     return run;
 }
 
-Shock shock_of(const Run& run, const force::Coupling& c, double dt) {
+Shock shock_of(const Run& run, const proxy::Coupling& c, double dt) {
     Shock shock;
     const auto apart = static_cast<std::size_t>(std::lround(1e-3 / dt));
     for (std::size_t i = apart; i < run.size(); ++i) {

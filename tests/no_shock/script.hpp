@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/god_object/scene.hpp"
+#include "tests/proxy/scene.hpp"
 
 namespace bolt::test {
 
@@ -32,7 +32,7 @@ Run with_god_object(const GodObjectParameters& parameters, const Script& script,
 // For comparison, forces at the device's own pose: a spring of the coupling's stiffness at every point that
 // is inside, or, kinder, only at the deepest point in each obstacle. The sum is bounded as the coupling's is.
 enum class Penalty { every_point, deepest };
-Run with_penalty(const force::Coupling& coupling, const Script& script, double speed, double dt,
+Run with_penalty(const proxy::Coupling& coupling, const Script& script, double speed, double dt,
                  Penalty which);
 
 struct Shock {
@@ -41,6 +41,6 @@ struct Shock {
     double event = 0.0;  // greatest change beyond what the hand's own motion makes of a spring, of the force
                          // felt, while more than a tenth of the greatest force is felt
 };
-Shock shock_of(const Run& run, const force::Coupling& coupling, double dt);
+Shock shock_of(const Run& run, const proxy::Coupling& coupling, double dt);
 
 }  // namespace bolt::test

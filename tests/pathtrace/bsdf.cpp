@@ -8,8 +8,8 @@
 #include "engine/shading/albedo.hpp"
 #include "engine/shading/ggx.hpp"
 #include "tests/pathtrace/about.hpp"
-#include "tools/pathtrace/bsdf.hpp"
-#include "tools/pathtrace/sampler.hpp"
+#include "tools/verify/pathtrace/bsdf.hpp"
+#include "tools/verify/pathtrace/sampler.hpp"
 
 using namespace bolt::pathtrace;
 using namespace bolt::shading;
@@ -43,7 +43,7 @@ float furnace(const Surface& s, const glm::vec3& out, std::uint32_t count) {
 
 }  // namespace
 
-TEST_CASE("white furnace: a white surface gives back all light at every roughness and angle, within 1 %") {
+TEST_CASE("BSDF: a white surface reflects all light at every roughness and angle, within 1 %") {
     for (const float metallic : {0.0F, 0.5F, 1.0F}) {
         for (const float coat : {0.0F, 1.0F}) {
             for (const float roughness : {0.05F, 0.2F, 0.4F, 0.6F, 0.8F, 1.0F}) {
@@ -60,7 +60,7 @@ TEST_CASE("white furnace: a white surface gives back all light at every roughnes
     }
 }
 
-TEST_CASE("brushed metal gives back what it should within a few per cent on average over its directions") {
+TEST_CASE("BSDF: brushed metal reflects the expected light within a few per cent, averaged over directions") {
     for (const float strength : {0.25F, 0.5F, 1.0F}) {
         for (const float roughness : {0.1F, 0.25F, 0.5F, 0.8F}) {
             for (const float cosine : {0.1F, 0.3F, 0.9F}) {
@@ -82,7 +82,7 @@ TEST_CASE("brushed metal gives back what it should within a few per cent on aver
     }
 }
 
-TEST_CASE("the furnace test can fail: without the compensation rough metal loses a quarter of the light") {
+TEST_CASE("BSDF: the furnace test can fail; without compensation rough metal loses a quarter of the light") {
     const glm::vec2 ab = integrate_albedo(1.0F, 0.6F, 4096);
     CHECK(ab.x + ab.y < 0.72F);
     // A mirror loses nothing, and its part of F90 is Schlick's.
@@ -91,7 +91,7 @@ TEST_CASE("the furnace test can fail: without the compensation rough metal loses
     CHECK(mirror.y == about(pow5(0.5F)).epsilon(0.01));
 }
 
-TEST_CASE("the table of the albedo agrees with the integral that it stands for") {
+TEST_CASE("BSDF: the albedo table agrees with its integral") {
     for (const float roughness : {0.13F, 0.37F, 0.71F, 0.93F}) {
         for (const float cosine : {0.05F, 0.23F, 0.52F, 0.87F}) {
             const glm::vec2 table = directional_albedo(roughness * roughness, cosine);
@@ -104,7 +104,7 @@ TEST_CASE("the table of the albedo agrees with the integral that it stands for")
     }
 }
 
-TEST_CASE("what is sampled is what is evaluated: uniform directions find the same light") {
+TEST_CASE("BSDF: sampling agrees with evaluation over uniform directions") {
     Surface s = white(0.5F, 0.3F, 0.6F);
     s.base_color = {0.8F, 0.4F, 0.1F};
     s.alpha = {0.4F, 0.15F};
@@ -134,7 +134,7 @@ TEST_CASE("what is sampled is what is evaluated: uniform directions find the sam
     CHECK(density > 0.93);
 }
 
-TEST_CASE("the distribution of normals is one: its projected area is that of the surface") {
+TEST_CASE("BSDF: the distribution of normals is normalised by its projected area") {
     for (const float alpha : {0.1F, 0.5F, 1.0F}) {
         double area = 0.0;
         constexpr int steps = 20000;
@@ -147,7 +147,7 @@ TEST_CASE("the distribution of normals is one: its projected area is that of the
     }
 }
 
-TEST_CASE("light that comes from below or is seen from below is none") {
+TEST_CASE("BSDF: directions below the surface reflect no light") {
     const Surface s = white(0.5F, 0.0F, 0.0F);
     CHECK(Bsdf(s, at(0.5F)).evaluate(-at(0.5F)).value == glm::vec3(0.0F));
     CHECK(Bsdf(s, -at(0.5F)).evaluate(at(0.5F)).value == glm::vec3(0.0F));

@@ -1,12 +1,12 @@
 #include <doctest/doctest.h>
 
 #include "tests/pathtrace/shapes.hpp"
-#include "tools/pathtrace/flatten.hpp"
+#include "tools/verify/pathtrace/flatten.hpp"
 
 using namespace bolt;
 using namespace bolt::pathtrace;
 
-TEST_CASE("names match patterns with * and ?") {
+TEST_CASE("Path tracer: names match patterns with * and ?") {
     CHECK(matches("joint_B1", "joint_B1"));
     CHECK(matches("joint_B1", "joint_*"));
     CHECK(matches("joint_B1", "*B?"));
@@ -19,7 +19,7 @@ TEST_CASE("names match patterns with * and ?") {
     CHECK_FALSE(matches("abc", "a*d"));
 }
 
-TEST_CASE("nodes are shown and hidden with what is below them, where they are") {
+TEST_CASE("Path tracer: nodes are shown and hidden with their descendants") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     model.nodes[0].children = {1};
     model.nodes[0].translation = {0.0F, 0.0F, 5.0F};
@@ -33,7 +33,7 @@ TEST_CASE("nodes are shown and hidden with what is below them, where they are") 
     CHECK(flatten(model, {.show = {"lid"}, .hide = {"node"}}).triangles.empty());
 }
 
-TEST_CASE("vertices follow the joints of their skin, and morph targets before that") {
+TEST_CASE("Path tracer: morph targets are applied before the skin") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     assets::Primitive& p = model.meshes[0].primitives[0];
     p.joints.assign(4, {0, 1, 0, 0});
@@ -52,7 +52,7 @@ TEST_CASE("vertices follow the joints of their skin, and morph targets before th
     CHECK(flat.vertices[0].normal == glm::vec3(0.0F, 0.0F, 1.0F));
 }
 
-TEST_CASE("a mirrored node keeps its outside outside") {
+TEST_CASE("Path tracer: a mirrored node keeps its outside") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     model.nodes[0].scale = {-1.0F, 1.0F, 1.0F};
     const Flat flat = flatten(model, {});

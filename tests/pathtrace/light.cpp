@@ -5,14 +5,14 @@
 #include <numbers>
 
 #include "tests/pathtrace/about.hpp"
-#include "tools/pathtrace/environment.hpp"
-#include "tools/pathtrace/sampler.hpp"
-#include "tools/pathtrace/tone.hpp"
+#include "tools/verify/pathtrace/environment.hpp"
+#include "tools/verify/pathtrace/sampler.hpp"
+#include "tools/verify/pathtrace/tone.hpp"
 
 using namespace bolt::pathtrace;
 using bolt::about;
 
-TEST_CASE("the environment gives as much light through its samples as over the whole sphere") {
+TEST_CASE("Environment: samples give as much light as the integral over the sphere") {
     const Environment environment(studio(128));
     double direct = 0.0;
     double density = 0.0;
@@ -40,7 +40,7 @@ TEST_CASE("the environment gives as much light through its samples as over the w
     CHECK(sampled == about(direct).epsilon(0.01));
 }
 
-TEST_CASE("directions of the environment: −Z in the middle, +X to the right, +Y above") {
+TEST_CASE("Environment: −Z is in the middle, +X to the right, +Y above") {
     RadianceImage image = constant(glm::vec3(0.0F));
     image.width = 64;
     image.height = 32;
@@ -60,13 +60,13 @@ TEST_CASE("directions of the environment: −Z in the middle, +X to the right, +
     CHECK(environment.radiance({0, 0, 1}) == glm::vec3(0.0F));
 }
 
-TEST_CASE("no image is no light") {
+TEST_CASE("Environment: without an image there is no light") {
     const Environment environment;
     CHECK(environment.dark());
     CHECK(environment.radiance({0, 1, 0}) == glm::vec3(0.0F));
 }
 
-TEST_CASE("tone mapping: Khronos PBR Neutral's fixed points") {
+TEST_CASE("Tone mapping: has the fixed points of Khronos PBR Neutral") {
     // A grey of 0.04 (reflection of a dielectric on black) comes out as black's toe: 6.25 x².
     CHECK(pbr_neutral(glm::vec3(0.0F)) == glm::vec3(0.0F));
     CHECK(pbr_neutral(glm::vec3(0.04F)).r == about(6.25F * 0.04F * 0.04F));
@@ -82,7 +82,7 @@ TEST_CASE("tone mapping: Khronos PBR Neutral's fixed points") {
     }
 }
 
-TEST_CASE("every 8-bit value survives decoding and encoding") {
+TEST_CASE("Tone mapping: every 8-bit value survives decoding and encoding") {
     for (int i = 0; i < 256; ++i) {
         const float linear = from_srgb(static_cast<std::uint8_t>(i));
         CHECK(std::lround(to_srgb(linear) * 255.0F) == i);

@@ -1,11 +1,11 @@
-#include "tools/pathtrace/options.hpp"
+#include "tools/verify/pathtrace/options.hpp"
 
 #include <doctest/doctest.h>
 
 #include "tests/pathtrace/about.hpp"
 #include "tests/pathtrace/shapes.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/pathtrace/environment.hpp"
+#include "tools/verify/pathtrace/environment.hpp"
 
 using namespace bolt;
 using namespace bolt::pathtrace;
@@ -27,7 +27,7 @@ bool refused(const Options& options) {
 
 }  // namespace
 
-TEST_CASE("what is typed becomes a camera") {
+TEST_CASE("Path tracer options: the options define the camera") {
     Options o = typed();
     o.size = "320x200";
     o.eye = "1,-2.5,3e-1";
@@ -46,7 +46,7 @@ TEST_CASE("what is typed becomes a camera") {
     CHECK_FALSE(o.settings.background.has_value());
 }
 
-TEST_CASE("what makes no sense is refused as usage") {
+TEST_CASE("Path tracer options: invalid values are usage errors") {
     Options o = typed();
     CHECK_FALSE(refused(o));
     for (const char* size :
@@ -80,7 +80,7 @@ TEST_CASE("what makes no sense is refused as usage") {
     CHECK(refused(o));
 }
 
-TEST_CASE("a picture of light comes back from a .hdr file, within its eight bits") {
+TEST_CASE("Environment: an image survives a .hdr file within its eight bits") {
     const test::Folder folder;
     const auto path = folder / "light.hdr";
     const RadianceImage image = studio(32);
@@ -96,7 +96,7 @@ TEST_CASE("a picture of light comes back from a .hdr file, within its eight bits
     CHECK(read_hdr(path).error().file == path.string());
 }
 
-TEST_CASE("a scene without triangles is an error") {
+TEST_CASE("Path tracer: a scene without triangles is an error") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     model.meshes[0].primitives[0].topology = assets::Topology::points;
     CHECK_FALSE(Scene::build(model, {}));

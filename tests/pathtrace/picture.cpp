@@ -9,8 +9,8 @@
 #include "engine/assets/image.hpp"
 #include "tests/pathtrace/about.hpp"
 #include "tests/pathtrace/shapes.hpp"
-#include "tools/pathtrace/flatten.hpp"
-#include "tools/pathtrace/render.hpp"
+#include "tools/verify/pathtrace/flatten.hpp"
+#include "tools/verify/pathtrace/render.hpp"
 
 using namespace bolt;
 using namespace bolt::pathtrace;
@@ -49,7 +49,7 @@ assets::Model under_sun(const assets::Material& material, float phase, float ill
 
 }  // namespace
 
-TEST_CASE("white furnace: a white sphere vanishes before white surroundings") {
+TEST_CASE("Path tracer: a white sphere is invisible before white surroundings (white furnace)") {
     for (const float roughness : {0.1F, 0.5F, 1.0F}) {
         for (const float metallic : {0.0F, 1.0F}) {
             for (const float coat : {0.0F, 1.0F}) {
@@ -70,7 +70,7 @@ TEST_CASE("white furnace: a white sphere vanishes before white surroundings") {
     }
 }
 
-TEST_CASE("a matte sphere under the sun: Lambert's law in every pixel, his sphere's phase curve in all") {
+TEST_CASE("Path tracer: a matte sphere under the sun follows Lambert's law and his phase curve") {
     const glm::vec3 color(0.8F, 0.5F, 0.2F);
     const Environment dark;
     for (const float phase : {0.0F, 0.7F, pi / 2.0F, 2.2F}) {
@@ -101,7 +101,7 @@ TEST_CASE("a matte sphere under the sun: Lambert's law in every pixel, his spher
     }
 }
 
-TEST_CASE("a rough metal sphere under the sun: the lighting model in the middle of the disc") {
+TEST_CASE("Path tracer: the middle of a rough metal sphere under the sun follows the lighting model") {
     assets::Material metal;
     metal.base_color = {0.9F, 0.6F, 0.3F, 1.0F};
     metal.roughness = 0.6F;
@@ -119,7 +119,7 @@ TEST_CASE("a rough metal sphere under the sun: the lighting model in the middle 
     for (int c = 0; c < 3; ++c) CHECK(image[4][c] == about(expected[c]).epsilon(0.01));
 }
 
-TEST_CASE("point and spot lights fall off with the square of the distance, range and cone") {
+TEST_CASE("Path tracer: point and spot lights fall off with the square of the distance, range and cone") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     model.lights = {{.intensity = 12.0F}};
     model.nodes.push_back({.name = "lamp", .translation = {0.0F, 0.0F, 2.0F}, .light = 0});
@@ -139,7 +139,7 @@ TEST_CASE("point and spot lights fall off with the square of the distance, range
     CHECK(seen() == 0.0F);
 }
 
-TEST_CASE("a shadow is black, and what is transparent throws a part of one") {
+TEST_CASE("Path tracer: a shadow is black; a transparent object casts a partial one") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     model.lights = {{.type = assets::LightType::directional, .intensity = pi}};
     model.nodes.push_back({.name = "sun", .light = 0});
@@ -161,7 +161,7 @@ TEST_CASE("a shadow is black, and what is transparent throws a part of one") {
     CHECK(seen(1) == about(1.0F).epsilon(1e-4));
 }
 
-TEST_CASE("textures: the colour under a pixel is that of its texel") {
+TEST_CASE("Path tracer: the colour under a pixel is that of its texel") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     assets::Image image;
     image.width = 2;
@@ -183,7 +183,7 @@ TEST_CASE("textures: the colour under a pixel is that of its texel") {
     CHECK(glm::distance(moved[0], expected[1]) < 1e-3F);
 }
 
-TEST_CASE("the same picture with one thread and with many, and another one with another seed") {
+TEST_CASE("Path tracer: the picture depends on the seed, not on the number of threads") {
     assets::Material material;
     material.roughness = 0.3F;
     material.clearcoat = 1.0F;
@@ -199,13 +199,13 @@ TEST_CASE("the same picture with one thread and with many, and another one with 
     CHECK(render(scene, environment, camera, {.samples = 4, .seed = 1}) != one);
 }
 
-TEST_CASE("depth is the distance along the view, whatever the pixel") {
+TEST_CASE("Path tracer: depth is measured along the view direction") {
     const Scene scene = build(single(square(), matte(glm::vec3(1.0F))));
     const Camera camera{.eye = {0.1F, 0.2F, 0.7F}, .target = {0.1F, 0.2F, 0.0F}, .width = 8, .height = 6};
     for (const float d : depth(scene, camera)) CHECK(d == about(0.7F).epsilon(1e-5));
 }
 
-TEST_CASE("a framed model is inside the picture and fills it") {
+TEST_CASE("Camera: a framed model is inside the picture and fills it") {
     const glm::vec3 low(-0.1F, 0.0F, -0.2F);
     const glm::vec3 high(0.5F, 0.3F, 0.2F);
     Camera camera{.width = 640, .height = 360};

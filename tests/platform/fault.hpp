@@ -1,5 +1,5 @@
-// Vulkan that fails when it is told to. volk's functions are plain pointers: while a Fault lives, one of them
-// points here.
+// Fault injection for Vulkan: while a Fault lives, one of volk's function pointers points to a failing
+// function.
 #pragma once
 
 #include "engine/gpu/vk.hpp"
@@ -7,8 +7,8 @@
 namespace bolt::test {
 
 enum class Happens : std::uint8_t {
-    instead,    // the call is not made
-    afterwards  // it is made, and its result is replaced
+    instead,    // the real function is not called
+    afterwards  // the real function is called, and its result is replaced
 };
 
 template <auto* function, class Pointer = std::remove_pointer_t<decltype(function)>>
@@ -17,7 +17,7 @@ class Fault;
 template <auto* function, class... Args>
 class Fault<function, VkResult(VKAPI_PTR*)(Args...)> {
   public:
-    // Fails `times` times, after `first` calls that do not.
+    // Fails `times` times after `first` successful calls.
     Fault(VkResult result, int times = 1, Happens how = Happens::instead, int first = 0) {
         original() = *function;
         plan() = {result, times, first, how, 0};

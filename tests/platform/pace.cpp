@@ -15,55 +15,55 @@ Clock::time_point at(double s) {
 
 }  // namespace
 
-TEST_CASE("deadlines are whole periods after the start and do not drift in an hour") {
+TEST_CASE("Pace: deadlines are whole periods after the start, without drift in an hour") {
     Pace pace{at(100.0), 1.0 / 59.94, 0};
     Clock::time_point now = pace.start;
-    constexpr int beats = 215784;  // of an hour
+    constexpr int beats = 215784;  // in one hour
     for (int i = 1; i <= beats; ++i) {
-        const Due due = next_due(pace, now);
+        const Deadline due = next_deadline(pace, now);
         REQUIRE(due.missed == 0);
-        now = due.deadline;                                     // woken exactly then
-        if (i % 3 == 0) now += std::chrono::microseconds(900);  // or a little late
+        now = due.time;                                         // woken exactly then
+        if (i % 3 == 0) now += std::chrono::microseconds(900);  // or slightly late
     }
     CHECK(std::abs(seconds(now) - 100.0 - beats / 59.94) < 0.0011);
-    CHECK(pace.beat == beats);
+    CHECK(pace.index == beats);
 }
 
-TEST_CASE("a frame that takes too long costs the beats it slept through, and the next is on a beat") {
+TEST_CASE("Pace: a long frame skips deadlines, and the next one is on the grid again") {
     Pace pace{at(10.0), 0.010, 0};
-    CHECK(seconds(next_due(pace, at(10.001)).deadline) == doctest::Approx(10.010));
-    CHECK(seconds(next_due(pace, at(10.012)).deadline) == doctest::Approx(10.020));
-    const Due late = next_due(pace, at(10.047));  // 30 and 40 are over
-    CHECK(seconds(late.deadline) == doctest::Approx(10.050));
+    CHECK(seconds(next_deadline(pace, at(10.001)).time) == doctest::Approx(10.010));
+    CHECK(seconds(next_deadline(pace, at(10.012)).time) == doctest::Approx(10.020));
+    const Deadline late = next_deadline(pace, at(10.047));  // 30 and 40 are over
+    CHECK(seconds(late.time) == doctest::Approx(10.050));
     CHECK(late.missed == 2);
-    CHECK(next_due(pace, at(10.0501)).missed == 0);
-    const Due day_later = next_due(pace, at(86410.0005));
-    CHECK(seconds(day_later.deadline) == doctest::Approx(86410.010).epsilon(1e-12));
-    CHECK(pace.beat == 8640001);
+    CHECK(next_deadline(pace, at(10.0501)).missed == 0);
+    const Deadline day_later = next_deadline(pace, at(86410.0005));
+    CHECK(seconds(day_later.time) == doctest::Approx(86410.010).epsilon(1e-12));
+    CHECK(pace.index == 8640001);
 }
 
-TEST_CASE("a deadline is never over, whatever the hour and the period") {
+TEST_CASE("Pace: a deadline is never in the past, for every hour and period") {
     for (const double period : {1.0 / 24.0, 1.0 / 60.0, 1.0 / 144.0, 1.0 / 999.0})
         for (int i = 0; i < 2000; ++i) {
             const double offset = 0.001 * i * std::sqrt(2.0) * i;
             Pace pace{at(5.0), period, 0};
             const Clock::time_point now = at(5.0 + offset);
-            const Due due = next_due(pace, now);
-            REQUIRE(due.deadline >= now);
-            REQUIRE(seconds(due.deadline) - seconds(now) <= period + 1e-6);
+            const Deadline due = next_deadline(pace, now);
+            REQUIRE(due.time >= now);
+            REQUIRE(seconds(due.time) - seconds(now) <= period + 1e-6);
         }
 }
 
-TEST_CASE("periods of displays, and of those that do not tell") {
+TEST_CASE("Pace: periods of displays, with a default for implausible rates") {
     CHECK(period_of(144.0) == doctest::Approx(1.0 / 144.0));
     for (const double nonsense : {0.0, -1.0, 5.0, 1e9, std::nan("")})
         CHECK(period_of(nonsense) == 1.0 / 60.0);
 }
 
-TEST_CASE("waiting ends on the deadline or after it, never before") {
+TEST_CASE("Pace: waiting never ends before the deadline") {
     Pace pace{Clock::now(), 0.002, 0};
     for (int i = 0; i < 20; ++i) {
-        (void)wait_for_due(pace);
-        CHECK(Clock::now() >= pace.start + std::chrono::milliseconds(2) * static_cast<int>(pace.beat));
+        (void)wait_for_deadline(pace);
+        CHECK(Clock::now() >= pace.start + std::chrono::milliseconds(2) * static_cast<int>(pace.index));
     }
 }

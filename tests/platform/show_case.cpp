@@ -61,10 +61,11 @@ Result<bool> ShowCase::show(std::array<int, 3> color) {
     drawn = *extent;
     if (drawn.width == 0 || drawn.height == 0) return false;
     if (Status made = prepare_picture(picture_size.value_or(drawn)); !made) return fail(made.error());
-    Result<gpu::Frame*> frame = frames_->begin();
+    Result<gpu::FrameContext*> frame = frames_->begin();
     if (!frame) return fail(frame.error());
     const VkCommandBuffer commands = (*frame)->commands();
-    gpu::image_barrier_discarding(commands, picture_.get(), gpu::Use::transfer_from, gpu::Use::transfer_to);
+    gpu::image_barrier_discarding(commands, picture_.get(), gpu::ResourceUse::transfer_from,
+                                  gpu::ResourceUse::transfer_to);
     VkClearColorValue clear{};
     for (std::size_t i = 0; i < 3; ++i) {  // IEC 61966-2-1
         const double s = color[i] / 255.0;
@@ -72,7 +73,8 @@ Result<bool> ShowCase::show(std::array<int, 3> color) {
     }
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vkCmdClearColorImage(commands, picture_.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &clear, 1, &all);
-    gpu::image_barrier(commands, picture_.get(), gpu::Use::transfer_to, gpu::Use::transfer_from);
+    gpu::image_barrier(commands, picture_.get(), gpu::ResourceUse::transfer_to,
+                       gpu::ResourceUse::transfer_from);
     return swapchain_->show(*frames_, **frame, picture_);
 }
 

@@ -1,4 +1,4 @@
-// A window with a GPU behind it, validation on, and a plain picture to show.
+// A window with a validated GPU and a plain picture to present.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -25,19 +25,20 @@ class ShowCase {
     explicit ShowCase(const std::string& title);
     ~ShowCase();
 
-    // The device and all that is made from it, for the same window: at the start, and after a loss.
+    // Creates the device and everything that depends on it, for the same window: at the start, and after a
+    // loss.
     void make_gpu();
 
-    // One frame in this colour (sRGB values). The size that was drawn comes back in `drawn`.
+    // Presents one frame of this colour (sRGB values). `drawn` receives the size that was drawn.
     Result<bool> show(std::array<int, 3> color);
-    // Frames until one is shown.
+    // Draws frames until one is presented.
     void show_surely(std::array<int, 3> color);
 
     platform::Window& window() { return *window_; }
     gpu::Swapchain& swapchain() { return *swapchain_; }
     [[nodiscard]] const gpu::ValidationLog& log() const { return instance_->log(); }
     VkExtent2D drawn{};
-    std::optional<VkExtent2D> picture_size;  // other than the window's
+    std::optional<VkExtent2D> picture_size;  // if it differs from the window's
 
   private:
     Status prepare_picture(VkExtent2D extent);

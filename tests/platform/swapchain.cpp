@@ -1,4 +1,4 @@
-// Pictures get to the screen, and whatever windows do to a program, the next picture gets there again.
+// Presentation, also after window changes and losses.
 #include "engine/gpu/swapchain.hpp"
 
 #include <map>
@@ -16,9 +16,9 @@ namespace {
 using Color = std::array<int, 3>;
 constexpr Color red{200, 30, 10}, green{20, 180, 40}, blue{0, 60, 250};
 
-// The X server draws when it gets to it: what counts is that it does.
+// The X server draws asynchronously, so wait for the result.
 bool comes_to_be(const Color& color, std::uint32_t x, std::uint32_t y) {
-    return test::eventually([&] { return test::need(test::look_at_screen()).at(x, y) == color; });
+    return test::eventually([&] { return test::need(test::read_screen()).at(x, y) == color; });
 }
 
 bool fills_window(const Color& color, std::uint32_t width, std::uint32_t height) {
@@ -27,7 +27,7 @@ bool fills_window(const Color& color, std::uint32_t width, std::uint32_t height)
 
 }  // namespace
 
-TEST_CASE("a picture fills the window, every value as it is, and frame follows frame") {
+TEST_CASE("Swapchain: a picture fills the window with exact values, frame after frame") {
     test::ShowCase show("plain");
     for (int round = 0; round < 3; ++round)
         for (const Color& color : {red, green, blue}) {
@@ -38,12 +38,12 @@ TEST_CASE("a picture fills the window, every value as it is, and frame follows f
     CHECK(fills_window({39, 234, 216}, 320, 240));
     CHECK(show.swapchain().made() == 1);
     CHECK(show.swapchain().plan().reasons.size() == 3);
-    CHECK(comes_to_be({0, 0, 0}, 400, 300));  // beside the window there is nothing
+    CHECK(comes_to_be({0, 0, 0}, 400, 300));  // nothing beside the window
 }
 
 namespace {
 
-// What the swapchain asks Vulkan for, written down. No driver here fails when a semaphore is used too early.
+// Records the swapchain's Vulkan calls. No driver here fails if a semaphore is used too early.
 struct Record {
     std::vector<VkSemaphore> acquired;                // in order
     std::map<std::uint32_t, VkSemaphore> shown_with;  // by image
@@ -58,7 +58,7 @@ VKAPI_ATTR VkResult VKAPI_CALL recorded_acquire(VkDevice device, VkSwapchainKHR 
                                                 std::uint64_t timeout, VkSemaphore semaphore, VkFence fence,
                                                 std::uint32_t* index) {
     record->acquired.push_back(semaphore);
-    if (record->acquired.size() == 12) {  // one is kept from it, so that others come to be used
+    if (record->acquired.size() == 12) {  // withhold one image, so that others are used
         const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
         VkFence here = VK_NULL_HANDLE;
         vkCreateFence(device, &info, nullptr, &here);
@@ -72,7 +72,7 @@ VKAPI_ATTR VkResult VKAPI_CALL recorded_submit(VkQueue queue, std::uint32_t coun
                                                VkFence fence) {
     if (infos[0].waitSemaphoreInfoCount > 0)
         record->waits_where_barriers_begin &=
-            infos[0].pWaitSemaphoreInfos[0].stageMask == gpu::means(gpu::Use::acquired).stages;
+            infos[0].pWaitSemaphoreInfos[0].stageMask == gpu::use_info(gpu::ResourceUse::acquired).stages;
     return record->submit(queue, count, infos, fence);
 }
 VKAPI_ATTR VkResult VKAPI_CALL recorded_present(VkQueue queue, const VkPresentInfoKHR* info) {
@@ -83,8 +83,7 @@ VKAPI_ATTR VkResult VKAPI_CALL recorded_present(VkQueue queue, const VkPresentIn
 
 }  // namespace
 
-TEST_CASE(
-    "semaphores: another for each frame in flight to wait for an image, and one for each image to be shown") {
+TEST_CASE("Swapchain: one acquire semaphore per frame in flight, one present semaphore per image") {
     test::ShowCase show("semaphores");
     show.show_surely(red);
     Record written;
@@ -107,14 +106,14 @@ TEST_CASE(
     CHECK(written.waits_where_barriers_begin);
 }
 
-TEST_CASE("pictures of another size are stretched over the window") {
+TEST_CASE("Swapchain: pictures of another size are scaled to the window") {
     test::ShowCase show("stretched");
     show.picture_size = VkExtent2D{50, 70};
     show.show_surely(green);
     CHECK(fills_window(green, 320, 240));
 }
 
-TEST_CASE("a new size: larger, smaller and back, shown anew each time") {
+TEST_CASE("Swapchain: new sizes, larger, smaller and back, are presented") {
     test::ShowCase show("sizes");
     show.show_surely(red);
     for (const auto& [width, height] : {std::pair{500U, 400U}, {100U, 90U}, {320U, 240U}}) {
@@ -129,7 +128,7 @@ TEST_CASE("a new size: larger, smaller and back, shown anew each time") {
     CHECK(show.swapchain().made() >= 4);
 }
 
-TEST_CASE("images that are out of date drop one picture and are made anew") {
+TEST_CASE("Swapchain: out-of-date images drop one picture and are recreated") {
     test::ShowCase show("out of date");
     show.show_surely(red);
     {
@@ -147,7 +146,7 @@ TEST_CASE("images that are out of date drop one picture and are made anew") {
     }
     CHECK(show.swapchain().made() == 3);
     CHECK(fills_window(blue, 320, 240));
-    // No image for a while: pictures are dropped, nothing is made anew.
+    // No image for a while: pictures are dropped, nothing is recreated.
     {
         const test::Fault<&vkAcquireNextImageKHR> fault(VK_TIMEOUT, 3);
         for (int i = 0; i < 3; ++i) CHECK_FALSE(test::need(show.show(red)));
@@ -156,7 +155,8 @@ TEST_CASE("images that are out of date drop one picture and are made anew") {
     CHECK(show.swapchain().made() == 3);
 }
 
-TEST_CASE("suboptimal images are shown and made anew once, but not for ever where that does not help") {
+TEST_CASE(
+    "Swapchain: suboptimal images are presented and recreated once, but not again if that does not help") {
     test::ShowCase show("suboptimal");
     show.show_surely(red);
     const test::Fault<&vkQueuePresentKHR> fault(VK_SUBOPTIMAL_KHR, 1000, test::Happens::afterwards);
@@ -166,7 +166,7 @@ TEST_CASE("suboptimal images are shown and made anew once, but not for ever wher
     CHECK(fills_window(green, 320, 240));
 }
 
-TEST_CASE("a lost surface is replaced, wherever it is noticed") {
+TEST_CASE("Swapchain: a lost surface is replaced, wherever the loss is detected") {
     test::ShowCase show("lost surface");
     show.show_surely(red);
     {
@@ -201,7 +201,7 @@ TEST_CASE("a lost surface is replaced, wherever it is noticed") {
     CHECK(fills_window(green, 200, 150));
 }
 
-TEST_CASE("a surface that is lost again and again is an error, and no lost device") {
+TEST_CASE("Swapchain: a surface that is lost repeatedly is an error, but no lost device") {
     test::ShowCase show("lost for good");
     const test::Fault<&vkAcquireNextImageKHR> fault(VK_ERROR_SURFACE_LOST_KHR, 1000);
     Result<bool> shown = true;
@@ -225,7 +225,7 @@ VKAPI_ATTR VkResult VKAPI_CALL minimised(VkPhysicalDevice gpu, VkSurfaceKHR surf
 
 }  // namespace
 
-TEST_CASE("a window without an area shows nothing until it has one again") {
+TEST_CASE("Swapchain: a window without an area shows nothing until it has one again") {
     test::ShowCase show("minimised");
     show.show_surely(red);
     real_capabilities = std::exchange(vkGetPhysicalDeviceSurfaceCapabilitiesKHR, minimised);
@@ -242,7 +242,7 @@ TEST_CASE("a window without an area shows nothing until it has one again") {
     CHECK(fills_window(blue, 320, 240));
 }
 
-TEST_CASE("a lost device is told as such, and all that is made anew shows again in the same window") {
+TEST_CASE("Swapchain: a lost device is reported, and recreated objects present in the same window") {
     test::ShowCase show("lost device");
     show.show_surely(red);
     const auto lost = [&](const Result<bool>& shown) {

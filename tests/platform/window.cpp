@@ -1,4 +1,4 @@
-// What people do to a window arrives as values.
+// Window input arrives as values.
 #include "engine/platform/window.hpp"
 
 #include <doctest/doctest.h>
@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "engine/platform/keys.hpp"
-#include "tests/platform/hand.hpp"
+#include "tests/platform/window_user.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/screen_picture.hpp"
 
@@ -32,7 +32,7 @@ struct Open {
         window = std::move(*opened);
         (void)window->events();
     }
-    // The next event of a kind.
+    // Returns the next event of a type.
     template <class E>
     E next() {
         for (int i = 0; i < 1000; ++i) {
@@ -46,7 +46,7 @@ struct Open {
         FAIL("the event does not come");
         return {};
     }
-    // Events until it is so.
+    // Handles events until the condition holds.
     template <class Test>
     bool until(const Test& test) {
         return test::eventually([&] {
@@ -58,9 +58,9 @@ struct Open {
 
 }  // namespace
 
-TEST_CASE("keys, buttons, cursor, wheel and the wish to close arrive in order, with where and what") {
+TEST_CASE("Window: keys, buttons, cursor, wheel and close requests arrive in order with their positions") {
     Open open("events");
-    test::Hand hand("events");
+    test::WindowUser hand("events");
     hand.key("r");
     const auto down = open.next<KeyEvent>();
     CHECK(down.key == Key::r);
@@ -93,7 +93,8 @@ TEST_CASE("keys, buttons, cursor, wheel and the wish to close arrive in order, w
     CHECK(std::get<CursorEvent>(events[0]).at == glm::dvec2(40, 50));
     CHECK(std::get<ButtonEvent>(events[1]).button == Button::left);
     CHECK(std::get<ButtonEvent>(events[1]).down);
-    CHECK(std::get<ButtonEvent>(events[1]).at == glm::dvec2(40, 50));  // where it was then
+    CHECK(std::get<ButtonEvent>(events[1]).at ==
+          glm::dvec2(40, 50));  // the position at the time of the event
     CHECK(std::get<CursorEvent>(events[2]).at == glm::dvec2(60, 45));
     CHECK_FALSE(std::get<ButtonEvent>(events[3]).down);
     CHECK(std::get<ButtonEvent>(events[3]).at == glm::dvec2(60, 45));
@@ -104,7 +105,7 @@ TEST_CASE("keys, buttons, cursor, wheel and the wish to close arrive in order, w
     CHECK(std::get<WheelEvent>(events[7]).at == glm::dvec2(10, 20));
 }
 
-TEST_CASE("a window has the size that was asked for, tells a new one, and its scale") {
+TEST_CASE("Window: has the requested size, and reports a new size and its scale") {
     Open open("size");
     CHECK(open.window->pixels().width == 300);
     CHECK(open.window->pixels().height == 200);
@@ -114,9 +115,9 @@ TEST_CASE("a window has the size that was asked for, tells a new one, and its sc
     CHECK(resized.width == 410);
     CHECK(resized.height == 220);
     CHECK(open.window->pixels().width == 410);
-    Window moved = std::move(*open.window);  // callbacks follow
+    Window moved = std::move(*open.window);  // callbacks follow the move
     moved.set_title("renamed");
-    test::Hand("renamed").key("a");
+    test::WindowUser("renamed").key("a");
     CHECK(test::eventually([&] {
         const std::vector<Event> events = moved.events();
         return std::any_of(events.begin(), events.end(),
@@ -124,11 +125,11 @@ TEST_CASE("a window has the size that was asked for, tells a new one, and its sc
     }));
 }
 
-TEST_CASE("full screen takes the display and gives it back: the window is where it was") {
+TEST_CASE("Window: full screen fills the display, and leaving it restores the window's place") {
     Open open("whole");
-    const test::Hand hand("whole");
-    const test::Hand::Place before = hand.place();
-    const auto seen = test::look_at_screen();
+    const test::WindowUser hand("whole");
+    const test::WindowUser::WindowRectangle before = hand.rectangle();
+    const auto seen = test::read_screen();
     REQUIRE(seen.has_value());
     const test::ScreenPicture& screen = *seen;
     for (int round = 0; round < 2; ++round) {
@@ -136,11 +137,11 @@ TEST_CASE("full screen takes the display and gives it back: the window is where 
         CHECK(open.window->full_screen());
         CHECK(open.until([&] { return open.window->pixels().width == screen.width; }));
         CHECK(open.window->pixels().height == screen.height);
-        open.window->set_full_screen(true);  // is so already
+        open.window->set_full_screen(true);  // already in full screen
         open.window->set_full_screen(false);
         CHECK_FALSE(open.window->full_screen());
         CHECK(open.until([&] { return open.window->pixels().width == 300; }));
-        const test::Hand::Place after = hand.place();
+        const test::WindowUser::WindowRectangle after = hand.rectangle();
         CHECK(after.x == before.x);
         CHECK(after.y == before.y);
         CHECK(after.width == 300);
@@ -148,9 +149,9 @@ TEST_CASE("full screen takes the display and gives it back: the window is where 
     }
 }
 
-TEST_CASE("a window can begin with the whole display, or be there to be asked only") {
+TEST_CASE("Window: can start in full screen or hidden") {
     Open open("asks");
-    const auto screen = test::look_at_screen();
+    const auto screen = test::read_screen();
     REQUIRE(screen.has_value());
     WindowOptions options;
     options.full_screen = true;
@@ -164,7 +165,7 @@ TEST_CASE("a window can begin with the whole display, or be there to be asked on
     CHECK(Window::open(*open.desktop, options).has_value());
 }
 
-TEST_CASE("without a display the error says what is missing") {
+TEST_CASE("Desktop: without a display the error says what is missing") {
     const std::string display = std::getenv("DISPLAY");
     unsetenv("DISPLAY");
     const Result<Desktop> none = Desktop::open();
@@ -173,15 +174,15 @@ TEST_CASE("without a display the error says what is missing") {
     CHECK(none.error().code == ErrorCode::no_device);
     CHECK(none.error().what.find("DISPLAY") != std::string::npos);
     CHECK(none.error().expected.find("display") != std::string::npos);
-    CHECK(Desktop::open().has_value());  // and with one it opens again
+    CHECK(Desktop::open().has_value());  // with a display it opens again
 }
 
-TEST_CASE("letters are what is printed, everything else is where it is") {
+TEST_CASE("Keys: letters by the layout, other keys by position") {
     // GLFW's numbers: A is 65, Q is 81, 1 is 49, keypad 1 is 321, F1 is 290, Escape is 256.
     CHECK(key_of(65, "q") == Key::q);  // a French keyboard
     CHECK(key_of(65, "Q") == Key::q);
     CHECK(key_of(65, nullptr) == Key::a);
-    CHECK(key_of(65, "ф") == Key::a);  // a Russian one
+    CHECK(key_of(65, "ф") == Key::a);  // a Russian keyboard
     CHECK(key_of(49, "&") == Key::digit_1);
     CHECK(key_of(321, "1") == Key::digit_1);
     CHECK(key_of(300, nullptr) == Key::f11);

@@ -10,7 +10,7 @@ using namespace bolt::platform;
 
 namespace {
 
-const render::Box box{{-0.2F, -0.1F, -0.3F}, {0.4F, 0.3F, 0.1F}};
+const render::BoundingBox box{{-0.2F, -0.1F, -0.3F}, {0.4F, 0.3F, 0.1F}};
 
 struct AtWork {
     Hands hands;

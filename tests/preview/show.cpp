@@ -7,8 +7,8 @@
 #include <optional>
 #include <thread>
 
-#include "engine/gpu/restarts.hpp"
-#include "tests/platform/hand.hpp"
+#include "engine/gpu/device_loss_policy.hpp"
+#include "tests/platform/window_user.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/screen_picture.hpp"
 
@@ -53,7 +53,7 @@ struct Preview {
 
 // Grey in the corner, and the paint of the model a little below the middle of a window of this size.
 bool cover_is_seen(std::uint32_t width, std::uint32_t height) {
-    const auto screen = test::look_at_screen();
+    const auto screen = test::read_screen();
     if (!screen) return false;
     const auto corner = screen->at(width - 2, 2),
                paint = screen->at(width / 2 - height / 24, 13 * height / 20);
@@ -101,7 +101,7 @@ TEST_CASE("shown until somebody closes it") {
     bool seen = false;
     std::thread somebody([&] {
         seen = test::eventually([] { return cover_is_seen(160, 120); });
-        test::Hand("cover-m8").close();
+        test::WindowUser("cover-m8").close();
     });
     const Status shown = preview.show();
     somebody.join();
@@ -116,7 +116,7 @@ TEST_CASE("a GPU that is lost is started again, and the picture comes back where
     bool seen = false, seen_large = false;
     std::thread somebody([&] {
         seen = test::eventually([] { return cover_is_seen(160, 120); });
-        test::Hand hand("cover-m8");
+        test::WindowUser hand("cover-m8");
         hand.key("F11");  // the second frame, which is lost
         seen_large = test::eventually([] { return cover_is_seen(1280, 800); });
         hand.key("Escape");
@@ -141,9 +141,9 @@ TEST_CASE("a GPU that is lost twice in short succession is given up, with the ex
 }
 
 TEST_CASE("a lost GPU is worth another start only after it has worked for a while") {
-    gpu::Restarts restarts;
-    CHECK(restarts.again(100.0));
-    CHECK_FALSE(restarts.again(109.9));
-    CHECK(restarts.again(119.9));
-    CHECK_FALSE(restarts.again(120.0));
+    gpu::DeviceLossPolicy loss_policy;
+    CHECK(loss_policy.should_restart(100.0));
+    CHECK_FALSE(loss_policy.should_restart(109.9));
+    CHECK(loss_policy.should_restart(119.9));
+    CHECK_FALSE(loss_policy.should_restart(120.0));
 }

@@ -1,4 +1,4 @@
-// The parts of the shipped reducer: sound solids, plausible masses, nothing in the place of something else.
+// The parts of the shipped reducer: valid solids, plausible masses, no overlaps.
 #include <doctest/doctest.h>
 
 #include <BRepCheck_Analyzer.hxx>
@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "shipped.hpp"
-#include "tools/models/reducer/layout.hpp"
+#include "tools/assets/models/reducer/layout.hpp"
 
 namespace {
 
@@ -24,7 +24,7 @@ int solids(const TopoDS_Shape& shape) {
     return n;
 }
 
-// What a gear sweeps as it turns.
+// The volume that a gear sweeps when it turns.
 TopoDS_Shape swept(const GearSpec& gear, double x, double y, double margin) {
     const double radius = circles(gear).tip_mm / 2.0 + margin, half = gear.width_mm / 2.0 + margin;
     return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, y - half, 0), gp_Dir(0, 1, 0)), radius, 2.0 * half)
@@ -33,7 +33,7 @@ TopoDS_Shape swept(const GearSpec& gear, double x, double y, double margin) {
 
 }  // namespace
 
-TEST_CASE("every part is made of valid closed solids with material inside") {
+TEST_CASE("Reducer: every part consists of valid closed solids of positive volume") {
     for (const auto& [name, placed] : shipped()) {
         CAPTURE(name);
         CHECK(solids(placed.shape) >= 1);
@@ -45,7 +45,7 @@ TEST_CASE("every part is made of valid closed solids with material inside") {
     for (const char* casting : {"casing_upper", "casing_lower"}) CHECK(solids(part(casting)) == 1);
 }
 
-TEST_CASE("masses are those of a reducer of this size") {
+TEST_CASE("Reducer: masses are plausible for its size") {
     const double upper = volume(part("casing_upper")) * iron, lower = volume(part("casing_lower")) * iron;
     MESSAGE("upper " << upper << " kg, lower " << lower << " kg, wheel " << volume(part("wheel_2")) * steel
                      << " kg");
@@ -53,18 +53,18 @@ TEST_CASE("masses are those of a reducer of this size") {
     CHECK(upper < 60.0);
     CHECK(lower > 35.0);
     CHECK(lower < 80.0);
-    // A wheel weighs less than the disc of its tip circle and more than a third of it.
+    // A wheel weighs between a third of its tip circle's disc and the whole disc.
     const double disc = volume(swept(wheel_2, 0, 0, 0.0));
     CHECK(volume(part("wheel_2")) < disc);
     CHECK(volume(part("wheel_2")) > disc / 3.0);
     double all = 0.0;
     for (const auto& [name, placed] : shipped())
         all += volume(placed.shape) * (name.rfind("casing", 0) == 0 ? iron : steel);
-    CHECK(all > 150.0);  // the catalogues' ZQ350 weighs about 200 kg
+    CHECK(all > 150.0);  // catalogues give about 200 kg for a ZQ350
     CHECK(all < 280.0);
 }
 
-TEST_CASE("turning gears stay at least 5 mm clear of the casing") {
+TEST_CASE("Reducer: turning gears keep at least 5 mm clearance to the casing") {
     const struct {
         const GearSpec* gear;
         double x, y;
@@ -78,14 +78,14 @@ TEST_CASE("turning gears stay at least 5 mm clear of the casing") {
             CAPTURE(half);
             CHECK(distance(swept(*g.gear, g.x, g.y, 0.0), part(half)) >= 5.0);
         }
-    // And the wheels of one shaft do not reach the other shafts.
+    // The wheels of one shaft do not reach the other shafts.
     CHECK(distance(swept(wheel_1, shafts[1].x, pair_1_y, 0.0), part("shaft_output")) > 5.0);
     CHECK(distance(swept(wheel_2, shafts[2].x, pair_2_y, 0.0), part("shaft_input")) > 5.0);
     CHECK(distance(swept(wheel_1, shafts[1].x, pair_1_y, 0.0), swept(wheel_2, shafts[2].x, pair_2_y, 0.0)) >
           5.0);
 }
 
-TEST_CASE("no part stands in another") {
+TEST_CASE("Reducer: no part overlaps another") {
     std::vector<std::pair<std::string, std::string>> near = {{"casing_upper", "casing_lower"},
                                                              {"shaft_intermediate", "wheel_1"},
                                                              {"shaft_output", "wheel_2"},
@@ -129,7 +129,7 @@ TEST_CASE("no part stands in another") {
             near.emplace_back("bearing_" + place, "shaft_" + shaft);
             near.emplace_back("bearing_" + place, "cap_" + place);
             near.emplace_back("cap_" + place + "_screw_1", "cap_" + place);
-            if (side == "back") continue;  // the two sides of the casing are alike
+            if (side == "back") continue;  // the casing is symmetric
             near.emplace_back("bearing_" + place, "casing_upper");
             near.emplace_back("bearing_" + place, "casing_lower");
             near.emplace_back("cap_" + place, "casing_upper");
@@ -141,8 +141,8 @@ TEST_CASE("no part stands in another") {
         CAPTURE(b);
         CHECK(common_volume(part(a), part(b)) < 0.5);  // mm3
     }
-    // Plain cylinders stand for the bolts: no thread has to be cut to see that a hole is free.
-    for (const JointPlace& j : joints) {
+    // Plain cylinders replace the bolts: their threads do not matter for clearance.
+    for (const JointLayout& j : joints) {
         const double t = thickness(j);
         const TopoDS_Shape shank =
             BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(j.x, j.y, -t), gp_Dir(0, 0, 1)), 8.0, 2.0 * t).Shape();
@@ -151,7 +151,7 @@ TEST_CASE("no part stands in another") {
     }
 }
 
-TEST_CASE("the check of overlaps can fail") {
+TEST_CASE("Reducer: the overlap check finds a cylinder that is too thick for its hole") {
     const TopoDS_Shape thick =
         BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(joints[0].x, joints[0].y, 10), gp_Dir(0, 0, 1)), 9.0, 20.0)
             .Shape();

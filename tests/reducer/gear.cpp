@@ -1,6 +1,6 @@
 // The gears against the closed formulas of ISO 21771: circles, involute flanks, and teeth that mesh without
-// cutting into each other.
-#include "tools/models/reducer/gear.hpp"
+// overlap.
+#include "tools/assets/models/reducer/gear.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,19 +10,19 @@
 #include <numbers>
 #include <vector>
 
-#include "tools/models/reducer/layout.hpp"
+#include "tools/assets/models/reducer/layout.hpp"
 
 namespace {
 
 using namespace bolt::models::reducer;
 constexpr double pi = std::numbers::pi;
 
-struct Pair {
+struct GearPair {
     const GearSpec* pinion;
     const GearSpec* wheel;
     double centre_mm;
 };
-const Pair pairs[] = {{&pinion_1, &wheel_1, 150.0}, {&pinion_2, &wheel_2, 200.0}};
+const GearPair pairs[] = {{&pinion_1, &wheel_1, 150.0}, {&pinion_2, &wheel_2, 200.0}};
 
 // Half of a gap's outline as (radius, angle from the gap's middle), root to tip.
 struct GapSide {
@@ -45,7 +45,7 @@ GapSide gap_side(const GearSpec& gear) {
     return side;
 }
 
-// Half the gap's opening at a radius, as an angle; nothing where there is metal or no tooth at all.
+// Half the gap's opening at a radius, as an angle; 0 below the root circle.
 double opening(const GapSide& side, double radius) {
     const auto at = std::lower_bound(side.radius.begin(), side.radius.end(), radius);
     if (at == side.radius.begin()) return 0.0;
@@ -55,20 +55,22 @@ double opening(const GapSide& side, double radius) {
     return side.angle[i - 1] + t * (side.angle[i] - side.angle[i - 1]);
 }
 
-// Least room (mm along the circle) that the teeth of `a`, turned by `turn_a` about the origin, leave to the
-// flanks of `b` about (centre, 0), turned by `turn_b`, on either side. Turns are those of a gap's middle.
-struct Room {
+// The smallest clearance (mm along the circle) between the teeth of `a`, turned by `turn_a` about the origin,
+// and the left and right flanks of `b`, turned by `turn_b` about (centre, 0). Both angles are those of a
+// gap's middle.
+struct FlankClearance {
     double left = 1e9, right = 1e9;
 };
 
-Room room(const GearSpec& a, double turn_a, const GearSpec& b, double turn_b, double centre) {
+FlankClearance flank_clearance(const GearSpec& a, double turn_a, const GearSpec& b, double turn_b,
+                               double centre) {
     const GapSide side_a = gap_side(a), side_b = gap_side(b);
     const double pitch_a = 2.0 * pi / a.teeth, pitch_b = 2.0 * pi / b.teeth;
-    Room least;
+    FlankClearance least;
     for (int gap = -3; gap <= 3; ++gap) {
         for (std::size_t i = 0; i < side_a.radius.size(); ++i) {
             for (const double sign : {-1.0, 1.0}) {
-                // The gap of a that lies nearest to the centre line, and its neighbours.
+                // The gap of a that is nearest to the centre line, and its neighbours.
                 const double middle = turn_a + pitch_a * (gap - std::round(turn_a / pitch_a));
                 const double angle = middle + sign * side_a.angle[i];
                 const double x = side_a.radius[i] * std::cos(angle) - centre,
@@ -79,8 +81,8 @@ Room room(const GearSpec& a, double turn_a, const GearSpec& b, double turn_b, do
                 const double phase =
                     std::remainder(std::atan2(y, x) - turn_b, pitch_b);  // from the gap's middle
                 const double half = opening(side_b, radius);
-                // +angle of a's gap is the lower flank of the tooth above it, and about b's axis, which lies
-                // to the right, the lower side of a gap is the one at greater angles.
+                // The +angle side of a's gap is the lower flank of the tooth above it. About b's axis, which
+                // is on the right, the lower side of a gap is at larger angles.
                 if (sign > 0 || half < std::abs(phase))
                     least.right = std::min(least.right, (half - phase) * radius);
                 if (sign < 0 || half < std::abs(phase))
@@ -93,12 +95,13 @@ Room room(const GearSpec& a, double turn_a, const GearSpec& b, double turn_b, do
 
 }  // namespace
 
-TEST_CASE("circles of the four gears: reference, base, tip and root diameters") {
-    for (const Pair& pair : pairs)
+TEST_CASE("Gears: reference, base, tip and root diameters follow ISO 21771") {
+    for (const GearPair& pair : pairs)
         for (const GearSpec* gear : {pair.pinion, pair.wheel}) {
             const GearCircles c = circles(*gear);
             const double m = gear->module_mm * 1e-3, cos_beta = std::cos(gear->helix);
-            // tan(alpha_t) = tan(20 deg) / cos(beta); cos from tan, so that no formula is used twice.
+            // tan(alpha_t) = tan(20 deg) / cos(beta). cos is computed from tan, so that the test does not
+            // repeat the code's formula.
             const double tan_t = std::tan(20.0 * pi / 180.0) / cos_beta;
             const double d = gear->teeth * m / cos_beta;
             CHECK(std::abs(c.reference_mm * 1e-3 - d) < 1e-6);
@@ -108,8 +111,8 @@ TEST_CASE("circles of the four gears: reference, base, tip and root diameters") 
         }
 }
 
-TEST_CASE("helix and modules give the centre distances without a working pressure angle of their own") {
-    for (const Pair& pair : pairs) {
+TEST_CASE("Gears: helix and modules give the centre distances at the reference pressure angle") {
+    for (const GearPair& pair : pairs) {
         const double sum = (circles(*pair.pinion).reference_mm + circles(*pair.wheel).reference_mm) / 2.0;
         CHECK(std::abs(sum - pair.centre_mm) < 1e-3);
         CHECK(pair.pinion->shift + pair.wheel->shift == doctest::Approx(0.0));
@@ -120,16 +123,16 @@ TEST_CASE("helix and modules give the centre distances without a working pressur
     CHECK(wheel_1.hand == pinion_2.hand);  // axial forces of the intermediate shaft oppose each other
 }
 
-TEST_CASE("profile shift is what the pinions need against undercut, and no more than a hundredth above") {
-    for (const Pair& pair : pairs) {
+TEST_CASE("Gears: the pinions' profile shift prevents undercut and exceeds the minimum by less than 0.01") {
+    for (const GearPair& pair : pairs) {
         CHECK(pair.pinion->shift >= least_shift(*pair.pinion));
         CHECK(pair.pinion->shift < least_shift(*pair.pinion) + 0.01);
         CHECK(pair.wheel->shift >= least_shift(*pair.wheel));
     }
 }
 
-TEST_CASE("flanks are involutes of the base circle, and run into the fillet without a step or a kink") {
-    for (const Pair& pair : pairs)
+TEST_CASE("Gears: flanks are involutes of the base circle and join the fillet without a step or a kink") {
+    for (const GearPair& pair : pairs)
         for (const GearSpec* gear : {pair.pinion, pair.wheel}) {
             const double base = circles(*gear).base_mm / 2.0;
             const FlankProfile profile = flank_profile(*gear, 5, 60);
@@ -137,8 +140,8 @@ TEST_CASE("flanks are involutes of the base circle, and run into the fillet with
             for (std::size_t i = 0; i < profile.flank.size(); ++i) {
                 const Point2 p = profile.flank[i];
                 const double r = std::hypot(p.x, p.y);
-                // The unrolled thread: its length sqrt(r^2 - rb^2) is the arc that it has left on the base
-                // circle.
+                // The taut string's length sqrt(r^2 - rb^2) equals the arc of the base circle that it was
+                // unwound from.
                 const double length = std::sqrt(r * r - base * base);
                 const double touch = std::atan2(p.y, p.x) + std::atan2(length, base) - length / base;
                 if (i == 0) start = touch;
@@ -154,8 +157,8 @@ TEST_CASE("flanks are involutes of the base circle, and run into the fillet with
         }
 }
 
-TEST_CASE("teeth fill the pitch but for the backlash") {
-    for (const Pair& pair : pairs) {
+TEST_CASE("Gears: the teeth fill the pitch except for the backlash") {
+    for (const GearPair& pair : pairs) {
         const double r1 = circles(*pair.pinion).reference_mm / 2.0,
                      r2 = circles(*pair.wheel).reference_mm / 2.0;
         const double teeth =
@@ -167,32 +170,33 @@ TEST_CASE("teeth fill the pitch but for the backlash") {
     }
 }
 
-TEST_CASE(
-    "the pairs mesh: over a whole pitch no tooth cuts into another, and the play is the stated backlash") {
-    for (const Pair& pair : pairs) {
+TEST_CASE("Gears: over a whole pitch no teeth overlap, and the clearance is the stated backlash") {
+    for (const GearPair& pair : pairs) {
         const GearSpec &p = *pair.pinion, &w = *pair.wheel;
         const double ratio = static_cast<double>(p.teeth) / w.teeth;
         const double backlash = p.thinning_mm + w.thinning_mm;
         for (int step = 0; step < 24; ++step) {
             const double turn = 2.0 * pi / p.teeth * step / 24.0;
-            // As they are built: a tooth of the pinion and a gap of the wheel on the line of centres.
-            const Room r = room(p, pi / p.teeth + turn, w, pi - turn * ratio, pair.centre_mm);
+            // As in the model: a tooth of the pinion and a gap of the wheel are on the line of centres.
+            const FlankClearance r =
+                flank_clearance(p, pi / p.teeth + turn, w, pi - turn * ratio, pair.centre_mm);
             CAPTURE(p.teeth);
             CAPTURE(step);
             CHECK(r.left > 0.0);
             CHECK(r.right > 0.0);
-            // Conjugate profiles: the play does not depend on where the teeth stand.
+            // Profiles are conjugate: the clearance does not depend on the rotation.
             CHECK(r.left + r.right == doctest::Approx(backlash).epsilon(0.1));
         }
     }
 }
 
-TEST_CASE("the check of the mesh can fail: a centre distance too short, a wheel half a pitch off") {
+TEST_CASE("Gears: the mesh check finds a short centre distance and a wheel that is half a pitch off") {
     const double ratio = 14.0 / 85.0;
-    const Room close = room(pinion_1, pi / 14, wheel_1, pi, 149.7);
+    const FlankClearance close = flank_clearance(pinion_1, pi / 14, wheel_1, pi, 149.7);
     CHECK(std::min(close.left, close.right) < 0.0);
-    const Room off = room(pinion_1, pi / 14, wheel_1, pi + pi / 85.0, 150.0);
+    const FlankClearance off = flank_clearance(pinion_1, pi / 14, wheel_1, pi + pi / 85.0, 150.0);
     CHECK(std::min(off.left, off.right) < 0.0);
-    const Room same_way = room(pinion_1, pi / 14 + 0.1, wheel_1, pi + 0.1 * ratio, 150.0);
+    const FlankClearance same_way =
+        flank_clearance(pinion_1, pi / 14 + 0.1, wheel_1, pi + 0.1 * ratio, 150.0);
     CHECK(std::min(same_way.left, same_way.right) < 0.0);
 }

@@ -1,4 +1,4 @@
-// The twelve joints: where assembly.json says they are, the CAD has the hole, the seat and the fasteners.
+// The twelve joints: the CAD model has hole, seat and fasteners where assembly.json places them.
 #include <doctest/doctest.h>
 
 #include <BRepAdaptor_Curve.hxx>
@@ -17,37 +17,37 @@
 #include "content/format/load.hpp"
 #include "engine/base/file.hpp"
 #include "shipped.hpp"
-#include "tools/models/reducer/layout.hpp"
+#include "tools/assets/models/reducer/layout.hpp"
 
 namespace {
 
 using namespace reducer_test;
 using bolt::models::reducer::bolt_hole;
-using bolt::models::reducer::JointPlace;
+using bolt::models::reducer::JointLayout;
 constexpr double pi = std::numbers::pi;
 
 // A joint of assembly.json in the CAD's frame and unit: glTF (x, y, z) = (X, Z, -Y) / 1000.
-struct Joint {
+struct CadJoint {
     std::string id;
     double x, y, z;
     double upper, lower;  // thickness of the two members
     double bolt_length;
 };
 
-const std::vector<Joint>& joints() {
-    static const std::vector<Joint> all = [] {
+const std::vector<CadJoint>& joints() {
+    static const std::vector<CadJoint> all = [] {
         const auto path = bolt::content::content_folder() / "assemblies/zq350/assembly.json";
         const auto text = bolt::read_file(path, 1U << 20U, bolt::ErrorCode::bad_content);
         REQUIRE(text.has_value());
         const auto loaded = bolt::content::parse_assembly(*text, path.string());
         REQUIRE(loaded.ok());
-        std::vector<Joint> list;
+        std::vector<CadJoint> list;
         for (const auto& joint : loaded.assembly.joints) {
             const auto& d = joint.design;
             CHECK(joint.node == "joint_" + d.id);
             CHECK(d.axis.y == 1.0);
             REQUIRE(d.members.size() == 2);
-            CHECK(d.washer_under_nut);  // the seat is the washer's top, position_mm lies under it
+            CHECK(d.washer_under_nut);  // the seat is the washer's top; position_mm is under the washer
             const double under_washer = d.seat.y - d.thread.size.washer_thickness;
             list.push_back({d.id, d.seat.x * 1e3, -d.seat.z * 1e3, under_washer * 1e3,
                             d.members[1].thickness * 1e3, d.members[0].thickness * 1e3, d.bolt_length * 1e3});
@@ -73,7 +73,7 @@ int holes_at(const TopoDS_Shape& shape, double x, double y, double diameter) {
     return found;
 }
 
-// Points every millimetre along the upper casing's outline at the heights that a nut on a seat at z takes.
+// Points every millimetre along the upper casing's outline, at three heights of a nut on a seat at z.
 const std::vector<gp_Pnt>& outline_above(double z) {
     static std::map<double, std::vector<gp_Pnt>> made;
     const auto [at, is_new] = made.try_emplace(z);
@@ -94,19 +94,19 @@ const std::vector<gp_Pnt>& outline_above(double z) {
 
 }  // namespace
 
-TEST_CASE("every joint has a bolt hole of 17.5 mm through both halves, on its axis to 0.01 mm") {
-    for (const Joint& j : joints()) {
+TEST_CASE("Reducer joints: both halves have a bolt hole of 17.5 mm within 0.01 mm of the joint's axis") {
+    for (const CadJoint& j : joints()) {
         CAPTURE(j.id);
         for (const char* half : {"casing_upper", "casing_lower"}) {
             CHECK(holes_at(part(half), j.x, j.y, bolt_hole) >= 1);
             CHECK(holes_at(part(half), j.x + 0.02, j.y, bolt_hole) == 0);
-            CHECK(crossings_z(part(half), j.x, j.y).empty());  // and nothing stands in it
+            CHECK(crossings_z(part(half), j.x, j.y).empty());  // the hole is empty
         }
     }
 }
 
-TEST_CASE("under washer and head the members are as thick as assembly.json says, all round") {
-    for (const Joint& j : joints())
+TEST_CASE("Reducer joints: under washer and head the members have the thickness of assembly.json") {
+    for (const CadJoint& j : joints())
         for (const double radius : {9.5, 12.0, 14.9})
             for (int i = 0; i < 12; ++i) {
                 const double x = j.x + radius * std::cos(i * pi / 6.0),
@@ -120,15 +120,15 @@ TEST_CASE("under washer and head the members are as thick as assembly.json says,
                 CHECK(std::abs(upper.back() - upper.front() - j.upper) < 0.01);
                 CHECK(std::abs(upper.front()) < 0.01);
                 CHECK(std::abs(lower.back()) < 0.01);
-                // A screw hole of an end cap may cross in between, a foot lie further down: the seat is
-                // there.
+                // A screw hole of an end cap may lie in between, and a foot further down, so any crossing may
+                // be the seat.
                 CHECK(std::any_of(lower.begin(), lower.end(),
                                   [&](double z) { return std::abs(z + j.lower) < 0.01; }));
             }
 }
 
-TEST_CASE("bolt, washers and nut stand on the joint's axis, where the seats are") {
-    for (const Joint& j : joints()) {
+TEST_CASE("Reducer joints: bolt, washers and nut are on the joint's axis at their seats") {
+    for (const CadJoint& j : joints()) {
         CAPTURE(j.id);
         const struct {
             const char* piece;
@@ -148,19 +148,19 @@ TEST_CASE("bolt, washers and nut stand on the joint's axis, where the seats are"
         const auto bolt = crossings_z(part(j.id + "_bolt"), j.x, j.y);
         REQUIRE(bolt.size() == 2);
         CHECK(std::abs(bolt[1] - (-j.lower - 3.0 + j.bolt_length)) < 0.01);
-        CHECK(bolt[1] > nut[1]);  // the point shows above the nut
+        CHECK(bolt[1] > nut[1]);  // the point protrudes above the nut
     }
 }
 
-TEST_CASE("at every nut a 24 mm wrench finds at least 30 degrees free, in the plane of the nut") {
-    // Outline of the wrench from above: a head of 53 mm across, a handle of 26 mm to 255 mm. Its nut may turn
-    // by 30 degrees between two settings, a 15 degree head turned over serves half of that.
+TEST_CASE("Reducer joints: a 24 mm wrench has at least 30 degrees free at every nut") {
+    // The wrench seen from above: a head of 53 mm diameter and a handle 26 mm wide up to 255 mm. Two settings
+    // on a hexagon are 60 degrees apart; a head at 15 degrees, turned over, halves that to 30.
     constexpr double head = 26.5, handle = 13.0, length = 255.0;
-    for (const Joint& j : joints()) {
+    for (const CadJoint& j : joints()) {
         CAPTURE(j.id);
         std::vector<gp_Pnt> obstacles = outline_above(j.z);
         REQUIRE(!obstacles.empty());
-        for (const Joint& other : joints())
+        for (const CadJoint& other : joints())
             if (other.id != j.id && std::abs(other.z - j.z) < 20.0)
                 for (int i = 0; i < 24; ++i)
                     obstacles.emplace_back(other.x + 13.9 * std::cos(i * pi / 12.0),

@@ -32,7 +32,7 @@ std::string name_of(const TDF_Label& label) {
 }
 
 void collect(const TDF_Label& label, const TopLoc_Location& above, const std::string& path,
-             std::map<std::string, Placed>& parts) {
+             std::map<std::string, PlacedPart>& parts) {
     TDF_LabelSequence children;
     XCAFDoc_ShapeTool::GetComponents(label, children);
     for (int i = 1; i <= children.Length(); ++i) {
@@ -50,7 +50,7 @@ void collect(const TDF_Label& label, const TopLoc_Location& above, const std::st
     }
 }
 
-std::map<std::string, Placed> read() {
+std::map<std::string, PlacedPart> read() {
     const auto file = bolt::content::content_folder() / "assemblies/zq350/zq350.step";
     Handle(TDocStd_Document) document;
     XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", document);
@@ -60,15 +60,15 @@ std::map<std::string, Placed> read() {
     REQUIRE(reader.Transfer(document));
     TDF_LabelSequence roots;
     XCAFDoc_DocumentTool::ShapeTool(document->Main())->GetFreeShapes(roots);
-    std::map<std::string, Placed> parts;
+    std::map<std::string, PlacedPart> parts;
     for (int i = 1; i <= roots.Length(); ++i) collect(roots.Value(i), {}, "", parts);
     return parts;
 }
 
 }  // namespace
 
-const std::map<std::string, Placed>& shipped() {
-    static const std::map<std::string, Placed> parts = read();
+const std::map<std::string, PlacedPart>& shipped() {
+    static const std::map<std::string, PlacedPart> parts = read();
     return parts;
 }
 
@@ -76,13 +76,6 @@ const TopoDS_Shape& part(const std::string& name) {
     const auto found = shipped().find(name);
     REQUIRE_MESSAGE(found != shipped().end(), name);
     return found->second.shape;
-}
-
-std::vector<std::string> names_with(const std::string& start) {
-    std::vector<std::string> names;
-    for (const auto& [name, placed] : shipped())
-        if (name.rfind(start, 0) == 0) names.push_back(name);
-    return names;
 }
 
 double volume(const TopoDS_Shape& shape) {
@@ -104,9 +97,9 @@ double distance(const TopoDS_Shape& a, const TopoDS_Shape& b) {
 }
 
 std::vector<double> crossings_z(const TopoDS_Shape& shape, double x, double y) {
-    // Made once for a shape: hundreds of lines are asked of two castings.
-    static std::map<const void*, IntCurvesFace_ShapeIntersector> made;
-    const auto [at, is_new] = made.try_emplace(&shape);
+    // One intersector a shape, because the tests query two castings with hundreds of lines.
+    static std::map<const void*, IntCurvesFace_ShapeIntersector> cache;
+    const auto [at, is_new] = cache.try_emplace(&shape);
     IntCurvesFace_ShapeIntersector& faces = at->second;
     if (is_new) faces.Load(shape, 1e-7);
     faces.Perform(gp_Lin(gp_Pnt(x, y, 0.0), gp_Dir(0, 0, 1)), -1000.0, 1000.0);

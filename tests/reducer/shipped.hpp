@@ -1,4 +1,4 @@
-// The shipped STEP file of the reducer, read once: every placed part by its name.
+// The parts of the reducer's shipped STEP file by name, and measurements on them. The file is read once.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -8,20 +8,19 @@
 
 namespace reducer_test {
 
-struct Placed {
-    std::string path;  // names of the groups above it
+struct PlacedPart {
+    std::string path;  // names of the groups above it, separated by /
     TopoDS_Shape shape;
 };
 
-const std::map<std::string, Placed>& shipped();
+const std::map<std::string, PlacedPart>& shipped();
 const TopoDS_Shape& part(const std::string& name);
-std::vector<std::string> names_with(const std::string& start);
 
 double volume(const TopoDS_Shape& shape);
 double common_volume(const TopoDS_Shape& a, const TopoDS_Shape& b);
 double distance(const TopoDS_Shape& a, const TopoDS_Shape& b);
 
-// Where a line parallel to Z crosses the faces of a shipped part, in ascending order.
+// z of the crossings of the faces of a shipped part with the line through (x, y) parallel to Z, ascending.
 std::vector<double> crossings_z(const TopoDS_Shape& shape, double x, double y);
 
 }  // namespace reducer_test

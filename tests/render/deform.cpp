@@ -1,5 +1,5 @@
-// Skins and morph targets on the GPU against the same in double precision, and against models that were bent
-// before they were uploaded.
+// Skins and morph targets on the GPU, compared with double precision and with models deformed before the
+// upload.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -25,14 +25,14 @@ constexpr VkExtent2D extent{160, 120};
 float number(Random& random) { return static_cast<float>(random.uniform(-1.0, 1.0)); }
 glm::vec3 vector(Random& random) { return {number(random), number(random), number(random)}; }
 
-// Turned by less than half a turn from each other, so that no blend of them turns anything inside out.
+// Rotations that differ by less than half a turn, so that no blend of them mirrors the mesh.
 glm::mat4 joint(Random& random) {
     const glm::quat turn(2.0F, number(random), number(random), number(random));
     return glm::translate(glm::mat4(1.0F), vector(random)) * glm::mat4_cast(glm::normalize(turn)) *
            glm::scale(glm::mat4(1.0F), glm::vec3(1.0F) + 0.4F * vector(random));
 }
 
-// A ball whose vertices hang on seven joints and move by three targets, of which one has no normals.
+// A ball with seven joints and three morph targets, one of them without normals.
 assets::Model rubber_ball(Random& random) {
     assets::Model model = test::sphere({}, 24);
     assets::Primitive& p = model.meshes[0].primitives[0];
@@ -58,11 +58,11 @@ std::vector<std::byte> read_back(test::Studio& studio, const gpu::Buffer& from) 
     auto to = gpu::Buffer::create(studio.device(), from.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                   gpu::MemoryUse::readback);
     REQUIRE(to.has_value());
-    const Status copied = gpu::run_now(studio.device(), [&](VkCommandBuffer commands) {
-        gpu::memory_barrier(commands, gpu::Use::storage_write, gpu::Use::transfer_from);
+    const Status copied = gpu::submit_and_wait(studio.device(), [&](VkCommandBuffer commands) {
+        gpu::memory_barrier(commands, gpu::ResourceUse::storage_write, gpu::ResourceUse::transfer_from);
         const VkBufferCopy region{0, 0, from.size()};
         vkCmdCopyBuffer(commands, from.get(), to->get(), 1, &region);
-        gpu::memory_barrier(commands, gpu::Use::transfer_to, gpu::Use::host_read);
+        gpu::memory_barrier(commands, gpu::ResourceUse::transfer_to, gpu::ResourceUse::host_read);
     });
     REQUIRE(copied.has_value());
     return {to->bytes().begin(), to->bytes().end()};
@@ -70,12 +70,12 @@ std::vector<std::byte> read_back(test::Studio& studio, const gpu::Buffer& from) 
 
 glm::dvec3 unpacked(const std::int16_t (&v)[4]) { return glm::dvec3(v[0], v[1], v[2]) / 32767.0; }
 
-// What the last frame bent, part by part.
+// Downloads the deformed vertices of the last frame, part by part.
 struct Seen {
     std::vector<glm::vec3> positions;
     std::vector<VertexAttributes> attributes;
 };
-Seen seen(test::Studio& studio, const Object& object, const Part& part) {
+Seen seen(test::Studio& studio, const Object& object, const MeshPart& part) {
     const DeformPass& pass = studio.renderer().deformed();
     const DeformedPart where = pass.parts().at({object.deformation.get(), &part});
     const std::vector<std::byte> bytes = read_back(studio, pass.vertices());
@@ -86,20 +86,20 @@ Seen seen(test::Studio& studio, const Object& object, const Part& part) {
     return result;
 }
 
-// Holds every vertex of an object's mesh against the reference. Positions within `near` (weights are kept in
-// 16 bits: a hundred-thousandth of how far joints move apart), directions within 2e-4 rad (16 bits too).
+// Compares every vertex of an object with the reference. Positions must agree within `near` (16-bit weights:
+// 1e-5 of the distance between joint motions), directions within 2e-4 rad (16 bits too).
 void check_bent(test::Studio& studio, const assets::Mesh& mesh, const Object& object, double near) {
     const MeshRange range = object.model->meshes[object.mesh];
     REQUIRE(range.count == mesh.primitives.size());
     double worst = 0.0, worst_normal = 0.0, worst_tangent = 0.0;
     std::size_t outside = 0, other_side = 0;
     for (std::uint32_t k = 0; k < range.count; ++k) {
-        const Part& part = object.model->parts[range.first + k];
+        const MeshPart& part = object.model->parts[range.first + k];
         const assets::Primitive& p = mesh.primitives[k];
         const test::Bent expected = test::bent(p, *object.deformation);
         const Seen got = seen(studio, object, part);
         REQUIRE(got.positions.size() == expected.positions.size());
-        const Box box = bounds(part.box, part.bends, object.deformation.get());
+        const BoundingBox box = bounds(part.box, part.bends, object.deformation.get());
         for (std::size_t i = 0; i < got.positions.size(); ++i) {
             worst = std::max(worst, glm::distance(glm::dvec3(got.positions[i]), expected.positions[i]));
             worst_normal = std::max(worst_normal,
@@ -140,9 +140,9 @@ assets::Model hand() {
     return std::move(*model);
 }
 
-// Fingers bent at all of their joints, by a negative turn about x (content/hands/README.md).
-assets::Pose curled(const assets::Model& model, float angle) {
-    assets::Pose pose = assets::rest_pose(model);
+// Fingers bend by a negative rotation about x at each joint (content/hands/README.md).
+assets::ModelPose curled(const assets::Model& model, float angle) {
+    assets::ModelPose pose = assets::rest_pose(model);
     for (std::size_t i = 0; i < model.nodes.size(); ++i)
         for (const char* end : {"_proximal", "_intermediate", "_distal"})
             if (model.nodes[i].name.ends_with(end))
@@ -150,7 +150,7 @@ assets::Pose curled(const assets::Model& model, float angle) {
     return pose;
 }
 
-// The model as a pose bends it, with nothing left that could bend.
+// Returns the model deformed by a pose, without skins and targets.
 assets::Model baked(const assets::Model& model, const Object& object) {
     assets::Model stiff = model;
     for (assets::Primitive& p : stiff.meshes[object.mesh].primitives) {
@@ -165,7 +165,7 @@ assets::Model baked(const assets::Model& model, const Object& object) {
     return stiff;
 }
 
-// How many of a thousand pixels differ by more than this; 6 may be rounding.
+// Returns how many pixels per thousand differ by more than the limit; 6 allows for rounding.
 double different(const Picture& a, const Picture& b, int more = 6) {
     REQUIRE(a.rgba.size() == b.rgba.size());
     int count = 0;
@@ -180,7 +180,7 @@ double different(const Picture& a, const Picture& b, int more = 6) {
 
 }  // namespace
 
-TEST_CASE("joints and morph targets move vertices as double precision does, frame after frame") {
+TEST_CASE("Deform: joints and morph targets move vertices as in double precision, frame after frame") {
     Random random(11);
     test::Studio studio;
     const assets::Model model = rubber_ball(random);
@@ -204,7 +204,7 @@ TEST_CASE("joints and morph targets move vertices as double precision does, fram
     }
 }
 
-TEST_CASE("a hand with curled fingers is drawn, lit and shaded as one that was made so") {
+TEST_CASE("Deform: a hand with curled fingers is drawn, lit and shadowed like a mesh modelled in that pose") {
     test::Studio studio;
     const assets::Model model = hand();
     const assets::Model plate = test::plate({});
@@ -216,9 +216,9 @@ TEST_CASE("a hand with curled fingers is drawn, lit and shaded as one that was m
     scene.environment = &light;
     scene.lights = {sun()};
     scene.occlusion_radius = 0.02F;
-    place(scene, plate, ground, floor);
+    add_model(scene, plate, ground, floor);
     Scene stiff = scene;
-    place(scene, model, gpu_model, curled(model, 0.9F));
+    add_model(scene, model, gpu_model, curled(model, 0.9F));
     REQUIRE(scene.objects.back().deformation != nullptr);
     const Eye eye = make_eye({-0.25F, 0.25F, 0.25F}, {0, -0.03F, -0.05F}, {0.6F, 4.0F / 3.0F, 0.05F, 5.0F});
     const Picture picture = studio.shoot(scene, eye, extent);
@@ -226,20 +226,20 @@ TEST_CASE("a hand with curled fingers is drawn, lit and shaded as one that was m
 
     const assets::Model made = baked(model, scene.objects.back());
     const GpuModel gpu_made = studio.upload(made);
-    place(stiff, made, gpu_made);
+    add_model(stiff, made, gpu_made);
     const Picture expected = studio.shoot(stiff, eye, extent);
     CHECK(different(picture, expected) < 1.0);
 
-    SUBCASE("and not as one at rest") {
+    SUBCASE("and unlike the hand at rest") {
         scene.objects.pop_back();
-        place(scene, model, gpu_model);
+        add_model(scene, model, gpu_model);
         CHECK(different(studio.shoot(scene, eye, extent), expected) > 40.0);
     }
-    SUBCASE("as a ghost, too") {
+    SUBCASE("as a ghost") {
         scene.objects.back().opacity = stiff.objects.back().opacity = 0.5F;
         CHECK(different(studio.shoot(scene, eye, extent), studio.shoot(stiff, eye, extent)) < 1.0);
     }
-    SUBCASE("moving, with its shadow, over one that is kept") {
+    SUBCASE("moving, with its shadow over a static one") {
         for (Scene* one : {&scene, &stiff}) one->objects.back().moves = true;
         CHECK(different(studio.shoot(scene, eye, extent), studio.shoot(stiff, eye, extent)) < 1.0);
         scene.objects.back().deformation = std::make_shared<const Deformation>(Deformation{
@@ -258,7 +258,7 @@ TEST_CASE("a hand with curled fingers is drawn, lit and shaded as one that was m
         scene.objects.back().moves = true;
         CHECK(test::largest_difference(fresh.shoot(scene, eye, extent), open) == 0);
     }
-    SUBCASE("standing still, its shadow is drawn anew when the pose is another") {
+    SUBCASE("static, its shadow is redrawn when the pose changes") {
         (void)studio.shoot(scene, eye, extent);
         const Picture before = studio.shoot(scene, eye, extent);
         CHECK_FALSE(studio.renderer().statistics().shadow_drawn);
@@ -270,25 +270,25 @@ TEST_CASE("a hand with curled fingers is drawn, lit and shaded as one that was m
     }
 }
 
-TEST_CASE("levels of detail of a hand bend with it") {
+TEST_CASE("Deform: levels of detail of a hand follow the pose") {
     test::Studio fine, coarse({.level_error_px = 0.5F});
     const assets::Model model = hand();
     const GpuModel all = fine.upload(model), levels = coarse.upload(model, {true});
     const Eye eye = make_eye({-0.8F, 0.8F, 0.8F}, {0, 0, -0.05F}, {0.25F, 4.0F / 3.0F, 0.05F, 5.0F});
     Scene scene, detailed;
-    place(detailed, model, all, curled(model, 0.9F));
-    place(scene, model, levels, curled(model, 0.9F));
+    add_model(detailed, model, all, curled(model, 0.9F));
+    add_model(scene, model, levels, curled(model, 0.9F));
     scene.lights = detailed.lights = {sun()};
     const Picture expected = fine.shoot(detailed, eye, extent);
     const Picture picture = coarse.shoot(scene, eye, extent);
     CHECK(coarse.renderer().statistics().triangles < fine.renderer().statistics().triangles / 2);
     CHECK(different(picture, expected, 32) < 4.0);
-    place(scene, model, levels, assets::rest_pose(model));
+    add_model(scene, model, levels, assets::rest_pose(model));
     scene.objects.erase(scene.objects.begin());
     CHECK(different(coarse.shoot(scene, eye, extent), expected, 32) > 12.0);
 }
 
-TEST_CASE("without normals of its own, what is morphed is lit by the triangles that it has become") {
+TEST_CASE("Deform: a morphed mesh without normals is lit by its deformed triangles") {
     test::Studio studio;
     assets::Model model = test::plate({});
     assets::Primitive& p = model.meshes[0].primitives[0];
@@ -297,16 +297,16 @@ TEST_CASE("without normals of its own, what is morphed is lit by the triangles t
     p.targets[0].positions = {{0, 0, 0}, {0, 1.5F, 0}, {0, 1.5F, 0}, {0, 0, 0}};  // one side lifted
     const GpuModel gpu_model = studio.upload(model);
     Scene scene;
-    assets::Pose pose = assets::rest_pose(model);
+    assets::ModelPose pose = assets::rest_pose(model);
     pose[0].weights = {0.8F};
-    place(scene, model, gpu_model, pose);
+    add_model(scene, model, gpu_model, pose);
     (void)studio.shoot(scene, front(), {16, 16});
     const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(2, 1.2, 0), glm::dvec3(0, 0, -2)));
     for (const VertexAttributes& a : seen(studio, scene.objects[0], gpu_model.parts[0]).attributes)
         CHECK(glm::distance(unpacked(a.normal), normal) < 1e-4);
 }
 
-TEST_CASE("what is bent is looked for where it is, not where it was") {
+TEST_CASE("Deform: culling uses the deformed bounds") {
     test::Studio studio;
     Random random(2);
     const assets::Model model = rubber_ball(random);
@@ -321,17 +321,17 @@ TEST_CASE("what is bent is looked for where it is, not where it was") {
     CHECK(make_draw_list(scene, {&here, 1}, {}).draws.empty());
     const Eye there = make_eye({40, 0, 9}, {40, 0, 0}, {});
     CHECK(make_draw_list(scene, {&there, 1}, {}).draws.size() == 1);
-    const Box box = bounds(scene);
+    const BoundingBox box = bounds(scene);
     CHECK(box.low.x == doctest::Approx(39.0).epsilon(1e-5));
     CHECK(box.high.x == doctest::Approx(41.0).epsilon(1e-5));
-    // Joints alone or targets alone or both: never outside of the box, and the box is no wider than needed
-    // where all joints move alike.
+    // With joints, targets or both, vertices stay inside the box; where all joints move alike, the box is
+    // tight.
     for (int round = 0; round < 50; ++round) {
         Deformation deformation;
         for (int j = 0; j < 7; ++j) deformation.joints.push_back(joint(random));
         deformation.weights = {number(random), number(random), number(random)};
-        const Part& part = gpu_model.parts[0];
-        const Box holds = bounds(part.box, part.bends, &deformation);
+        const MeshPart& part = gpu_model.parts[0];
+        const BoundingBox holds = bounds(part.box, part.bends, &deformation);
         for (const glm::dvec3& at : test::bent(model.meshes[0].primitives[0], deformation).positions) {
             REQUIRE(glm::all(glm::lessThanEqual(glm::dvec3(holds.low) - 1e-4, at)));
             REQUIRE(glm::all(glm::lessThanEqual(at, glm::dvec3(holds.high) + 1e-4)));
@@ -339,7 +339,7 @@ TEST_CASE("what is bent is looked for where it is, not where it was") {
     }
 }
 
-TEST_CASE("frames in flight do not bend each other's vertices") {
+TEST_CASE("Deform: frames in flight do not overwrite each other's vertices") {
     test::Studio studio;
     Random random(4);
     const assets::Model model = rubber_ball(random);
@@ -358,7 +358,7 @@ TEST_CASE("frames in flight do not bend each other's vertices") {
         scenes[i].lights = {sun()};
     }
     const Eye eye = front(6.0F);
-    for (const Scene& scene : scenes) {  // nobody waits in between
+    for (const Scene& scene : scenes) {  // without waiting in between
         auto frame = studio.frames().begin();
         REQUIRE(frame.has_value());
         REQUIRE(studio.renderer().render(**frame, scene, {&eye, 1}, {64, 64}).has_value());
@@ -371,7 +371,7 @@ TEST_CASE("frames in flight do not bend each other's vertices") {
     CHECK(test::largest_difference(studio.shoot(scenes.back(), eye, {64, 64}), last) == 0);
 }
 
-TEST_CASE("a deformation with too few joints is refused, and says so") {
+TEST_CASE("Deform: a deformation with too few joints is an error") {
     test::Studio studio;
     Random random(1);
     const assets::Model model = rubber_ball(random);
@@ -391,13 +391,13 @@ TEST_CASE("a deformation with too few joints is refused, and says so") {
     REQUIRE(studio.frames().finish().has_value());
 }
 
-TEST_CASE("a mirrored ball looks as the ball does, however it is mirrored") {
+TEST_CASE("Deform: a mirrored ball looks like the ball, however it is mirrored") {
     test::Studio studio;
     const assets::Model model = test::sphere({}, 32);
     const GpuModel gpu_model = studio.upload(model);
     const glm::mat4 mirror = glm::scale(glm::mat4(1.0F), {1, 1, -1});
     Scene scene;
-    place(scene, model, gpu_model);
+    add_model(scene, model, gpu_model);
     scene.lights = {sun()};
     scene.lights[0].casts_shadow = false;
     const Picture plain = studio.shoot(scene, front(5.0F), extent);
@@ -411,7 +411,7 @@ TEST_CASE("a mirrored ball looks as the ball does, however it is mirrored") {
     const GpuModel gpu_skinned = studio.upload(skinned);
     scene.objects[0].model = &gpu_skinned;
     scene.objects[0].deformation = std::make_shared<const Deformation>(Deformation{{mirror}, {}});
-    CHECK(different(studio.shoot(scene, front(5.0F), extent), plain) < 1.0);  // twice
+    CHECK(different(studio.shoot(scene, front(5.0F), extent), plain) < 1.0);  // mirrored twice
     scene.objects[0].world = glm::mat4(1.0F);
     CHECK(different(studio.shoot(scene, front(5.0F), extent), plain) < 1.0);
 }

@@ -1,5 +1,4 @@
-// What the renderer puts where, held against rays: the distance of every pixel, and where the silhouettes
-// run.
+// Compares the renderer's depth and silhouettes with ray casting.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,8 +11,8 @@
 #include "engine/assets/gltf.hpp"
 #include "engine/gpu/transfer.hpp"
 #include "tests/render/support.hpp"
-#include "tools/pathtrace/camera.hpp"
-#include "tools/pathtrace/scene.hpp"
+#include "tools/verify/pathtrace/camera.hpp"
+#include "tools/verify/pathtrace/scene.hpp"
 
 using namespace bolt;
 
@@ -21,7 +20,7 @@ namespace {
 
 constexpr VkExtent2D extent{320, 240};
 constexpr float znear = 0.1F, zfar = 5.0F;
-// Of four standard samples the first (Vulkan specification, 25.3.1 Multisampling).
+// The first of the four standard sample locations (Vulkan specification, 25.3.1 Multisampling).
 constexpr glm::vec2 first_sample(0.375F, 0.125F);
 
 struct Point {
@@ -31,12 +30,12 @@ struct Point {
 };
 
 struct Comparison {
-    double median = 0.0, most_of_them = 0.0;  // m; the latter is not exceeded by 99 %
-    double silhouette = 0.0;  // share of pixels that one sees something in and the other does not
-    double covered = 0.0;     // share of pixels that both see something in
+    double median = 0.0, most_of_them = 0.0;  // m; the latter is the 99th percentile
+    double silhouette = 0.0;                  // fraction of pixels covered in only one of the pictures
+    double covered = 0.0;                     // fraction of pixels covered in both
 };
 
-// Distances along the view direction in metres; 0: nothing there.
+// Distances along the view direction in metres; 0: background.
 std::vector<float> rendered(test::Studio& studio, const render::Scene& scene, const Point& from) {
     render::Perspective lens;
     lens.fov = from.fov;
@@ -44,9 +43,9 @@ std::vector<float> rendered(test::Studio& studio, const render::Scene& scene, co
     lens.znear = znear;
     lens.zfar = zfar;
     (void)studio.shoot(scene, render::make_eye(from.eye, from.target, lens), extent);
-    const render::Layer layer = studio.renderer().depth(0);
+    const render::ImageLayer layer = studio.renderer().depth(0);
     REQUIRE(layer.image != nullptr);
-    const auto bytes = gpu::download_image(studio.device(), *layer.image, gpu::Use::transfer_from,
+    const auto bytes = gpu::download_image(studio.device(), *layer.image, gpu::ResourceUse::transfer_from,
                                            sizeof(float), 0, layer.layer);
     REQUIRE(bytes.has_value());
     std::vector<float> depth(bytes->size() / sizeof(float));
@@ -99,7 +98,7 @@ render::RendererOptions keeping_depth() {
 }  // namespace
 
 TEST_CASE(
-    "depth is that of rays: the ZQ350 within a tenth of a millimetre, its silhouettes within a pixel in a "
+    "Depth: agrees with ray casting, the ZQ350 within 0.1 mm and its silhouettes within one pixel per "
     "thousand") {
     const char* folder = std::getenv("BOLTWRIGHT_CONTENT");
     REQUIRE(folder != nullptr);
@@ -110,7 +109,7 @@ TEST_CASE(
     test::Studio studio(keeping_depth());
     const render::GpuModel gpu_model = studio.upload(*model);
     render::Scene scene;
-    render::place(scene, *model, gpu_model);
+    render::add_model(scene, *model, gpu_model);
 
     const glm::vec3 middle = 0.5F * (rays->low() + rays->high()), size = rays->high() - rays->low();
     const Point points[] = {
@@ -125,12 +124,12 @@ TEST_CASE(
         CAPTURE(result.covered);
         CHECK(result.median < 1e-4);
         CHECK(result.most_of_them < 1e-3);
-        // Rasterisers place corners on a grid of 1/256 of a pixel or finer: a silhouette moves by no more
-        // than that, and of the pixels that it passes, which are a few in a hundred, one in about 256 changes
+        // Rasterisers snap vertices to a grid of 1/256 pixel or finer, which moves silhouettes by at most
+        // that much. A few per cent of the pixels are on a silhouette, and about one in 256 of those changes
         // sides.
         CHECK(result.silhouette < 1e-3);
 
-        // The comparison can fail: seen from two millimetres aside, from one nearer, or a pixel off.
+        // The comparison can fail: from an eye two millimetres aside or nearer, or shifted by a pixel.
         Point aside = from;
         aside.eye += glm::vec3(0.002F, 0.0F, 0.0F);
         aside.target += glm::vec3(0.002F, 0.0F, 0.0F);

@@ -1,4 +1,4 @@
-// What 4 samples a pixel must not do at edges.
+// Artefacts that multisampling must not cause at edges.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@ constexpr VkExtent2D small{256, 192}, large{scale * small.width, scale*small.hei
 
 int brightness(const glm::ivec4& p) { return (p.x + 2 * p.y + p.z) / 4; }
 
-// The brightest that the larger picture shows where the small one has this pixel, a small pixel's half around
+// Returns the brightest value of the larger picture around this pixel of the small one, with a margin of half
+// a small pixel.
 // it too.
 int brightest(const Picture& picture, std::uint32_t x, std::uint32_t y) {
     const auto range = [](std::uint32_t at, std::uint32_t size) {
@@ -34,7 +35,7 @@ int brightest(const Picture& picture, std::uint32_t x, std::uint32_t y) {
     return most;
 }
 
-// Pixels that are much brighter than anything that is there.
+// Returns the pixels that are much brighter than everything in the scene.
 int sparks(const Picture& picture, const Picture& reference) {
     int count = 0;
     for (std::uint32_t y = 0; y < picture.height; ++y)
@@ -45,7 +46,7 @@ int sparks(const Picture& picture, const Picture& reference) {
 
 }  // namespace
 
-TEST_CASE("no sparks: where rounded edges hide their other side, no pixel is brighter than what is there") {
+TEST_CASE("Edges: rounded edges cause no pixel brighter than the scene") {
     const char* folder = std::getenv("BOLTWRIGHT_CONTENT");
     REQUIRE(folder != nullptr);
     const auto model = assets::read_gltf(std::filesystem::path(folder) / "assemblies/zq350/zq350.glb");
@@ -54,14 +55,14 @@ TEST_CASE("no sparks: where rounded edges hide their other side, no pixel is bri
     const GpuModel gpu_model = studio.upload(*model);
     const EnvironmentLight light = studio.light(shading::studio(128));
     Scene scene;
-    place(scene, *model, gpu_model);
+    add_model(scene, *model, gpu_model);
     scene.environment = &light;
     scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
     Perspective lens;
     lens.fov = 0.5F;
     lens.aspect = 4.0F / 3.0F;
     int count = 0;
-    // Under the casing's flange, and over the bearings.
+    // Views under the casing's flange and over the bearings.
     for (const auto& [from, to] : {std::pair{glm::vec3(-0.3F, 0.12F, 0.2F), glm::vec3(-0.14F, 0.02F, 0.06F)},
                                    {glm::vec3(0.3F, 0.35F, 0.55F), glm::vec3(0.175F, 0.03F, 0.05F)}}) {
         const Eye eye = make_eye(from, to, lens);
@@ -69,7 +70,7 @@ TEST_CASE("no sparks: where rounded edges hide their other side, no pixel is bri
         const Picture reference = studio.shoot(scene, eye, large);
         const int here = sparks(picture, reference);
         count += here;
-        // The check can fail: one lit pixel is found.
+        // The check can fail: it finds one bright pixel.
         picture.rgba[4 * (40 * small.width + 50) + 1] = 255;
         CHECK(sparks(picture, reference) == here + 1);
     }

@@ -1,4 +1,4 @@
-// Shaders that are changed while the program runs.
+// Shader hot reload.
 #include "engine/render/hot_shaders.hpp"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A copy of the shaders to play with.
+// A copy of the shaders that the test may change.
 struct Copy {
     test::Folder root;
     fs::path folder = root / "paths have spaces" / "shaders";
@@ -38,7 +38,7 @@ struct Copy {
     }
 };
 
-// What is known after the files have been left alone.
+// Polls after the files have settled.
 std::optional<Result<ShaderCode>> later(HotShaders& hot, double& now) {
     auto code = hot.changed(now += 1.0);
     return code ? std::move(code) : hot.changed(now += 1.0);
@@ -52,14 +52,14 @@ Picture ball(const ShaderCode& code) {
     const GpuModel gpu_model = studio.upload(model);
     const EnvironmentLight light = studio.light(shading::studio(64));
     Scene scene;
-    place(scene, model, gpu_model);
+    add_model(scene, model, gpu_model);
     scene.environment = &light;
     return studio.shoot(scene, make_eye({0, 0, 5}, {0, 0, 0}, {}), {32, 32});
 }
 
 }  // namespace
 
-TEST_CASE("what the compiler makes at run time draws the same as what was built in") {
+TEST_CASE("HotShaders: shaders compiled at run time draw the same picture as the built-in ones") {
     const Copy copy;
     HotShaders hot = HotShaders::open(copy.folder).value();
     double now = 0.0;
@@ -71,7 +71,9 @@ TEST_CASE("what the compiler makes at run time draws the same as what was built 
     CHECK_FALSE(later(hot, now).has_value());
 }
 
-TEST_CASE("a change is compiled, in what is included too; a mistake is told and what was good stays") {
+TEST_CASE(
+    "HotShaders: changes are compiled, also in includes; an error is reported, and the last good shaders "
+    "stay") {
     const Copy copy;
     HotShaders hot = HotShaders::open(copy.folder).value();
     double now = 0.0;
@@ -84,13 +86,13 @@ TEST_CASE("a change is compiled, in what is included too; a mistake is told and 
     REQUIRE_FALSE(broken->has_value());
     CHECK(broken->error().what.find("over.frag") != std::string::npos);
     CHECK(broken->error().what.find("'broken' : undeclared identifier") != std::string::npos);
-    CHECK_FALSE(later(hot, now).has_value());  // told once
+    CHECK_FALSE(later(hot, now).has_value());  // reported once
     copy.replace("over.frag", "broken;", "");
     const auto mended = later(hot, now);
     REQUIRE(mended.has_value());
     REQUIRE(mended->has_value());
 
-    // An included file: everything that includes it, and nothing else.
+    // A changed include recompiles exactly the shaders that include it.
     const std::string text =
         good + "// the same but for this line\nvec3 unused_by_all() { return vec3(1); }\n";
     REQUIRE(write_file(copy.folder / "tone.glsl", text).has_value());
@@ -107,10 +109,10 @@ TEST_CASE("a change is compiled, in what is included too; a mistake is told and 
     CHECK(test::pixel(ball(**red), 16, 16) == glm::ivec4(255, 0, 0, 255));
 }
 
-TEST_CASE("folders that are none, hold nothing or have another name are refused") {
+TEST_CASE("HotShaders: missing, empty and misnamed folders are errors") {
     const Copy copy;
     CHECK(HotShaders::open(copy.root / "nowhere").error().code == ErrorCode::usage);
-    CHECK(HotShaders::open(copy.root.path()).error().what.find("not called") != std::string::npos);
+    CHECK(HotShaders::open(copy.root.path()).error().what.find("not named") != std::string::npos);
     fs::create_directories(copy.root / "empty" / "shaders");
     CHECK(HotShaders::open(copy.root / "empty" / "shaders").error().what.find("none of the renderer's") !=
           std::string::npos);

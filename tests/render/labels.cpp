@@ -1,4 +1,4 @@
-// Text in the scene: as a rasteriser would draw it, sharp at every distance, behind what is in front of it.
+// Labels: compared with a rasteriser, sharp at every distance, hidden by parts in front.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ using namespace bolt::render;
 
 namespace {
 
-// Looks at the origin, which is the corner between the four middle pixels.
+// Looks at the origin, the corner between the four centre pixels.
 Eye front(VkExtent2D extent, float distance = 2.0F) {
     Perspective p;
     p.aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
@@ -31,14 +31,14 @@ double linear_value(int encoded) {
     return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
-// How much white there is in each pixel.
+// The white coverage of each pixel.
 std::vector<double> coverage(const Picture& picture) {
     std::vector<double> values;
     for (std::size_t i = 1; i < picture.rgba.size(); i += 4) values.push_back(linear_value(picture.rgba[i]));
     return values;
 }
 
-// The text as stb_truetype rasterises it, its first baseline starting at the middle of the picture.
+// The text rasterised by stb_truetype, with its first baseline starting at the centre of the picture.
 std::vector<double> rasterised(const text::Fonts& fonts, const std::string& utf8, float em_px,
                                VkExtent2D extent) {
     std::vector<double> values(std::size_t{extent.width} * extent.height);
@@ -62,7 +62,7 @@ std::vector<double> rasterised(const text::Fonts& fonts, const std::string& utf8
     return values;
 }
 
-// Of all ink of `reference`, how much lies elsewhere in `made`.
+// Returns the fraction of the reference's ink that is elsewhere in `made`.
 double astray(const std::vector<double>& made, const std::vector<double>& reference) {
     REQUIRE(made.size() == reference.size());
     double ink = 0.0, off = 0.0;
@@ -74,7 +74,7 @@ double astray(const std::vector<double>& made, const std::vector<double>& refere
     return off / ink;
 }
 
-// A full block, U+2588: where its left and right edges are, em.
+// The left and right edge of a full block, U+2588, in em.
 constexpr const char* block = "\u2588";
 glm::dvec2 block_edges(const text::Fonts& fonts) {
     glm::dvec2 edges(1.0, 0.0);
@@ -89,14 +89,14 @@ Label written(const text::Fonts& fonts, const std::string& utf8, float em_px) {
     label.text = utf8;
     label.height = em_px;
     label.anchor = {0, 0};
-    // The baseline, not the lower edge of the line, is at the label's position.
+    // The label's position is on the baseline, not at the lower edge of the line.
     label.moved_px.y = -em_px * fonts.faces[0].descent();
     return label;
 }
 
 }  // namespace
 
-TEST_CASE("a label is what a rasteriser makes of its text at that size") {
+TEST_CASE("Labels: text agrees with a rasteriser at that size") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     test::Studio studio;
@@ -118,7 +118,7 @@ TEST_CASE("a label is what a rasteriser makes of its text at that size") {
         const double off = astray(made, reference);
         CAPTURE(off);
         CHECK(off < c.bound);
-        // The measure can fail: three quarters of a pixel aside, or a little bolder.
+        // The measure can fail: three quarters of a pixel aside, or slightly bolder.
         scene.labels[0].moved_px.x = 0.75F;
         CHECK(astray(coverage(studio.shoot(scene, front(extent), extent)), reference) > 1.5 * c.bound);
         scene.labels[0].moved_px.x = 0.0F;
@@ -130,8 +130,8 @@ TEST_CASE("a label is what a rasteriser makes of its text at that size") {
 
 namespace {
 
-// From black to white across an edge: 10 % to 90 %, in pixels. The edge is moved over a pixel in 32nds of
-// one, so that the profile is known far finer than the pixels are.
+// Returns the width of an edge from 10 % to 90 % in pixels. The edge is moved over a pixel in steps of 1/32,
+// which samples the profile far finer than the pixels.
 double rise(test::Studio& studio, Scene scene, const Eye& eye, VkExtent2D extent, int blur) {
     constexpr int steps = 32;
     std::vector<double> profile(static_cast<std::size_t>(steps) * 12);
@@ -157,7 +157,7 @@ double rise(test::Studio& studio, Scene scene, const Eye& eye, VkExtent2D extent
 
 }  // namespace
 
-TEST_CASE("edges of letters are a pixel wide, near and far, seen from the front and aslant") {
+TEST_CASE("Labels: glyph edges are one pixel wide, near and far, frontal and oblique") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     test::Studio studio;
@@ -173,30 +173,30 @@ TEST_CASE("edges of letters are a pixel wide, near and far, seen from the front 
             Scene scene = black();
             Label label;
             label.text = block;
-            label.stand = LabelStand::fixed;
+            label.stand = LabelPlacement::fixed;
             label.turn = turn;
             label.height = 3.0F;
-            // Its left edge through the middle of the picture.
+            // Puts its left edge through the centre of the picture.
             label.anchor = {static_cast<float>(block_edges(*fonts).x) / text::lay_out(*fonts, block).size.x,
                             0.5F};
             scene.labels.push_back(label);
             const Eye eye = front(extent, distance);
             const double made = rise(studio, scene, eye, extent, 0);
             CAPTURE(made);
-            // A box filter gives 0.8 for an upright edge and up to a tenth more for one that is not.
+            // A box filter gives 0.8 for an upright edge and up to a tenth more for an oblique one.
             CHECK(made > 0.5);
             CHECK(made < 1.5);
-            CHECK(rise(studio, scene, eye, extent, 1) > 1.5);  // it would show if it were blurred
+            CHECK(rise(studio, scene, eye, extent, 1) > 1.5);  // a blurred edge is detected
         }
 }
 
-TEST_CASE("a label stands in the scene: in its plane, in its size, or equally high at every distance") {
+TEST_CASE("Labels: fixed in its plane, facing with scene size, or constant on the screen") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     const double width = block_edges(*fonts).y - block_edges(*fonts).x;  // em
     test::Studio studio;
     constexpr VkExtent2D extent{160, 120};
-    // Width and height of what is to be seen, in pixels.
+    // Returns the visible width and height in pixels.
     const auto seen = [&](const Label& label, const Eye& eye) {
         Scene scene = black();
         scene.labels.push_back(label);
@@ -207,10 +207,10 @@ TEST_CASE("a label stands in the scene: in its plane, in its size, or equally hi
         return sum;
     };
     Label label;
-    label.text = block;  // as high as a line and more
+    label.text = block;  // higher than a line
     label.height = 0.2F;
     const double metre = 60.0 / std::tan(0.3) / 2.0;  // px at a distance of 2
-    label.stand = LabelStand::facing;
+    label.stand = LabelPlacement::facing;
     const glm::dvec2 facing = seen(label, front(extent));
     CHECK(facing.x == doctest::Approx(0.2 * width * metre).epsilon(0.02));
     CHECK(facing.y > facing.x * 1.4);
@@ -222,25 +222,25 @@ TEST_CASE("a label stands in the scene: in its plane, in its size, or equally hi
     const glm::dvec2 aside = seen(label, make_eye({2.0F * std::sin(1.0F), 0, 2.0F * std::cos(1.0F)}, {}, p));
     CHECK(aside.x == doctest::Approx(facing.x).epsilon(0.01));
 
-    label.stand = LabelStand::fixed;
+    label.stand = LabelPlacement::fixed;
     CHECK(seen(label, front(extent)).x == doctest::Approx(facing.x).epsilon(0.01));
     label.turn = glm::angleAxis(1.0471976F, glm::vec3(0, 1, 0));
     CHECK(seen(label, front(extent)).x == doctest::Approx(0.5 * facing.x).epsilon(0.03));
     label.turn = glm::angleAxis(1.5707963F, glm::vec3(0, 0, 1));
     CHECK(seen(label, front(extent)).y == doctest::Approx(facing.x).epsilon(0.02));
 
-    label.stand = LabelStand::on_screen;
+    label.stand = LabelPlacement::on_screen;
     label.height = 40.0F;
     for (const float distance : {0.5F, 2.0F, 9.0F})
         CHECK(seen(label, front(extent, distance)).x == doctest::Approx(40.0 * width).epsilon(0.01));
-    label.anchor.x = 0.0F;  // all of it to the right of the middle
+    label.anchor.x = 0.0F;  // everything to the right of the centre
     label.moved_px.x = 10.0F;
     CHECK(seen(label, front(extent)).x == doctest::Approx(40.0 * width).epsilon(0.01));
     CHECK(seen(label, front(extent)).y == doctest::Approx(0.0));
     CHECK(seen(label, make_eye({0, 0, 2}, {0, 0, 4}, p)).x == 0.0);  // behind the eye
 }
 
-TEST_CASE("parts in front of a label hide it, as far as it does not show through") {
+TEST_CASE("Labels: parts in front hide a label, up to its visible fraction") {
     test::Studio studio;
     assets::Material flat;
     flat.base_color = {0, 0, 0, 1};
@@ -248,12 +248,13 @@ TEST_CASE("parts in front of a label hide it, as far as it does not show through
     const GpuModel gpu_model = studio.upload(model);
     constexpr VkExtent2D extent{96, 64};
     const Eye eye = front(extent);
-    // A black plate upright at z = 0 covers the right half of the picture; the label is before or behind it.
+    // A black plate, upright at z = 0, covers the right half of the picture; the label is in front of it or
+    // behind it.
     const auto whiteness = [&](float z, float through, float before = 0.0F) {
         Scene scene = black();
-        place(scene, model, gpu_model,
-              glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, -1, 0, 0),
-                        glm::vec4(1, 0, 0, 1)));
+        add_model(scene, model, gpu_model,
+                  glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, -1, 0, 0),
+                            glm::vec4(1, 0, 0, 1)));
         Label label;
         label.text = std::string(block) + block;
         label.position.z = z;
@@ -274,7 +275,7 @@ TEST_CASE("parts in front of a label hide it, as far as it does not show through
     CHECK(whiteness(-0.1F, 0.0F, 0.09F).second < 0.001);
 }
 
-TEST_CASE("outline and plate lie behind the text, and the plate is as large as it should be") {
+TEST_CASE("Labels: outline and background are behind the text, and the background has the right size") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     test::Studio studio;
@@ -295,7 +296,7 @@ TEST_CASE("outline and plate lie behind the text, and the plate is as large as i
         green += linear_value(made.rgba[i + 1]);
         blue += linear_value(made.rgba[i + 2]);
     }
-    // Half an em of width more, and 0.15 em above and below; corners with a radius of 0.3 em.
+    // Half an em wider, 0.15 em higher and lower; corner radius 0.3 em.
     const glm::vec2 text = text::lay_out(*fonts, "H").size, plate = text + 2.0F * glm::vec2(0.35F, 0.15F);
     const double area = 1600.0 * (static_cast<double>(plate.x * plate.y) - (4.0 - 3.14159265) * 0.09);
     CHECK(red + green + blue == doctest::Approx(area).epsilon(0.005));
@@ -304,11 +305,11 @@ TEST_CASE("outline and plate lie behind the text, and the plate is as large as i
     const Picture bare = studio.shoot(scene, front(extent), extent);
     double red_alone = 0.0;
     for (std::size_t i = 0; i < bare.rgba.size(); i += 4) red_alone += linear_value(bare.rgba[i]);
-    CHECK(red == doctest::Approx(red_alone).epsilon(0.005));  // the outline does not cover the letter
+    CHECK(red == doctest::Approx(red_alone).epsilon(0.005));  // the outline does not cover the glyph
     CHECK(blue > 0.6 * red);
 }
 
-TEST_CASE("of two labels the nearer one lies over the other, whichever comes first in the scene") {
+TEST_CASE("Labels: the nearer of two labels covers the other, in any order of the scene") {
     test::Studio studio;
     constexpr VkExtent2D extent{64, 48};
     const auto middle = [&](float first, float second) {
@@ -328,7 +329,7 @@ TEST_CASE("of two labels the nearer one lies over the other, whichever comes fir
     CHECK(middle(0.0F, 0.0F) == glm::ivec4(0, 255, 0, 255));  // equally far: the later one
 }
 
-TEST_CASE("labels in several views are what they are in each, and a full atlas starts anew") {
+TEST_CASE("Labels: each of several views is correct, and a full atlas restarts") {
     for (const auto multiview : {RendererOptions::Multiview::never, RendererOptions::Multiview::always}) {
         RendererOptions options;
         options.multiview = multiview;
@@ -339,8 +340,8 @@ TEST_CASE("labels in several views are what they are in each, and a full atlas s
         label.height = 12.0F;
         label.plate = {0.1F, 0.2F, 0.3F, 0.8F};
         scene.labels.push_back(label);
-        label.stand = LabelStand::facing;
-        label.position = {0, 0.25F, 0.5F};  // nowhere clipped: see multiview.cpp
+        label.stand = LabelPlacement::facing;
+        label.position = {0, 0.25F, 0.5F};  // not clipped: see multiview.cpp
         label.height = 0.06F;
         scene.labels.push_back(label);
         const VkExtent2D extent{128, 96};
@@ -350,7 +351,7 @@ TEST_CASE("labels in several views are what they are in each, and a full atlas s
             CHECK(test::largest_difference(both[i], alone.shoot(scene, eyes[i], extent)) <= 1);
         CHECK(test::largest_difference(both[0], both[1]) > 50);
 
-        // Chinese characters that need a larger atlas, then others that need it anew; and the first labels
+        // Chinese characters that need a larger atlas, then others that restart it, and then the first labels
         // again.
         const auto all = [](char32_t first, char32_t count) {
             std::u32string points;

@@ -1,4 +1,4 @@
-// Levels of detail of a machine: fewer triangles, the same look.
+// Levels of detail of a machine: fewer triangles, the same appearance.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -6,22 +6,22 @@
 
 #include "engine/assets/gltf.hpp"
 #include "tests/render/support.hpp"
-#include "tools/imagediff/flip.hpp"
+#include "tools/verify/imagediff/flip.hpp"
 
 using namespace bolt;
 
-TEST_CASE("the ZQ350 with less than half of its triangles looks as it does with all of them") {
+TEST_CASE("Levels of detail: the ZQ350 with less than half of its triangles looks the same") {
     const char* folder = std::getenv("BOLTWRIGHT_CONTENT");
     REQUIRE(folder != nullptr);
     const auto model = assets::read_gltf(std::filesystem::path(folder) / "assemblies/zq350/zq350.glb");
     REQUIRE(model.has_value());
-    test::Studio all, some({.level_error_px = 0.25F});  // of half the size: half a pixel of 1280 × 720
+    test::Studio all, some({.level_error_px = 0.25F});  // at half size: half a pixel of 1280 × 720
     constexpr VkExtent2D extent{640, 360};
     const auto shoot = [&](test::Studio& studio, const render::UploadOptions& options) {
         const render::GpuModel gpu_model = studio.upload(*model, options);
         const render::EnvironmentLight light = studio.light(shading::studio(128));
         render::Scene scene;
-        render::place(scene, *model, gpu_model);
+        render::add_model(scene, *model, gpu_model);
         scene.environment = &light;
         scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
         const render::Eye eye =

@@ -1,4 +1,4 @@
-// Closed-form answers: what a surface must look like under light that can be worked out by hand.
+// Closed-form results: surfaces under light that can be computed by hand.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ assets::Material white(float metallic, float roughness, float coat = 0.0F) {
 
 }  // namespace
 
-TEST_CASE("white furnace: a white sphere in white surroundings is not to be seen, within 1 %") {
+TEST_CASE("White furnace: a white sphere in white surroundings is invisible within 1 %") {
     test::Studio studio;
     const EnvironmentLight light = studio.light(shading::constant(glm::vec3(0.5F)));
     for (const float coat : {0.0F, 1.0F}) {
@@ -43,7 +43,7 @@ TEST_CASE("white furnace: a white sphere in white surroundings is not to be seen
                 const assets::Model model = test::sphere(white(metallic, roughness, coat));
                 const GpuModel gpu_model = studio.upload(model);
                 Scene scene;
-                place(scene, model, gpu_model);
+                add_model(scene, model, gpu_model);
                 scene.environment = &light;
                 const Picture picture = studio.shoot(scene, front(), extent);
                 double worst = 0.0;
@@ -59,7 +59,7 @@ TEST_CASE("white furnace: a white sphere in white surroundings is not to be seen
     }
 }
 
-TEST_CASE("the furnace can fail: a grey sphere is to be seen") {
+TEST_CASE("White furnace: the test can fail, a grey sphere is visible") {
     test::Studio studio;
     const EnvironmentLight light = studio.light(shading::constant(glm::vec3(0.5F)));
     assets::Material grey = white(0.0F, 0.5F);
@@ -67,20 +67,20 @@ TEST_CASE("the furnace can fail: a grey sphere is to be seen") {
     const assets::Model model = test::sphere(grey);
     const GpuModel gpu_model = studio.upload(model);
     Scene scene;
-    place(scene, model, gpu_model);
+    add_model(scene, model, gpu_model);
     scene.environment = &light;
     const Picture picture = studio.shoot(scene, front(), extent);
     CHECK(test::grey_radiance(static_cast<std::uint8_t>(test::pixel(picture, 48, 48).g)) < 0.45);
 }
 
-TEST_CASE("a dull sphere under a directional light is Lambert's: albedo / π · irradiance · cosine") {
+TEST_CASE("Light: a matte sphere under a directional light is Lambertian: albedo / π · irradiance · cosine") {
     test::Studio studio;
     assets::Material dull = white(0.0F, 1.0F);
     dull.specular = 0.0F;
     const assets::Model model = test::sphere(dull, 128);
     const GpuModel gpu_model = studio.upload(model);
     Scene scene;
-    place(scene, model, gpu_model);
+    add_model(scene, model, gpu_model);
     SceneLight light;
     const glm::vec3 towards = glm::normalize(glm::vec3(0.4F, 0.5F, 0.8F));
     light.light.direction = glm::vec4(-towards, 0.0F);
@@ -91,12 +91,12 @@ TEST_CASE("a dull sphere under a directional light is Lambert's: albedo / π · 
     int compared = 0;
     for (std::uint32_t y = 0; y < extent.height; y += 3) {
         for (std::uint32_t x = 0; x < extent.width; x += 3) {
-            // The ray through the pixel, met with the sphere.
+            // Intersect the ray through the pixel with the sphere.
             const double t = std::tan(0.25);
             const glm::dvec3 d =
                 glm::normalize(glm::dvec3(((x + 0.5) / 48.0 - 1.0) * t, -((y + 0.5) / 48.0 - 1.0) * t, -1.0));
             const double b = glm::dot(glm::dvec3(0, 0, 6), d), c = 36.0 - 0.97;
-            if (b * b < c) continue;  // not the very rim
+            if (b * b < c) continue;  // skip the silhouette
             const double e = glm::dot(glm::dvec3(0, 0, 6), d);
             const glm::dvec3 hit = glm::dvec3(0, 0, 6) + d * (-e - std::sqrt(e * e - 35.0));
             const double expected = 0.7 * glm::dot(hit, glm::dvec3(towards));
@@ -109,29 +109,29 @@ TEST_CASE("a dull sphere under a directional light is Lambert's: albedo / π · 
     CHECK(compared > 200);
 }
 
-TEST_CASE("a plate shades the one below it, and only there") {
+TEST_CASE("Shadow: a plate shades the plate below it and nothing else") {
     test::Studio studio;
     assets::Material dull = white(0.0F, 1.0F);
     dull.specular = 0.0F;
     const assets::Model model = test::plate(dull);
     const GpuModel gpu_model = studio.upload(model);
     Scene scene;
-    place(scene, model, gpu_model,
-          glm::mat4(glm::vec4(4, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 4, 0),
-                    glm::vec4(0, 0, 0, 1)));
-    place(scene, model, gpu_model,
-          glm::mat4(glm::vec4(0.5F, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0.5F, 0),
-                    glm::vec4(1, 1, 0, 1)));
+    add_model(scene, model, gpu_model,
+              glm::mat4(glm::vec4(4, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 4, 0),
+                        glm::vec4(0, 0, 0, 1)));
+    add_model(scene, model, gpu_model,
+              glm::mat4(glm::vec4(0.5F, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0.5F, 0),
+                        glm::vec4(1, 1, 0, 1)));
     SceneLight light;
     light.light.direction =
-        glm::vec4(glm::normalize(glm::vec3(-1, -1, 0)), 0.0F);  // moves the shadow by 1 towards −x
+        glm::vec4(glm::normalize(glm::vec3(-1, -1, 0)), 0.0F);  // moves the shadow by 1 towards -x
     light.light.color = glm::vec4(2.0F, 2.0F, 2.0F, 0.0F);
     light.casts_shadow = true;
     scene.lights.push_back(light);
     Perspective p;
     p.fov = 0.8F;
     p.znear = 1.0F;
-    // From straight above, but the upper plate hides what is beside its shadow only to the right.
+    // Seen from above; the upper plate hides only the area to the right of its shadow.
     const Picture picture = studio.shoot(scene, make_eye({0, 10, 0}, {0, 0, 0}, p), extent);
     const auto at = [&](float x, float z) {  // of the lower plate
         const float scale = 48.0F / (10.0F * std::tan(0.4F));
@@ -139,12 +139,12 @@ TEST_CASE("a plate shades the one below it, and only there") {
                            static_cast<std::uint32_t>(48.0F + z * scale))
             .g;
     };
-    CHECK(at(0.0F, 0.0F) < 8);  // under the middle of it, along the light
+    CHECK(at(0.0F, 0.0F) < 8);  // under its centre along the light
     CHECK(at(-0.35F, 0.35F) < 8);
     CHECK(at(-1.0F, 0.0F) > 150);
     CHECK(at(0.0F, 1.0F) > 150);
     CHECK(at(-2.5F, -2.5F) > 150);
-    CHECK(at(1.0F, 0.0F) > 150);  // the upper plate itself has no spots
+    CHECK(at(1.0F, 0.0F) > 150);  // the upper plate has no shadow acne
     // Nothing moves: the map is drawn once.
     CHECK(studio.renderer().statistics().shadow_drawn);
     (void)studio.shoot(scene, make_eye({0, 10, 0}, {0, 0, 0}, p), extent);
@@ -154,7 +154,7 @@ TEST_CASE("a plate shades the one below it, and only there") {
     CHECK(studio.renderer().statistics().shadow_drawn);
 }
 
-TEST_CASE("ambient occlusion: a floor is free, and half of its sky is gone where a wall stands on it") {
+TEST_CASE("Ambient occlusion: an open floor is free, and a wall occludes half of the floor's sky") {
     test::Studio studio;
     assets::Material dark = white(0.0F, 1.0F);
     dark.specular = 0.0F;
@@ -169,13 +169,13 @@ TEST_CASE("ambient occlusion: a floor is free, and half of its sky is gone where
                           glm::vec4(0, 0, 0, 1));
     const glm::mat4 wall(glm::vec4(0, 4, 0, 0), glm::vec4(-1, 0, 0, 0), glm::vec4(0, 0, 4, 0),
                          glm::vec4(0, 4, 0, 1));
-    place(scene, model, gpu_model, floor);
-    place(scene, model, gpu_model, wall);
+    add_model(scene, model, gpu_model, floor);
+    add_model(scene, model, gpu_model, wall);
     scene.occlusion_radius = 1.0F;
     Perspective p;
     p.fov = 0.7F;
     p.znear = 1.0F;
-    // On the right of the wall at x = 0, looking down on the floor.
+    // To the right of the wall at x = 0, looking down at the floor.
     const Eye eye = make_eye({4, 7, 0}, {1.6F, 0, 0}, p);
     const Picture picture = studio.shoot(scene, eye, {160, 120});
     const auto free_share = [&](float x) {
@@ -185,7 +185,7 @@ TEST_CASE("ambient occlusion: a floor is free, and half of its sky is gone where
         return test::grey_radiance(static_cast<std::uint8_t>(test::pixel(picture, column, row).g)) / 0.5;
     };
     CHECK(free_share(2.5F) == doctest::Approx(1.0).epsilon(0.04));
-    CHECK(free_share(0.06F) < 0.72);  // a half, and what fades in between
+    CHECK(free_share(0.06F) < 0.72);  // half, plus the transition
     CHECK(free_share(0.06F) > 0.40);
     CHECK(free_share(0.5F) > free_share(0.06F) + 0.1);
     CHECK(free_share(0.5F) < 1.0);

@@ -6,9 +6,8 @@
 using namespace bolt;
 using namespace bolt::render;
 
-TEST_CASE(
-    "a map does not show how a surface is divided into triangles: base colour, normals, roughness, holes") {
-    // A board of large texels, seen from near: always the finest level. Coarser ones would be grey.
+TEST_CASE("Maps: independent of the triangulation: base colour, normals, roughness, holes") {
+    // A board of large texels seen from near uses the finest mip; coarser ones would be grey.
     assets::Image board;
     board.width = board.height = 32;
     board.channels = 4;
@@ -37,7 +36,7 @@ TEST_CASE(
     const auto shoot = [&](const assets::Model& plate) {
         const GpuModel gpu_model = studio.upload(plate);
         Scene scene;
-        place(scene, plate, gpu_model);
+        add_model(scene, plate, gpu_model);
         scene.environment = &light;
         scene.background = {0.3F, 0.3F, 0.3F, 1.0F};
         Perspective p;
@@ -46,7 +45,7 @@ TEST_CASE(
     };
     const Picture one = shoot(model), two = shoot(other);
     CHECK(test::largest_difference(one, two) <= 8);
-    // The comparison can fail: half a texel further on.
+    // The comparison can fail: shifted by half a texel.
     other.meshes[0].primitives[0].texcoords[0] = {{0.015F, 0}, {1.015F, 0}, {1.015F, 1}, {0.015F, 1}};
     CHECK(test::largest_difference(one, shoot(other)) > 60);
 }

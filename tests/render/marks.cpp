@@ -1,4 +1,4 @@
-// Outlines, ghosts and what fades in front of a place that must be seen.
+// Outlines, ghosts and cut-aways.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr VkExtent2D size{128, 128};
 
-// A ball behind a wall (the plate, turned upright), the eye in front of both.
+// A ball behind a wall (the plate, upright), with the eye in front of both.
 struct Hidden {
     test::Studio studio;
     assets::Model ball = test::sphere({}, 32), wall;
@@ -32,13 +32,13 @@ struct Hidden {
         wall = test::plate(green);
         gpu_ball = studio.upload(ball);
         gpu_wall = studio.upload(wall);
-        place(scene, ball, gpu_ball);
+        add_model(scene, ball, gpu_ball);
         glm::mat4 upright(0.0F);  // faces +Z, four times as large
         upright[0] = {4, 0, 0, 0};
         upright[1] = {0, 0, 4, 0};
         upright[2] = {0, -4, 0, 0};
         upright[3] = {0, 0, 2.5F, 1};
-        place(scene, wall, gpu_wall, upright);
+        add_model(scene, wall, gpu_wall, upright);
         scene.environment = &light;
         scene.background = {0, 0, 0, 1};
         Perspective p;
@@ -54,14 +54,14 @@ bool reddish(const glm::ivec4& p) { return p.r > p.g + 60; }
 }  // namespace
 
 TEST_CASE(
-    "an outline: a line of the stated width around the shape, through what hides it, and nothing inside") {
+    "Outline: a line of the given width around the shape, visible through occluders, and nothing inside") {
     Hidden h;
     h.scene.objects[0].outline = {1, 1, 0, 1};
     h.scene.outline_px = 4.0F;
     const Picture with = h.shoot();
     h.scene.objects[0].outline.w = 0.0F;
     const Picture without = h.shoot();
-    // The ball's radius on the picture, from the cone of rays that touch it.
+    // The ball's radius in the picture, from the cone of its tangent rays.
     const double radius = std::tan(std::asin(1.0 / 10.0)) / std::tan(0.3) * 64.0;
     int wrong = 0, lines = 0;
     for (std::uint32_t y = 0; y < size.height; ++y)
@@ -78,7 +78,7 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a ghost shows what is behind it, and of itself only what is nearest") {
+TEST_CASE("Ghost: shows what is behind it, and only its own nearest layer") {
     Hidden h;
     const Picture solid = h.shoot();
     CHECK(greenish(test::pixel(solid, 64, 64)));
@@ -87,8 +87,8 @@ TEST_CASE("a ghost shows what is behind it, and of itself only what is nearest")
     const glm::ivec4 middle = test::pixel(ghost, 64, 64), beside = test::pixel(ghost, 20, 64);
     CHECK(middle.r > 60);
     CHECK(beside.g > 20);
-    CHECK(beside.g < test::pixel(solid, 20, 64).g - 40);  // the black behind darkens it
-    // Two walls of one ghost, one behind the other, are as one: the second copy changes nothing.
+    CHECK(beside.g < test::pixel(solid, 20, 64).g - 40);  // the black background darkens it
+    // Two walls of one ghost look like one wall: the second copy changes nothing.
     Object second = h.scene.objects[1];
     second.world[3].z -= 0.2F;
     h.scene.objects.push_back(second);
@@ -96,15 +96,15 @@ TEST_CASE("a ghost shows what is behind it, and of itself only what is nearest")
     CHECK(test::largest_difference(ghost, both) <= 1);
 }
 
-TEST_CASE("a cut-away shows what is hidden, leaves the rest as it is, and fades in between") {
+TEST_CASE("Cut-away: shows hidden parts, leaves the rest unchanged, and fades in between") {
     Hidden h;
     const Picture whole = h.shoot();
     h.scene.cut_away = {{0, 0, 0}, 1.2F, 1.0F};
-    CHECK(test::largest_difference(h.shoot(), whole) == 0);  // nothing allows it
+    CHECK(test::largest_difference(h.shoot(), whole) == 0);  // no object allows it
     h.scene.objects[1].cut = true;
     const Picture cut = h.shoot();
     CHECK(reddish(test::pixel(cut, 64, 64)));
-    // Outside the cone's end nothing has changed; on the way there the wall comes back without a step.
+    // Outside the end of the cone nothing changes; inside, the wall fades in without a step.
     const double end = 1.2 / 10.0 / std::tan(0.3) * 64.0;
     int changed = 0;
     for (std::uint32_t y = 0; y < size.height; ++y)
@@ -120,7 +120,7 @@ TEST_CASE("a cut-away shows what is hidden, leaves the rest as it is, and fades 
         before = here;
     }
     CHECK(greenish(test::pixel(cut, 64 + static_cast<std::uint32_t>(end) + 3, 64)));
-    // What lies beyond the place does not fade.
+    // Objects behind the focus do not fade.
     h.scene.cut_away.focus = {0, 0, 6};
     CHECK(test::largest_difference(h.shoot(), whole) == 0);
     h.scene.cut_away = {{0, 0, 0}, 1.2F, 0.5F};

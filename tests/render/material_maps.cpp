@@ -1,5 +1,5 @@
-// What maps say: each against a material with the same numbers, and against the path tracer, on a plate under
-// one lamp, where both know the same closed formulas.
+// Material maps, compared with constant materials and with the path tracer, on a plate under one lamp, where
+// both use the same closed formulas.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include "engine/base/random.hpp"
 #include "tests/render/support.hpp"
-#include "tools/pathtrace/render.hpp"
-#include "tools/pathtrace/tone.hpp"
+#include "tools/verify/pathtrace/render.hpp"
+#include "tools/verify/pathtrace/tone.hpp"
 
 using namespace bolt;
 
@@ -18,7 +18,7 @@ constexpr int width = 96, height = 72;
 constexpr float fov = 0.5F;
 constexpr glm::vec3 eye(0.1F, 1.9F, 1.3F), target(0.0F, 0.0F, 0.05F);
 
-// A small texture of colours that follow each other smoothly; `even`: all the same.
+// A small texture of smoothly varying colours; `even`: one colour.
 assets::Image texels(std::uint32_t seed, bool even = false) {
     Random random(seed);
     assets::Image image;
@@ -30,7 +30,7 @@ assets::Image texels(std::uint32_t seed, bool even = false) {
     return image;
 }
 
-// A normal map: every texel looks up, and a little aside.
+// A normal map with slightly tilted normals.
 assets::Image bumps(std::uint32_t seed) {
     assets::Image image = texels(seed);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
@@ -41,7 +41,7 @@ assets::Image bumps(std::uint32_t seed) {
     return image;
 }
 
-// Directions of the grain in all quarters; blue: strength.
+// Grain directions in all quadrants; blue: strength.
 assets::Image grains(std::uint32_t seed) {
     assets::Image image = texels(seed);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
@@ -52,7 +52,7 @@ assets::Image grains(std::uint32_t seed) {
     return image;
 }
 
-// The plate with both sets of texture coordinates, the second turned and larger, under a lamp.
+// The plate under a lamp, with two sets of texture coordinates, the second rotated and larger.
 assets::Model plate(const assets::Material& material, assets::Texture texture, const assets::Image& image,
                     bool tangents = true) {
     assets::Model model = test::plate(material);
@@ -78,8 +78,8 @@ assets::Model plate(const assets::Material& material, assets::Texture texture, c
 render::Picture rendered(test::Studio& studio, const assets::Model& model) {
     const render::GpuModel gpu_model = studio.upload(model);
     render::Scene scene;
-    render::place(scene, model, gpu_model);
-    render::place_lights(scene, model);
+    render::add_model(scene, model, gpu_model);
+    render::add_lights(scene, model);
     render::Perspective lens;
     lens.fov = fov;
     lens.aspect = static_cast<float>(width) / static_cast<float>(height);
@@ -95,7 +95,7 @@ std::vector<std::uint8_t> traced(const assets::Model& model) {
     return pathtrace::develop(pathtrace::render(*scene, pathtrace::Environment(), camera, settings), 1.0F);
 }
 
-// The mean difference of all channels, of 255.
+// Returns the mean difference of all channels, of 255.
 double difference(const render::Picture& picture, const std::vector<std::uint8_t>& rgb) {
     REQUIRE(picture.rgba.size() / 4 == rgb.size() / 3);
     double sum = 0.0;
@@ -158,7 +158,7 @@ std::vector<Case> cases() {
 
 }  // namespace
 
-TEST_CASE("every map does what the path tracer says it does, and does something") {
+TEST_CASE("Material maps: every map has an effect and agrees with the path tracer") {
     test::Studio studio;
     for (const Case& one : cases()) {
         CAPTURE(one.name);
@@ -166,7 +166,7 @@ TEST_CASE("every map does what the path tracer says it does, and does something"
             CAPTURE(second);
             assets::Material material = one.material;
             (material.*one.map).texcoord = second ? 1 : 0;
-            // The tangents of the mesh belong to the first set.
+            // The mesh's tangents belong to the first set.
             const assets::Model model = plate(material, {}, one.image);
             const render::Picture picture = rendered(studio, model);
             CHECK(difference(picture, traced(model)) < 1.6);
@@ -176,7 +176,7 @@ TEST_CASE("every map does what the path tracer says it does, and does something"
     }
 }
 
-TEST_CASE("without tangents of its own a mesh gets those of its texture coordinates") {
+TEST_CASE("Material maps: a mesh without tangents gets those of its texture coordinates") {
     test::Studio studio;
     for (const Case& one : cases()) {
         CAPTURE(one.name);
@@ -186,7 +186,7 @@ TEST_CASE("without tangents of its own a mesh gets those of its texture coordina
         CHECK(contrast(with, without) < 0.5);
         CHECK(difference(without, traced(model)) < 1.6);
     }
-    // With mirrored coordinates, too: what is up in the texture stays up.
+    // Mirrored coordinates too: up in the texture stays up.
     for (const std::string name : {"normal", "anisotropy", "coat normal"}) {
         CAPTURE(name);
         for (const Case& one : cases()) {
@@ -205,7 +205,7 @@ TEST_CASE("without tangents of its own a mesh gets those of its texture coordina
     }
 }
 
-TEST_CASE("a map of one value is a number") {
+TEST_CASE("Material maps: a map with one value equals a constant") {
     test::Studio studio;
     const assets::Image even = texels(10, true);
     const auto value = [&](std::size_t c) { return static_cast<float>(even.pixels[c]) / 255.0F; };
@@ -235,7 +235,7 @@ TEST_CASE("a map of one value is a number") {
           }) <= 2);
 }
 
-TEST_CASE("each direction of a texture is wrapped in its own way") {
+TEST_CASE("Material maps: each direction of a texture has its own wrapping") {
     test::Studio studio;
     using assets::Wrap;
     assets::Material m = stuff(0.0F, 0.8F);

@@ -1,7 +1,8 @@
-// Several views in one pass: what multiview draws into its layers is what single pictures show.
+// Multiview: each layer equals a single picture of its view.
 #include <doctest/doctest.h>
 
 #include "tests/render/support.hpp"
+#include "tests/support/skip.hpp"
 
 using namespace bolt;
 using namespace bolt::render;
@@ -18,7 +19,7 @@ RendererOptions with(Multiview multiview) {
     return options;
 }
 
-// Balls on a floor under a lamp, one of them a ghost, all well within the picture.
+// Balls on a floor under a lamp, one of them a ghost, all well inside the picture.
 struct Still {
     test::Studio studio;
     assets::Model ball, floor;
@@ -40,12 +41,12 @@ struct Still {
         for (const float x : {-2.2F, 0.0F, 2.2F}) {
             glm::mat4 world(1.0F);
             world[3] = {x, 0.2F * x, -0.3F * x, 1.0F};
-            place(scene, ball, gpu_ball, world);
+            add_model(scene, ball, gpu_ball, world);
         }
         scene.objects[1].opacity = 0.4F;
         glm::mat4 world(3.0F);
         world[3] = {0, -1.6F, 0, 1};
-        place(scene, floor, gpu_floor, world);
+        add_model(scene, floor, gpu_floor, world);
         SceneLight lamp;
         lamp.light.direction = {-0.4F, -0.8F, -0.3F, 0.0F};
         lamp.light.color = {2, 2, 2, 0};
@@ -67,7 +68,7 @@ std::vector<Eye> eyes(std::size_t count) {
     return all;
 }
 
-// The largest difference between views drawn in one pass and each drawn by itself.
+// Returns the largest difference between views drawn in one pass and views drawn separately.
 int largest_difference(Still& together, Still& alone, std::size_t views) {
     const std::vector<Eye> from = eyes(views);
     const std::vector<Picture> pictures = together.studio.shoot(together.scene, from, extent);
@@ -81,7 +82,7 @@ int largest_difference(Still& together, Still& alone, std::size_t views) {
 
 }  // namespace
 
-TEST_CASE("multiview draws what single pictures show: every pass, two views and four") {
+TEST_CASE("Multiview: equals single pictures in every pass, with two and four views") {
     Still together(Multiview::always), alone(Multiview::never);
     const auto change = [&](auto how) {
         how(together.scene);
@@ -103,27 +104,29 @@ TEST_CASE("multiview draws what single pictures show: every pass, two views and 
         scene.cut_away = {{-2.2F, -0.6F, -1.0F}, 0.5F, 1.0F};
     });
     same("an outline and a cut-away");
-    // The comparison can fail: the views are not alike, and neither is another scene.
+    // The comparison can fail: the views differ, and so does another scene.
     const std::vector<Picture> pictures = together.studio.shoot(together.scene, eyes(2), extent);
     CHECK(test::largest_difference(pictures[0], pictures[1]) > 20);
     together.scene.objects[0].world[3].x += 0.2F;
     CHECK(largest_difference(together, alone, 2) > 20);
 }
 
-TEST_CASE("what crosses the picture's edge is in every layer, where the driver clips well") {
+TEST_CASE(
+    "Multiview: objects that cross the picture's edge are in every layer, if the driver clips correctly") {
     Still together(Multiview::always), alone(Multiview::never);
     for (Still* still : {&together, &alone}) {
         still->scene.background = {0.3F, 0.32F, 0.35F, 1.0F};
         still->scene.objects.back().world = glm::mat4(50.0F);
         still->scene.objects.back().world[3] = {0, -1.6F, 0, 1};
     }
-    // Mesa 22.3 gathers clipped triangles (gallium/auxiliary/draw/draw_pipe_vbuf.c) and takes the view's
-    // index for all of them when it begins to: those of the second view land in the layer of the first.
+    // Mesa 22.3 collects clipped triangles (gallium/auxiliary/draw/draw_pipe_vbuf.c) and uses one view index
+    // for all of them: those of the second view go to the layer of the first.
     const std::string& driver = together.studio.device().driver();
     const int largest = largest_difference(together, alone, 2);
     CAPTURE(driver);
-    if (driver.find("Mesa 22.3") != std::string::npos)
+    if (driver.find("Mesa 22.3") != std::string::npos) {
         CHECK_MESSAGE(largest > 1, "this driver's fault is gone: hold it to the same as the others");
-    else
-        CHECK(largest <= 1);
+        return test::skip_rest("equal layers: " + driver + " draws clipped triangles into the wrong layer");
+    }
+    CHECK(largest <= 1);
 }

@@ -1,4 +1,4 @@
-// Objects that are not as their model is.
+// Transformed objects.
 #include <doctest/doctest.h>
 
 #include "tests/render/support.hpp"
@@ -6,7 +6,7 @@
 using namespace bolt;
 using namespace bolt::render;
 
-TEST_CASE("a mirrored ball looks like the ball, from outside and, where it is cut open, from inside") {
+TEST_CASE("Objects: a mirrored ball looks like the ball, from outside and through a cut from inside") {
     test::Studio studio;
     assets::Material metal;
     metal.base_color = {0.9F, 0.6F, 0.3F, 1.0F};
@@ -30,13 +30,13 @@ TEST_CASE("a mirrored ball looks like the ball, from outside and, where it is cu
         lamp.light.direction = {-0.5F, -0.6F, -0.6F, 0.0F};
         lamp.light.color = {2, 2, 2, 0};
         scene.lights.push_back(lamp);
-        place(scene, open ? bowl : ball, open ? gpu_bowl : gpu_ball);
+        add_model(scene, open ? bowl : ball, open ? gpu_bowl : gpu_ball);
         const Picture straight = studio.shoot(scene, eye, {96, 96});
         scene.objects[0].world[0][0] = -1.0F;
-        // Its triangles are divided along the other diagonal, and where they meet a pixel takes its normal
-        // from another spot.
+        // Its triangles are divided along the other diagonal, and at triangle edges a pixel takes its normal
+        // from another point.
         CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) <= 24);
-        // The comparison can fail: turned over, the light is seen elsewhere on it.
+        // The comparison can fail: rotated, the highlight is elsewhere.
         scene.objects[0].world[0][0] = 1.0F;
         scene.lights[0].light.direction = {0.5F, -0.6F, -0.6F, 0.0F};
         CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) > 60);

@@ -1,4 +1,4 @@
-#include "engine/render/inset.hpp"
+#include "engine/render/picture.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,16 +13,16 @@ namespace {
 
 constexpr VkExtent2D extent{64, 48};
 
-// A scene that is one plain colour: linear 0.05, below where tone mapping bends.
+// A scene of one plain colour: linear 0.05, below the shoulder of the tone mapping.
 Scene plain(float level = 0.05F) {
     Scene scene;
     scene.background = glm::vec4(glm::vec3(level), 1.0F);
     return scene;
 }
 
-// The scene with an overlay on it, drawn in one frame.
+// Draws the scene with an overlay in one frame.
 Picture with_overlay(test::Studio& studio, const Scene& scene, const Overlay& overlay) {
-    gpu::Frame* frame = studio.gpu().need(studio.frames().begin());
+    gpu::FrameContext* frame = studio.gpu().need(studio.frames().begin());
     const Eye eye = make_eye({0, 0, 5}, {0, 0, 0}, {});
     studio.gpu().need(studio.renderer().render(*frame, scene, {&eye, 1}, extent));
     studio.gpu().need(studio.renderer().draw_over(*frame, overlay, studio.renderer().picture(0)));
@@ -36,7 +36,7 @@ int encoded(double linear_value) {
     return static_cast<int>(std::lround(255.0 * x));
 }
 
-// How many pixels are not what they should be.
+// Returns the number of wrong pixels.
 template <class Wanted>
 int wrong(const Picture& picture, const Wanted& wanted, int tolerance) {
     int count = 0;
@@ -50,7 +50,7 @@ int wrong(const Picture& picture, const Wanted& wanted, int tolerance) {
 
 }  // namespace
 
-TEST_CASE("a rectangle covers its pixels and no other, in its colour to the bit") {
+TEST_CASE("Overlay: a rectangle covers exactly its pixels in its exact colour") {
     test::Studio studio;
     const Picture bare = studio.shoot(plain(), make_eye({0, 0, 5}, {0, 0, 0}, {}), extent);
     Overlay overlay;
@@ -61,11 +61,11 @@ TEST_CASE("a rectangle covers its pixels and no other, in its colour to the bit"
         return x >= 7 && x < 20 && y >= 5 && y < 31 ? color : test::pixel(bare, x, y);
     };
     CHECK(wrong(made, wanted, 0) == 0);
-    // The comparison can fail: one row and one column more.
+    // The comparison can fail: one more row and column.
     overlay = {};
     add_rectangle(overlay, {{7, 5}, {21, 32}}, glm::vec4(color) / 255.0F);
     CHECK(wrong(with_overlay(studio, plain(), overlay), wanted, 0) == 14 + 26);
-    // Every value of the screen arrives as it is.
+    // Every screen value is reproduced exactly.
     overlay = {};
     for (int i = 0; i < 64; ++i) {
         const auto x = static_cast<float>(i);
@@ -83,7 +83,7 @@ TEST_CASE("a rectangle covers its pixels and no other, in its colour to the bit"
               0) == 0);
 }
 
-TEST_CASE("what is half transparent mixes as light does, and later lies over earlier") {
+TEST_CASE("Overlay: translucent colours blend linearly, and later draws cover earlier ones") {
     test::Studio studio;
     const Picture bare = studio.shoot(plain(), make_eye({0, 0, 5}, {0, 0, 0}, {}), extent);
     Overlay overlay;
@@ -96,11 +96,11 @@ TEST_CASE("what is half transparent mixes as light does, and later lies over ear
     const auto of_scene = static_cast<double>(test::pixel(bare, 50, 10).g) / 255.0;
     const double linear_scene = std::pow((of_scene + 0.055) / 1.055, 2.4);
     CHECK(std::abs(test::pixel(made, 50, 10).g - encoded(0.6 * linear_scene + 0.4)) <= 1);
-    // Mixed as encoded values it would be another colour.
+    // Blending of encoded values would give another colour.
     CHECK(encoded(0.4) - static_cast<int>(std::lround(0.4 * 255.0)) > 40);
 }
 
-TEST_CASE("a scissor cuts at whole pixels, also where it reaches beyond the picture") {
+TEST_CASE("Overlay: a scissor clips at whole pixels, also where it extends beyond the picture") {
     test::Studio studio;
     const Picture bare = studio.shoot(plain(), make_eye({0, 0, 5}, {0, 0, 0}, {}), extent);
     Overlay overlay;
@@ -109,7 +109,7 @@ TEST_CASE("a scissor cuts at whole pixels, also where it reaches beyond the pict
     add_rectangle(overlay, {{0, 0}, {64, 48}}, glm::vec4(1.0F));
     overlay.draws[1].scissor = {{60, -3}, {2000000000, 6}};
     add_rectangle(overlay, {{0, 0}, {64, 48}}, glm::vec4(1.0F));
-    overlay.draws[2].scissor = {{70, 0}, {10, 10}};  // all of it outside
+    overlay.draws[2].scissor = {{70, 0}, {10, 10}};  // completely outside
     const Picture made = with_overlay(studio, plain(), overlay);
     CHECK(wrong(
               made,
@@ -120,7 +120,7 @@ TEST_CASE("a scissor cuts at whole pixels, also where it reaches beyond the pict
               0) == 0);
 }
 
-TEST_CASE("an inset is the single picture of its view, framed, and the rest of the picture is as it was") {
+TEST_CASE("Inset: equals the single picture of its view, framed, and the rest of the picture is unchanged") {
     test::Studio studio;
     assets::Material metal;
     metal.base_color = {0.9F, 0.6F, 0.3F, 1.0F};
@@ -129,7 +129,7 @@ TEST_CASE("an inset is the single picture of its view, framed, and the rest of t
     const GpuModel gpu_model = studio.upload(model);
     const EnvironmentLight light = studio.light(shading::studio(128));
     Scene scene;
-    place(scene, model, gpu_model);
+    add_model(scene, model, gpu_model);
     scene.environment = &light;
     scene.occlusion_radius = 0.2F;
     constexpr VkExtent2D whole{160, 90}, small{48, 27};
@@ -139,7 +139,7 @@ TEST_CASE("an inset is the single picture of its view, framed, and the rest of t
     const Picture main = studio.shoot(scene, eye, whole), single = studio.shoot(scene, other, small);
 
     const auto compose = [&](const Eye& shown) {
-        gpu::Frame* frame = studio.gpu().need(studio.frames().begin());
+        gpu::FrameContext* frame = studio.gpu().need(studio.frames().begin());
         Renderer& renderer = studio.renderer();
         studio.gpu().need(renderer.render(*frame, scene, {&eye, 1}, whole));
         studio.gpu().need(renderer.render(*frame, scene, {&shown, 1}, small, 1));
@@ -158,8 +158,8 @@ TEST_CASE("an inset is the single picture of its view, framed, and the rest of t
         CHECK(wrong(compose(other), wanted, 1) == 0);
     CHECK(test::largest_difference(studio.download(studio.renderer().picture(0, 1)), single) <= 1);
     CHECK(wrong(compose(make_eye({3, 2.2F, 3}, {0, 0, 0}, lens)), wanted, 1) > 50);  // it can fail
-    // A picture on itself is refused, and the frame goes on.
-    gpu::Frame* frame = studio.gpu().need(studio.frames().begin());
+    // A picture on itself is an error, and the frame continues.
+    gpu::FrameContext* frame = studio.gpu().need(studio.frames().begin());
     studio.gpu().need(studio.renderer().render(*frame, scene, {&eye, 1}, whole));
     Overlay overlay;
     add_picture(overlay, {{0, 0}, {10, 10}}, studio.renderer().picture(0));
@@ -168,11 +168,11 @@ TEST_CASE("an inset is the single picture of its view, framed, and the rest of t
     CHECK(test::largest_difference(studio.download(studio.renderer().picture(0)), main) == 0);
 }
 
-TEST_CASE("both eyes of a stereo picture have the inset, in its corner and of the picture's shape") {
-    const Rectangle corner = lower_right({1280, 720}, 0.25F);
+TEST_CASE("Inset: both eyes of a stereo picture have it, in its corner and with the picture's aspect ratio") {
+    const Rectangle corner = inset_rectangle({1280, 720}, 0.25F);
     CHECK(corner.high - corner.low == glm::vec2(320, 180));
     CHECK(corner.high == glm::vec2(1262, 702));
-    CHECK(lower_right({3, 3}, 0.1F).low == glm::vec2(2, 2));  // at least a pixel
+    CHECK(inset_rectangle({3, 3}, 0.1F).low == glm::vec2(2, 2));  // at least one pixel
 
     using Multiview = RendererOptions::Multiview;
     for (const Multiview multiview : {Multiview::never, Multiview::always}) {
@@ -183,7 +183,7 @@ TEST_CASE("both eyes of a stereo picture have the inset, in its corner and of th
         const GpuModel gpu_model = studio.upload(model);
         const EnvironmentLight light = studio.light(shading::studio(64));
         Scene scene;
-        place(scene, model, gpu_model);
+        add_model(scene, model, gpu_model);
         scene.environment = &light;
         Perspective lens;
         lens.aspect = 4.0F / 3.0F;
@@ -191,7 +191,7 @@ TEST_CASE("both eyes of a stereo picture have the inset, in its corner and of th
                             make_eye({0.3F, 0, 4}, {0, 0, 0}, lens)};
         Inset inset;
         inset.eye = make_eye({3, 3, 0}, {0, 0, 0}, lens);
-        inset.place = lower_right({120, 90}, 0.3F);
+        inset.place = inset_rectangle({120, 90}, 0.3F);
         const VkExtent2D own{36, 27};
         const Picture single = studio.shoot(scene, inset.eye, own);
         const std::vector<Picture> bare = studio.shoot(scene, eyes, {120, 90});

@@ -1,4 +1,4 @@
-// The renderer beside the path tracer: the same model, light and camera.
+// The renderer compared with the path tracer: the same model, light and camera.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -6,9 +6,9 @@
 
 #include "engine/assets/gltf.hpp"
 #include "tests/render/support.hpp"
-#include "tools/imagediff/flip.hpp"
-#include "tools/pathtrace/render.hpp"
-#include "tools/pathtrace/tone.hpp"
+#include "tools/verify/imagediff/flip.hpp"
+#include "tools/verify/pathtrace/render.hpp"
+#include "tools/verify/pathtrace/tone.hpp"
 
 using namespace bolt;
 
@@ -42,7 +42,7 @@ imagediff::Picture rendered(const assets::Model& model, const glm::vec3& eye, co
     const render::GpuModel gpu_model = studio.upload(model);
     const render::EnvironmentLight light = studio.light(shading::studio(128));
     render::Scene scene;
-    render::place(scene, model, gpu_model);
+    render::add_model(scene, model, gpu_model);
     scene.environment = &light;
     scene.background = glm::vec4(grey, 1.0F);
     scene.occlusion_radius = 0.012F;
@@ -68,7 +68,7 @@ double difference_on_the_model(const imagediff::Picture& a, const imagediff::Pic
 
 }  // namespace
 
-TEST_CASE("paint, zinc and steel of the M8 cover look as path tracing shows them") {
+TEST_CASE("Reference: paint, zinc and steel of the M8 cover look as in path tracing") {
     const char* folder = std::getenv("BOLTWRIGHT_CONTENT");
     REQUIRE(folder != nullptr);
     const std::filesystem::path content(folder);
@@ -81,11 +81,11 @@ TEST_CASE("paint, zinc and steel of the M8 cover look as path tracing shows them
     const double difference = difference_on_the_model(reference, picture, depth);
     CAPTURE(difference);
     CHECK(imagediff::mean(imagediff::flip(reference, picture)) < 0.11);
-    // Without the background it is more: of light that other parts keep away only what is near is known, and
-    // the grain of brushed steel is seen in light from lamps only.
+    // Larger without the background: indirect light is known only from near parts, and the grain of brushed
+    // steel is visible only in light from lamps.
     CHECK(difference < 0.32);
 
-    // The comparison can fail: the same model in other paint, or seen from a little aside.
+    // The comparison can fail: the same model in another paint, or from a shifted eye.
     assets::Model repainted = *model;
     for (assets::Material& material : repainted.materials) material.base_color = {0.5F, 0.1F, 0.1F, 1.0F};
     CHECK(difference_on_the_model(reference, rendered(repainted, eye, target), depth) > 1.2 * difference);

@@ -12,11 +12,11 @@ Studio::Studio(const render::RendererOptions& options)
     : frames_(gpu_.need(gpu::Frames::create(gpu_.device()))),
       renderer_(gpu_.need(render::Renderer::create(gpu_.device(), options))) {}
 
-render::Picture Studio::download(const render::Layer& picture) {
+render::Picture Studio::download(const render::ImageLayer& picture) {
     gpu_.need(frames_->finish());
     const VkExtent2D extent = picture.image->info().extent;
-    const std::vector<std::byte> texels = gpu_.need(
-        gpu::download_image(gpu_.device(), *picture.image, gpu::Use::transfer_from, 4, 0, picture.layer));
+    const std::vector<std::byte> texels = gpu_.need(gpu::download_image(
+        gpu_.device(), *picture.image, gpu::ResourceUse::transfer_from, 4, 0, picture.layer));
     render::Picture made{extent.width, extent.height, std::vector<std::uint8_t>(texels.size())};
     std::memcpy(made.rgba.data(), texels.data(), texels.size());
     return made;

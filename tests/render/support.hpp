@@ -1,4 +1,4 @@
-// A renderer for a test, with validation on, and pictures as numbers.
+// A renderer for a test, with validation, and its pictures as numbers.
 #pragma once
 
 #include "engine/render/camera.hpp"
@@ -28,8 +28,8 @@ class Studio {
     gpu::Device& device() { return gpu_.device(); }
     gpu::Frames& frames() { return *frames_; }
     Gpu& gpu() { return gpu_; }
-    // What a frame drew, after it was submitted.
-    render::Picture download(const render::Layer& picture);
+    // The result of a submitted frame.
+    render::Picture download(const render::ImageLayer& picture);
 
   private:
     Gpu gpu_;
@@ -37,12 +37,12 @@ class Studio {
     std::unique_ptr<render::Renderer> renderer_;
 };
 
-// A sphere of radius 1 about the origin, or a square of half size 1 in the plane y = 0 that faces up.
+// A sphere of radius 1 about the origin, or a square of half size 1 in the plane y = 0, facing up.
 assets::Model sphere(const assets::Material& material, int rings = 64);
 assets::Model plate(const assets::Material& material);
 
-// Radiance before tone mapping and sRGB, where Khronos PBR Neutral only subtracts (0.08 … 0.76): grey
-// colours.
+// Inverts sRGB and tone mapping for grey colours in the range where Khronos PBR Neutral only subtracts (0.08
+// … 0.76); returns radiance.
 double grey_radiance(std::uint8_t encoded);
 
 inline glm::ivec4 pixel(const render::Picture& picture, std::uint32_t x, std::uint32_t y) {
@@ -50,7 +50,7 @@ inline glm::ivec4 pixel(const render::Picture& picture, std::uint32_t x, std::ui
     return {p[0], p[1], p[2], p[3]};
 }
 
-// The largest difference of any channel.
+// Returns the largest difference of any channel.
 int largest_difference(const render::Picture& a, const render::Picture& b);
 
 }  // namespace bolt::test

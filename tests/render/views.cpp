@@ -11,7 +11,7 @@ using namespace bolt::render;
 
 namespace {
 
-// Three balls of different stuff, lit by the studio.
+// Three balls of different materials in studio light.
 struct Still {
     test::Studio studio;
     assets::Model model;
@@ -28,7 +28,7 @@ struct Still {
         for (const float x : {-2.2F, 0.0F, 2.2F}) {
             glm::mat4 world(1.0F);
             world[3] = {x, 0.2F * x, -0.3F * x, 1.0F};
-            place(scene, model, gpu_model, world);
+            add_model(scene, model, gpu_model, world);
         }
         scene.objects[1].tint = {0.2F, 0.5F, 0.9F, 1.0F};
         scene.environment = &light;
@@ -37,7 +37,7 @@ struct Still {
 
 }  // namespace
 
-TEST_CASE("several views at once are what single pictures are") {
+TEST_CASE("Views: several views at once equal single pictures") {
     Still still;
     Perspective p;
     p.fov = 0.7F;
@@ -49,10 +49,10 @@ TEST_CASE("several views at once are what single pictures are") {
         const Picture one = still.studio.shoot(still.scene, eyes[i], {96, 96});
         CHECK(test::largest_difference(both[i], one) <= 1);
     }
-    CHECK(test::largest_difference(both[0], both[1]) > 20);  // they are not the same picture
+    CHECK(test::largest_difference(both[0], both[1]) > 20);  // the two pictures differ
 }
 
-TEST_CASE("two walls that share an edge make the picture of one wall without a seam") {
+TEST_CASE("Views: two walls with a common edge show the picture of one wall without a seam") {
     Still still;
     const glm::vec3 eye(0.4F, 0.3F, 8.0F);
     const auto wall = [&](float from, float to) {
@@ -68,9 +68,10 @@ TEST_CASE("two walls that share an edge make the picture of one wall without a s
                 test::pixel(whole, x, y) - (x < 64 ? test::pixel(left, x, y) : test::pixel(right, x - 64, y));
             largest = std::max({largest, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         }
-    // Rounding decides which samples of a pixel an edge covers, and these from where its colour is taken.
+    // Rounding decides which samples an edge covers, and they determine where the pixel's colour is
+    // evaluated.
     CHECK(largest <= 10);
-    // A wall turned by a right angle: a point on the common edge is on both edges.
+    // A wall rotated by a right angle: a point on the common edge is on both edges.
     const Eye side = make_wall_eye(eye, {4, -2, 4}, {4, -2, 12}, {4, 2, 4}, 0.1F, 50.0F);
     const Eye ahead = wall(-4, 4);
     for (const float y : {-2.0F, 0.0F, 1.5F}) {
@@ -82,7 +83,7 @@ TEST_CASE("two walls that share an edge make the picture of one wall without a s
     }
 }
 
-TEST_CASE("the same scene gives the same bits, and another size, back and forth, too") {
+TEST_CASE("Views: the same scene gives the same bits, also after changes of size") {
     Still still;
     Perspective p;
     const Eye eye = make_eye({1, 1, 8}, {0, 0, 0}, p);
@@ -91,7 +92,7 @@ TEST_CASE("the same scene gives the same bits, and another size, back and forth,
     CHECK(still.studio.shoot(still.scene, eye, {80, 60}).rgba == first.rgba);
 }
 
-TEST_CASE("culling never loses what is in sight, and instances are gathered") {
+TEST_CASE("Culling: never loses visible objects, and instances are merged") {
     Still still;
     Random random(5);
     Perspective p;
@@ -99,7 +100,7 @@ TEST_CASE("culling never loses what is in sight, and instances are gathered") {
         const auto coordinate = [&] { return static_cast<float>(random.uniform(-5.0, 5.0)); };
         const Eye eye = make_eye({coordinate(), coordinate(), coordinate()},
                                  {coordinate(), coordinate(), coordinate()}, p);
-        Box box;
+        BoundingBox box;
         for (int i = 0; i < 2; ++i) box.add({coordinate(), coordinate(), coordinate()});
         bool visible = false;
         for (int i = 0; i < 50; ++i) {
@@ -117,7 +118,7 @@ TEST_CASE("culling never loses what is in sight, and instances are gathered") {
     CHECK(make_draw_list(still.scene, {&away, 1}, {}).draws.empty());
     const Eye eye = make_eye({0, 0, 12}, {0, 0, 0}, p);
     const DrawList list = make_draw_list(still.scene, {&eye, 1}, {});
-    REQUIRE(list.draws.size() == 2);  // the tinted one needs a pipeline of its own
+    REQUIRE(list.draws.size() == 2);  // the tinted one needs another pipeline
     CHECK(list.draws[0].instances + list.draws[1].instances == 3);
     CHECK(list.forward.empty());
     still.scene.objects[0].opacity = 0.5F;
@@ -128,14 +129,13 @@ TEST_CASE("culling never loses what is in sight, and instances are gathered") {
     CHECK(ghost.draws[2].kind.blends);
 }
 
-TEST_CASE(
-    "levels of detail: never further from the part than a picture shows, and coarser the further away") {
+TEST_CASE("Levels of detail: the error stays below the limit, and distant parts are coarser") {
     test::Studio studio;
     const assets::Model model = test::sphere({}, 96);
     const GpuModel gpu_model = studio.upload(model, {true});
     Scene scene;
-    place(scene, model, gpu_model);
-    const Part& part = gpu_model.parts.front();
+    add_model(scene, model, gpu_model);
+    const MeshPart& part = gpu_model.parts.front();
     REQUIRE(part.levels.size() > 2);
     for (std::size_t i = 1; i < part.levels.size(); ++i) {
         CHECK(part.levels[i].index_count < part.levels[i - 1].index_count);
@@ -154,18 +154,18 @@ TEST_CASE(
         before = list.triangles;
     }
     CHECK(before < part.levels[0].index_count / 30);
-    // Where it is so near that it reaches behind the eye, nothing is left out.
+    // If the part reaches behind the eye, all triangles are drawn.
     const Eye inside = make_eye({0, 0, 0.5F}, {0, 0, -1}, p);
     CHECK(make_draw_list(scene, {&inside, 1}, {720.0F, 0.5F, 0.0F}).draws.front().level == 0);
 }
 
-TEST_CASE("the shadow of what stands still is kept while something else moves") {
+TEST_CASE("Shadow: the map of static objects is kept while another object moves") {
     Still still;
     const assets::Model plate = test::plate({});
     const GpuModel ground = still.studio.upload(plate);
-    glm::mat4 world(4.0F);  // wide enough that the balls do not change what the map covers
+    glm::mat4 world(4.0F);  // wide enough that the balls do not change the extent of the map
     world[3] = {0, -1.6F, 0, 1};
-    place(still.scene, plate, ground, world);
+    add_model(still.scene, plate, ground, world);
     SceneLight sun;
     sun.light.direction = {0, -1, 0, 0};
     sun.light.color = glm::vec4(2.0F);
@@ -177,7 +177,7 @@ TEST_CASE("the shadow of what stands still is kept while something else moves") 
     CHECK(still.studio.renderer().statistics().shadow_drawn);
     still.scene.objects[0].moves = true;
     const Picture apart = still.studio.shoot(still.scene, eye, {128, 96});
-    CHECK(still.studio.renderer().statistics().shadow_drawn);  // what stands still is another set now
+    CHECK(still.studio.renderer().statistics().shadow_drawn);  // the set of static objects has changed
     CHECK(test::largest_difference(before, apart) == 0);
     still.scene.objects[0].world[3].z += 0.8F;
     const Picture moved = still.studio.shoot(still.scene, eye, {128, 96});

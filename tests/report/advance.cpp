@@ -1,4 +1,4 @@
-#include "game/report/advance.hpp"
+#include "game/analysis/torque_envelope.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include "engine/base/math.hpp"
 
 using namespace bolt;
-using namespace bolt::report;
+using namespace bolt::analysis;
 using joint::Direction;
 using joint::Stage;
 

@@ -1,4 +1,4 @@
-#include "game/report/axis.hpp"
+#include "game/plot/axis.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 
 #include "engine/base/random.hpp"
 
-using namespace bolt::report;
+using namespace bolt::plot;
 
 namespace {
 

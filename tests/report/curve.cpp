@@ -1,4 +1,4 @@
-#include "game/report/curve.hpp"
+#include "game/analysis/curve.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,13 +9,14 @@
 #include "tests/report/synthetic.hpp"
 
 using namespace bolt;
+using namespace bolt::analysis;
 using namespace bolt::report;
 
 namespace {
 
-record::TickRecord tick(int joint, double degrees, double torque,
-                        joint::Stage stage = joint::Stage::linearity) {
-    record::TickRecord t;
+session::TickRecord tick(int joint, double degrees, double torque,
+                         joint::Stage stage = joint::Stage::linearity) {
+    session::TickRecord t;
     t.joint = static_cast<std::int16_t>(joint);
     t.nut_angle = static_cast<float>(to_radians(degrees));
     t.wrench_torque = static_cast<float>(torque);
@@ -34,7 +35,7 @@ CurveBuilder builder_for(std::size_t joints, double snug = 10.0) {
 
 TEST_CASE("re-grips are strokes of one visit, another nut ends it") {
     CurveBuilder builder = builder_for(2);
-    std::vector<record::TickRecord> ticks;
+    std::vector<session::TickRecord> ticks;
     for (int stroke = 0; stroke < 3; ++stroke) {
         for (int i = 0; i < 50; ++i) ticks.push_back(tick(0, 30.0 * stroke + 0.6 * i, 20.0 + stroke));
         for (int i = 0; i < 10; ++i) ticks.push_back(tick(-1, 0.0, 0.0));
@@ -62,7 +63,7 @@ TEST_CASE("pieces of any size give the same curves") {
     request.dt = 0.01;
     for (const lesson::Event& event : session.events) request.pass_begins.push_back(event.tick);
     CurveBuilder builder(request);
-    const std::span<const record::TickRecord> ticks = session.ticks;
+    const std::span<const session::TickRecord> ticks = session.ticks;
     for (std::size_t at = 0, size = 1; at < ticks.size(); at += size, size = size % 977 + 13)
         builder.add(at, ticks.subspan(at, std::min(size, ticks.size() - at)));
     const std::vector<JointCurve> pieces = builder.finish();
@@ -104,7 +105,7 @@ TEST_CASE("loosening counts the other way") {
     request.snug_torque.assign(1, 10.0);
     request.direction = joint::Direction::loosen;
     CurveBuilder builder(request);
-    std::vector<record::TickRecord> ticks;
+    std::vector<session::TickRecord> ticks;
     for (int i = 0; i < 100; ++i)
         ticks.push_back(tick(0, 100.0 - i, -50.0 * std::exp(-0.1 * i),
                              i < 40 ? joint::Stage::linearity : joint::Stage::navigation));
@@ -119,13 +120,13 @@ TEST_CASE("loosening counts the other way") {
 
 TEST_CASE("broken samples are left out, and many visits stay bounded") {
     CurveBuilder builder = builder_for(2);
-    std::vector<record::TickRecord> ticks = {tick(7, 1.0, 1.0), tick(-5, 1.0, 1.0),
-                                             tick(0, std::nan(""), 1.0), tick(0, 1.0, HUGE_VAL)};
+    std::vector<session::TickRecord> ticks = {tick(7, 1.0, 1.0), tick(-5, 1.0, 1.0),
+                                              tick(0, std::nan(""), 1.0), tick(0, 1.0, HUGE_VAL)};
     ticks.push_back(tick(0, 1.0, 1.0));
     ticks.back().stage = 200;
     builder.add(0, ticks);
     for (int i = 0; i < 500; ++i) {
-        const std::vector<record::TickRecord> touch(5, tick(i % 2, i, 30.0));
+        const std::vector<session::TickRecord> touch(5, tick(i % 2, i, 30.0));
         builder.add(static_cast<std::uint64_t>(10 + 5 * i), touch);
     }
     const std::vector<JointCurve> curves = builder.finish();

@@ -1,4 +1,4 @@
-#include "game/report/decimate.hpp"
+#include "game/plot/decimate.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,9 +7,10 @@
 #include <limits>
 
 #include "engine/base/random.hpp"
-#include "game/report/stream.hpp"
+#include "game/analysis/stream.hpp"
 
-using namespace bolt::report;
+using namespace bolt::analysis;
+using namespace bolt::plot;
 
 namespace {
 

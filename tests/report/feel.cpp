@@ -1,41 +1,46 @@
 // What is said of a session's forces, bumps and times, held against ticks that were made up by hand.
-#include "game/report/feel.hpp"
+#include "game/analysis/haptic_metrics.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "game/record/device_text.hpp"
+#include "game/analysis/quartiles.hpp"
+#include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/feel_section.hpp"
 #include "game/report/guiding_study.hpp"
-#include "game/report/html.hpp"
-#include "game/report/quartiles.hpp"
-#include "haptics/servo/touch.hpp"
+#include "game/session/device_text.hpp"
+#include "haptics/servo/tool_contact.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
 
 using namespace bolt;
+using namespace bolt::analysis;
+using namespace bolt::plot;
 using namespace bolt::report;
+using collision::ObstacleId;
 
 namespace {
 
-record::Header header_of(const char* guide = "on") {
-    record::Header header;
+session::Header header_of(const char* guide = "on") {
+    session::Header header;
     header.dt = 0.001;
     header.mode = "guided";
     header.guide = guide;
     header.obstacles = "casing.glb";
-    header.device = record::text_of(force::OutputLimits{});
+    header.device = session::text_of(force::OutputLimits{});
     header.servo = "virtual time";
-    header.obstacle_names = {
-        {0, "casing"}, {1, "lid"}, {servo::first_nut, "J01_nut"}, {servo::first_nut + 1, "J02_nut"}};
+    header.obstacle_names = {{ObstacleId::fixed(0), "casing"},
+                             {ObstacleId::fixed(1), "lid"},
+                             {ObstacleId::nut(0), "J01_nut"},
+                             {ObstacleId::nut(1), "J02_nut"}};
     return header;
 }
 
 // A second and a half of a hand with a wrench, a millimetre a tick towards the nut at the origin.
 struct Story {
-    std::vector<record::TickRecord> ticks = std::vector<record::TickRecord>(1500);
+    std::vector<session::TickRecord> ticks = std::vector<session::TickRecord>(1500);
     std::vector<lesson::Event> events = {{100, "step_begin", 0, 0.0, ""}};
 
     Story() {
@@ -44,7 +49,7 @@ struct Story {
             ticks[i].device.position[0] = 0.001F * static_cast<float>(ticks.size() - i);
         }
     }
-    void touch(std::size_t from, std::size_t to, std::int16_t obstacle) {
+    void touch(std::size_t from, std::size_t to, ObstacleId obstacle) {
         for (std::size_t i = from; i < to; ++i) ticks[i].touched = obstacle;
     }
     void hold(std::size_t from, std::size_t to, std::int16_t joint) {
@@ -65,23 +70,23 @@ struct Story {
 
 TEST_CASE("a bump is what the wrench meets on its way, not what it works on") {
     Story story;
-    story.touch(200, 230, 0);
-    story.touch(270, 280, 1);  // 40 ms later: still the same bump
-    story.touch(600, 650, 1);
-    story.touch(900, 950, servo::first_nut);        // the nut that it is going to
-    story.touch(1000, 1010, servo::first_nut + 1);  // a neighbour's
+    story.touch(200, 230, ObstacleId::fixed(0));
+    story.touch(270, 280, ObstacleId::fixed(1));  // 40 ms later: still the same bump
+    story.touch(600, 650, ObstacleId::fixed(1));
+    story.touch(900, 950, ObstacleId::nut(0));    // the nut that it is going to
+    story.touch(1000, 1010, ObstacleId::nut(1));  // a neighbour's
     story.hold(1200, 1300, 0);
-    story.touch(1250, 1400, 0);  // began with the nut in its jaw
+    story.touch(1250, 1400, ObstacleId::fixed(0));  // began with the nut in its jaw
     story.push(610, 620, 4.0F);
     for (const std::size_t piece : {1500U, 1U, 77U}) {
         const Feel feel = story.feel(piece);
         REQUIRE(feel.bumps.size() == 3);
         CHECK(feel.bumps[0].begin == doctest::Approx(0.2));
         CHECK(feel.bumps[0].length == doctest::Approx(0.08));
-        CHECK(feel.bumps[0].obstacle == 0);
+        CHECK(feel.bumps[0].obstacle == ObstacleId::fixed(0));
         CHECK(feel.bumps[1].length == doctest::Approx(0.05));
         CHECK(feel.bumps[1].hardest == doctest::Approx(4.0));
-        CHECK(feel.bumps[2].obstacle == servo::first_nut + 1);
+        CHECK(feel.bumps[2].obstacle == ObstacleId::nut(1));
     }
 }
 
@@ -157,7 +162,7 @@ TEST_CASE("quartiles are those of type 7") {
 
 TEST_CASE("the page says all of it in words, and what an old session does not tell") {
     Story story;
-    story.touch(200, 230, 0);
+    story.touch(200, 230, ObstacleId::fixed(0));
     story.push(300, 310, 1.5F);
     story.hold(1490, 1500, 0);
     SessionData session = synthetic_session({}).data;
@@ -199,7 +204,7 @@ TEST_CASE("a study sets lessons beside each other that differ in the guiding and
         attempts.push_back(a);
     }
     attempts.push_back(attempts.front());
-    attempts.back().operator_name = "clumsy";  // only guided: nothing to set beside it
+    attempts.back().trainee = "clumsy (simulated)";  // only guided: nothing to set beside it
     const std::string html = guiding_study(attempts);
     CHECK(markup_fault(page("t", html)) == "");
     const auto count = [&](std::string_view part) {
@@ -235,6 +240,8 @@ TEST_CASE("a study sets lessons beside each other that differ in the guiding and
         a.guided = true;
     }
     attempts.front().guided = false;
-    for (Attempt& a : attempts) a.simulated = false;
-    CHECK(guiding_study(attempts).find("simulated") == std::string::npos);
+    for (Attempt& a : attempts) a.operator_kind = session::OperatorKind::person;
+    CHECK(guiding_study(attempts).find("These trainees are simulated") == std::string::npos);
+    for (Attempt& a : attempts) a.operator_kind = session::OperatorKind::unrecorded;
+    CHECK(guiding_study(attempts).find("do not record whether a person") != std::string::npos);
 }

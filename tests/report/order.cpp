@@ -1,14 +1,15 @@
-#include "game/report/order.hpp"
+#include "game/analysis/order.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "game/report/plan.hpp"
+#include "game/report/joint_map.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
 
 using namespace bolt;
+using namespace bolt::analysis;
 using namespace bolt::report;
 
 namespace {

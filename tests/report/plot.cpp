@@ -1,14 +1,15 @@
-#include "game/report/plot.hpp"
+#include "game/plot/plot.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "game/report/place.hpp"
-#include "game/report/style.hpp"
+#include "game/plot/label_layout.hpp"
+#include "game/plot/style.hpp"
 #include "tests/report/well_formed.hpp"
 
+using namespace bolt::plot;
 using namespace bolt::report;
 
 namespace {

@@ -6,15 +6,17 @@
 #include <utility>
 
 #include "engine/base/math.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/text.hpp"
 #include "game/report/attempts.hpp"
-#include "game/report/html.hpp"
 #include "game/report/joint_plot.hpp"
+#include "game/report/learning_curves.hpp"
 #include "game/report/section.hpp"
-#include "game/report/text.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
 
 using namespace bolt;
+using namespace bolt::plot;
 using namespace bolt::report;
 
 namespace {
@@ -214,10 +216,10 @@ SessionData checked_again(double full, double check, double degrees) {
     session.joints = results_by_joint(session.assembly, {});
     session.header.task = "tighten";
     CurveRequest request{{20.0}, 0.001, joint::Direction::tighten, {0, 1000, 2000}};
-    std::vector<record::TickRecord> ticks;
+    std::vector<session::TickRecord> ticks;
     const auto pass = [&](double from, double to, double low, double high) {
         for (int i = 0; i < 1000; ++i) {
-            record::TickRecord t;
+            session::TickRecord t;
             t.joint = i < 900 ? 0 : -1;
             t.nut_angle = static_cast<float>(to_radians(from + (to - from) * i / 900.0));
             t.wrench_torque = static_cast<float>(low + (high - low) * i / 899.0);
@@ -310,11 +312,64 @@ TEST_CASE("attempts are compared only with attempts at the same thing") {
     const std::string html = attempts_section(attempts);
     CHECK(markup_fault(html) == "");
     CHECK(count_of(html, "Learning curve: ") == 1);
-    CHECK(has(html, "Attempts 1, 3, in the order given"));
+    CHECK(has(html, "attempts <a href=\"#session-1\">1</a>, <a href=\"#session-3\">3</a></span>"));
     CHECK(has(html, "<th>task</th>"));
     CHECK_FALSE(has(html, "– %"));
     attempts.resize(2);
     CHECK_FALSE(has(attempts_section(attempts), "<h2>"));
+}
+
+TEST_CASE("Learning curves: one for each trainee, with the axes of all") {
+    std::vector<Attempt> attempts;
+    for (int i = 0; i < 10; ++i) {
+        Attempt a = attempt_of(synthetic_session({}).data);
+        a.trainee = std::vector<std::string>{"Ada", "Bo", "<Cy>", "expert"}[static_cast<std::size_t>(i % 4)];
+        a.operator_kind = session::OperatorKind::person;
+        a.score = 10.0 * i;
+        a.duration = i == 9 ? 3000.0 : 60.0;
+        attempts.push_back(a);
+    }
+    attempts[7].operator_kind = session::OperatorKind::simulated;  // another "expert"
+    const std::vector<std::size_t> all = attempt_groups(attempts).front();
+    CHECK(split_by_trainee(attempts, all) ==
+          std::vector<std::vector<std::size_t>>{{0, 4, 8}, {1, 5, 9}, {2, 6}, {3}, {7}});
+    const std::string html = learning_curves_section(attempts, all, true);
+    CHECK(markup_fault(page("t", html)) == "");
+    CHECK(count_of(html, "<div class=\"trainee\">") == 3);  // one attempt is no curve
+    CHECK(count_of(html, "<td class=\"w\">") == 5);
+    CHECK(has(html, "<td class=\"w\">&lt;Cy&gt;</td>"));
+    CHECK(count_of(html, ">60</text>") == 3);        // minutes, on the axis of each: the longest lesson is 50
+    CHECK(count_of(html, "class=\"ln p2\"") == 12);  // four plots for each of three
+    CHECK(count_of(html, "class=\"ln cl\"") == 12);  // the median of the first and second attempts
+    const std::vector<std::size_t> two = {0, 1};
+    CHECK(learning_curves_section(attempts, two, true).empty());
+}
+
+TEST_CASE("Trainees: who held the tool is the session's record, not the name") {
+    session::Header header;
+    header.operator_name = "person";
+    header.trainee = "novice";
+    CHECK(session::operator_kind(header) == session::OperatorKind::person);
+    CHECK(trainee_text(header) == "novice");
+    header.trainee = "";
+    CHECK(trainee_text(header) == "person without a name");
+    header.operator_name = "novice";
+    CHECK(trainee_text(header) == "novice (simulated)");
+    header.trainee = "Ada";
+    CHECK(trainee_text(header) == "Ada (simulated novice)");
+    // Older programs: no key for the trainee.
+    header.trainee.reset();
+    CHECK(trainee_text(header) == "novice (person or simulated: not recorded)");
+    header.view_help = "off";
+    CHECK(trainee_text(header) == "novice (simulated)");
+    header.view_help.clear();
+    header.tool = "ratchet";
+    CHECK(session::operator_kind(header) == session::OperatorKind::person);
+    CHECK(trainee_text(header) == "novice");
+    header.tool.clear();
+    header.operator_name = "person";
+    CHECK(session::operator_kind(header) == session::OperatorKind::person);
+    CHECK(trainee_text(header) == "person without a name");
 }
 
 TEST_CASE("what is explained is drawn") {
@@ -337,10 +392,10 @@ TEST_CASE("loosened joints share their axes and are shown to the end") {
     session.joints = results_by_joint(session.assembly, {});
     session.header.task = "loosen";
     CurveRequest request{{20.0, 20.0}, 0.001, joint::Direction::loosen, {}};
-    std::vector<record::TickRecord> ticks;
+    std::vector<session::TickRecord> ticks;
     for (int j = 0; j < 2; ++j)
         for (int i = 0; i <= 900; ++i) {
-            record::TickRecord t;
+            session::TickRecord t;
             const double back = 0.1 * i, left = std::max(0.0, 1.0 - back / 30.0);
             t.joint = static_cast<std::int16_t>(j);
             t.nut_angle = static_cast<float>(to_radians(500.0 - back));

@@ -5,14 +5,16 @@
 
 #include "content/format/load.hpp"
 #include "engine/base/file.hpp"
-#include "game/report/advance.hpp"
+#include "game/analysis/torque_envelope.hpp"
+#include "game/plot/text.hpp"
 #include "game/report/report.hpp"
-#include "game/report/text.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace bolt;
+using namespace bolt::analysis;
+using namespace bolt::plot;
 using namespace bolt::report;
 
 namespace {
@@ -26,13 +28,13 @@ struct Recorded {
 
     Recorded(std::string assembly_text, bool finish) {
         played = synthetic_session({});
-        record::Header header = played.data.header;
+        session::Header header = played.data.header;
         header.assembly_text = std::move(assembly_text);
         header.variant.clear();
-        Result<record::Writer> writer = record::Writer::create(path, header);
+        Result<session::Writer> writer = session::Writer::create(path, header);
         REQUIRE_MESSAGE(writer, (writer ? "" : writer.error().message()));
         for (const lesson::Event& event : played.events) REQUIRE(writer->add(event));
-        for (const record::TickRecord& tick : played.ticks) REQUIRE(writer->append(tick));
+        for (const session::TickRecord& tick : played.ticks) REQUIRE(writer->append(tick));
         lesson::LessonResult result;
         result.duration = played.data.duration;
         result.score = 77.25;
@@ -53,7 +55,7 @@ std::string cover_text() {
 
 TEST_CASE("a session file becomes a page") {
     const Recorded recorded(cover_text(), true);
-    const Result<record::Reader> reader = record::Reader::open(recorded.path);
+    const Result<session::Reader> reader = session::Reader::open(recorded.path);
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     const Result<SessionData> data = read_session(*reader);
     REQUIRE_MESSAGE(data, (data ? "" : data.error().message()));
@@ -64,7 +66,7 @@ TEST_CASE("a session file becomes a page") {
         REQUIRE(data->curves[j].visits.size() == recorded.played.data.curves[j].visits.size());
         CHECK(data->curves[j].end_angle == recorded.played.data.curves[j].end_angle);
     }
-    const record::Reader* one[] = {&*reader};
+    const session::Reader* one[] = {&*reader};
     const Result<std::string> html = make_report(one);
     REQUIRE(html);
     CHECK(markup_fault(*html) == "");
@@ -74,9 +76,9 @@ TEST_CASE("a session file becomes a page") {
 
 TEST_CASE("a session that was cut short still makes a page") {
     const Recorded recorded(cover_text(), false);
-    const Result<record::Reader> reader = record::Reader::open(recorded.path);
+    const Result<session::Reader> reader = session::Reader::open(recorded.path);
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
-    const record::Reader* one[] = {&*reader};
+    const session::Reader* one[] = {&*reader};
     const Result<std::string> html = make_report(one);
     REQUIRE_MESSAGE(html, (html ? "" : html.error().message()));
     CHECK(html->find("This session was cut short") != std::string::npos);
@@ -85,7 +87,7 @@ TEST_CASE("a session that was cut short still makes a page") {
 
 TEST_CASE("a session whose assembly cannot be read names the session and the mistake") {
     const Recorded recorded("{ \"joints\": 7 }", true);
-    const Result<record::Reader> reader = record::Reader::open(recorded.path);
+    const Result<session::Reader> reader = session::Reader::open(recorded.path);
     REQUIRE(reader);
     const Result<SessionData> data = read_session(*reader);
     REQUIRE_FALSE(data.has_value());
@@ -94,14 +96,14 @@ TEST_CASE("a session whose assembly cannot be read names the session and the mis
 }
 
 TEST_CASE("no session is a usage error") {
-    const Result<std::string> html = make_report(std::span<const record::Reader* const>{});
+    const Result<std::string> html = make_report(std::span<const session::Reader* const>{});
     REQUIRE_FALSE(html.has_value());
     CHECK(html.error().code == ErrorCode::usage);
 }
 
 TEST_CASE("curves for a comparison exist only in the direction that was worked") {
     const Recorded recorded(cover_text(), true);
-    const Result<record::Reader> reader = record::Reader::open(recorded.path);
+    const Result<session::Reader> reader = session::Reader::open(recorded.path);
     REQUIRE(reader);
     const auto tightened = advance_curves(*reader, 4, joint::Direction::tighten);
     const auto loosened = advance_curves(*reader, 4, joint::Direction::loosen);

@@ -21,7 +21,7 @@ struct Hand {
     double seat;                // degrees
 
     void tick(int joint, double torque, servo::Grip grip) {
-        record::TickRecord t;
+        session::TickRecord t;
         t.joint = static_cast<std::int16_t>(joint);
         t.grip = static_cast<std::uint8_t>(grip);
         if (joint >= 0) {
@@ -127,7 +127,7 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     SessionData& data = session.data;
     data.assembly = synthetic_assembly();
     data.file = "out/session.bolt";
-    record::Header& header = data.header;
+    session::Header& header = data.header;
     header.assembly = "flange";
     header.assembly_file = "flange/assembly.json";
     header.variant = "carbon";
@@ -135,6 +135,7 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     header.mode = "practice";
     header.task = "tighten";
     header.operator_name = "expert";
+    header.trainee = "";
     header.seed = options.seed;
     header.dt = options.dt;
     header.program = "boltwright 0.1.0";

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "game/record/session.hpp"
-#include "game/report/session_data.hpp"
+#include "game/analysis/session_data.hpp"
+#include "game/session/session_file.hpp"
 
 namespace bolt::report {
 
@@ -29,7 +29,7 @@ content::Assembly synthetic_assembly();
 
 struct SyntheticSession {
     SessionData data;
-    std::vector<record::TickRecord> ticks;
+    std::vector<session::TickRecord> ticks;
     std::vector<lesson::Event> events;
 };
 SyntheticSession synthetic_session(const SyntheticOptions& options);

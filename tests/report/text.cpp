@@ -1,10 +1,10 @@
-#include "game/report/text.hpp"
+#include "game/plot/text.hpp"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
-using namespace bolt::report;
+using namespace bolt::plot;
 
 TEST_CASE("hostile text is escaped, in text and in attributes") {
     CHECK(escape("<script>alert('x')</script>") == "&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;");

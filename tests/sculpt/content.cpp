@@ -1,4 +1,4 @@
-#include "tools/sculpt/content_files.hpp"
+#include "tools/assets/sculpt/content_files.hpp"
 
 #include <doctest/doctest.h>
 
@@ -30,7 +30,7 @@ void check_same(const std::filesystem::path& made, const std::filesystem::path& 
 
 }  // namespace
 
-TEST_CASE("Making hands, workshop and environment again gives the files that are kept") {
+TEST_CASE("Sculpt: remaking hands, workshop and environment gives the committed files") {
     const test::Folder kept;
     const std::filesystem::path& folder = kept.path();
     REQUIRE(sculpt::write_hands(folder).has_value());
@@ -42,7 +42,7 @@ TEST_CASE("Making hands, workshop and environment again gives the files that are
     check_same(folder, "environments/workshop.hdr");
 }
 
-TEST_CASE("The kept files read as models") {
+TEST_CASE("Sculpt: the committed files are valid models") {
     const Result<assets::Model> hand = assets::read_gltf(content() / "hands/hand_right.glb");
     REQUIRE(hand.has_value());
     CHECK(hand->skins.size() == 1);

@@ -1,14 +1,13 @@
-#include "tools/sculpt/environment.hpp"
+#include "tools/assets/sculpt/environment.hpp"
 
 #include <doctest/doctest.h>
 
 #include "engine/base/random.hpp"
-#include "tools/sculpt/radiance_file.hpp"
 
 using namespace bolt;
 using namespace bolt::sculpt;
 
-TEST_CASE("A Radiance picture comes back within the step of its mantissa") {
+TEST_CASE("Radiance files: an image is read back within one step of its mantissa") {
     Panorama picture;
     picture.width = 64;
     picture.height = 32;
@@ -18,7 +17,7 @@ TEST_CASE("A Radiance picture comes back within the step of its mantissa") {
         const bool flat = i % 64 > 20 && i % 64 < 50;  // runs
         picture.pixels.emplace_back(flat ? 0.25F : base, flat ? 0.5F : 0.3F * base, flat ? 1.5F : 0.0F);
     }
-    const Result<Panorama> back = decode_radiance(encode_radiance(picture));
+    const Result<Panorama> back = assets::decode_hdr(assets::encode_hdr(picture), "workshop.hdr");
     REQUIRE(back.has_value());
     REQUIRE(back->pixels.size() == picture.pixels.size());
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -28,13 +27,13 @@ TEST_CASE("A Radiance picture comes back within the step of its mantissa") {
     }
 }
 
-TEST_CASE("A broken Radiance picture is refused") {
-    Panorama picture{16, 8, std::vector<glm::vec3>(128, glm::vec3(0.5F))};
-    const std::string bytes = encode_radiance(picture);
-    CHECK(decode_radiance(bytes).has_value());
-    for (std::size_t length = 0; length < bytes.size(); ++length) {
-        CHECK_FALSE(decode_radiance(bytes.substr(0, length)).has_value());
-    }
+TEST_CASE("Radiance files: a file without a complete header is an error") {
+    const Panorama picture{16, 8, std::vector<glm::vec3>(128, glm::vec3(0.5F))};
+    const std::string bytes = assets::encode_hdr(picture);
+    CHECK(assets::decode_hdr(bytes, "light.hdr").has_value());
+    const std::size_t header = bytes.find("+X 16\n");
+    for (std::size_t length = 0; length < header; ++length)
+        CHECK_FALSE(assets::decode_hdr(bytes.substr(0, length), "light.hdr").has_value());
 }
 
 TEST_CASE(

@@ -1,15 +1,15 @@
-#include "tools/sculpt/field.hpp"
+#include "tools/assets/sculpt/field.hpp"
 
 #include <doctest/doctest.h>
 
 #include "engine/base/random.hpp"
-#include "tools/sculpt/cut.hpp"
-#include "tools/sculpt/surface_nets.hpp"
+#include "tools/assets/sculpt/cut.hpp"
+#include "tools/assets/sculpt/surface_nets.hpp"
 
 using namespace bolt;
 using namespace bolt::sculpt;
 
-TEST_CASE("A round cone is the distance to a growing sphere, found by brute force") {
+TEST_CASE("Field: the distance of a round cone equals brute force over a growing sphere") {
     Random random(1);
     const Vec3 a(0.1, -0.2, 0.3);
     const Vec3 b(0.6, 0.4, -0.1);
@@ -24,11 +24,11 @@ TEST_CASE("A round cone is the distance to a growing sphere, found by brute forc
     }
 }
 
-TEST_CASE("A cone whose one sphere holds the other is that sphere") {
+TEST_CASE("Field: a cone whose one sphere contains the other is that sphere") {
     CHECK(round_cone(Vec3(3, 0, 0), Vec3(0.0), Vec3(0.1, 0, 0), 1.0, 0.2) == doctest::Approx(2.0));
 }
 
-TEST_CASE("A blend touches nothing further than its width, and never adds outside it") {
+TEST_CASE("Field: a blend acts only within its width") {
     CHECK(smooth_union(0.3, 0.1, 0.1) == doctest::Approx(0.1));
     CHECK(smooth_union(0.1, 0.1, 0.1) == doctest::Approx(0.075));
     CHECK(smooth_intersection(0.3, 0.1, 0.1) == doctest::Approx(0.3));
@@ -46,14 +46,14 @@ TEST_CASE("The surface of a ball: closed, on the ball, and as large as it should
     CHECK(static_cast<long>(mesh.positions.size()) - faces / 2 == 2);
 }
 
-TEST_CASE("A hole in a mesh is counted") {
+TEST_CASE("Mesh: holes are counted") {
     const Field ball = [](const Vec3& p) { return glm::length(p) - 1.0; };
     TriMesh mesh = extract(ball, {Vec3(-1.3), Vec3(1.3)}, 0.1);
     mesh.triangles.pop_back();
     CHECK(open_edges(mesh) == 3);
 }
 
-TEST_CASE("A cut leaves the surface whole and no triangle across the line") {
+TEST_CASE("Mesh: a cut keeps the surface closed and leaves no triangle across the line") {
     const Field ball = [](const Vec3& p) { return glm::length(p) - 1.0; };
     TriMesh mesh = extract(ball, {Vec3(-1.3), Vec3(1.3)}, 0.1);
     const double before = volume(mesh);

@@ -1,17 +1,17 @@
-#include "tools/sculpt/hand.hpp"
+#include "tools/assets/sculpt/hand.hpp"
 
 #include <doctest/doctest.h>
 
 #include <glm/gtc/matrix_access.hpp>
 
 #include "support.hpp"
-#include "tools/sculpt/field.hpp"
-#include "tools/sculpt/glove.hpp"
+#include "tools/assets/sculpt/field.hpp"
+#include "tools/assets/sculpt/glove.hpp"
 
 using namespace bolt;
 using namespace bolt::sculpt;
 
-TEST_CASE("The mesh of a hand is closed, looks outward and keeps to its budget") {
+TEST_CASE("Hand mesh: closed, outward oriented, within its budget") {
     for (const assets::Model* hand : {&test::hands().left, &test::hands().right}) {
         const TriMesh mesh = test::joined(*hand);
         CHECK(mesh.triangles.size() <= hand_triangles);
@@ -23,7 +23,7 @@ TEST_CASE("The mesh of a hand is closed, looks outward and keeps to its budget")
     }
 }
 
-TEST_CASE("Vertices lie on the sculpted surface, normals look away from it") {
+TEST_CASE("Hand mesh: vertices lie on the sculpted surface with outward normals") {
     const TriMesh mesh = test::as_stored(test::hands().right);
     double furthest = 0.0;
     for (const Vec3& p : mesh.positions) furthest = std::max(furthest, std::abs(test::shape()(p)));
@@ -79,7 +79,7 @@ TEST_CASE("Weights: at most four, exactly one in sum, on joints that exist") {
     }
 }
 
-TEST_CASE("The left hand is the right one in the mirror, number by number") {
+TEST_CASE("Hand mesh: the left hand is the exact mirror of the right") {
     const assets::Model& left = test::hands().left;
     const assets::Model& right = test::hands().right;
     REQUIRE(left.meshes[0].primitives.size() == right.meshes[0].primitives.size());
@@ -107,7 +107,7 @@ TEST_CASE("The left hand is the right one in the mirror, number by number") {
     }
 }
 
-TEST_CASE("Tangents are unit and square to the normals") {
+TEST_CASE("Hand mesh: tangents are unit and perpendicular to the normals") {
     for (const assets::Primitive& part : test::hands().right.meshes[0].primitives) {
         for (std::size_t v = 0; v < part.normals.size(); ++v) {
             CHECK(glm::length(part.normals[v]) == doctest::Approx(1.0).epsilon(1e-4));

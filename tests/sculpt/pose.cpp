@@ -1,9 +1,9 @@
-#include "tools/sculpt/pose.hpp"
+#include "tools/assets/sculpt/pose.hpp"
 
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include "tools/sculpt/field.hpp"
+#include "tools/assets/sculpt/field.hpp"
 
 using namespace bolt;
 using namespace bolt::sculpt;
@@ -29,7 +29,7 @@ std::size_t digit_of(const Vec3& p) {
 
 }  // namespace
 
-TEST_CASE("At rest the skin is the mesh itself") {
+TEST_CASE("Skin: at rest the skinned mesh is the mesh") {
     const TriMesh rest = test::as_stored(test::hands().right);
     const TriMesh same = bent(test::hands().right, Pose());
     double furthest = 0.0;
@@ -39,7 +39,7 @@ TEST_CASE("At rest the skin is the mesh itself") {
     CHECK(furthest < 2e-6);
 }
 
-TEST_CASE("A bent finger leaves its neighbours where they are") {
+TEST_CASE("Skin: a bent finger does not move its neighbours") {
     const TriMesh rest = test::as_stored(test::hands().right);
     for (std::size_t moved = 0; moved < 5; ++moved) {
         Pose pose;
@@ -66,7 +66,7 @@ TEST_CASE("A bent finger leaves its neighbours where they are") {
     }
 }
 
-TEST_CASE("Poses keep the hand's volume and turn hardly a triangle over") {
+TEST_CASE("Skin: poses keep the volume and flip hardly any triangle") {
     for (const bool left : {false, true}) {
         const assets::Model& hand = left ? test::hands().left : test::hands().right;
         const TriMesh rest = test::as_stored(hand);
@@ -103,7 +103,7 @@ TEST_CASE("Poses keep the hand's volume and turn hardly a triangle over") {
     }
 }
 
-TEST_CASE("In a fist the tips reach the palm; in a pinch thumb and index meet") {
+TEST_CASE("Skin: in a fist the tips reach the palm, in a pinch thumb and index meet") {
     const assets::Model& hand = test::hands().right;
     const Result<Skeleton> rest = posed_joints(hand, Pose());
     const Result<Skeleton> fist = posed_joints(hand, *named_pose("fist"));
@@ -119,7 +119,7 @@ TEST_CASE("In a fist the tips reach the palm; in a pinch thumb and index meet") 
     CHECK(gap < 24 * mm);  // the thickness of two finger tips
 }
 
-TEST_CASE("What is no hand is refused") {
+TEST_CASE("Skin: a model that is not a hand is rejected") {
     assets::Model nothing;
     CHECK_FALSE(posed(nothing, Pose()).has_value());
     assets::Model lacking = test::hands().right;

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "support.hpp"
-#include "tools/sculpt/field.hpp"
+#include "tools/assets/sculpt/field.hpp"
 
 using namespace bolt;
 using namespace bolt::hand;
@@ -30,7 +30,7 @@ bool is_child(const assets::Model& model, std::string_view parent, std::string_v
 
 }  // namespace
 
-TEST_CASE("Both hands have the 26 joints of XR_EXT_hand_tracking, in its order, each where it hangs") {
+TEST_CASE("Skeleton: both hands have the 26 joints of XR_EXT_hand_tracking in order, with their parents") {
     for (const assets::Model* hand : {&test::hands().left, &test::hands().right}) {
         REQUIRE(hand->skins.size() == 1);
         const assets::Skin& skin = hand->skins[0];
@@ -56,7 +56,7 @@ TEST_CASE("Both hands have the 26 joints of XR_EXT_hand_tracking, in its order, 
     }
 }
 
-TEST_CASE("Every joint looks along its bone, with the back of the hand above it") {
+TEST_CASE("Skeleton: each joint's frame points along its bone, the back of the hand is up") {
     for (const Skeleton& hand : {right_skeleton(), mirrored(right_skeleton())}) {
         for (const Digit& digit : digits) {
             for (std::size_t k = 0; k + 1 < digit.count; ++k) {
@@ -73,7 +73,7 @@ TEST_CASE("Every joint looks along its bone, with the back of the hand above it"
     CHECK(right_skeleton().position[thumb_tip].x < -0.05);
 }
 
-TEST_CASE("Bones are as long as published, the hand is a median man's") {
+TEST_CASE("Skeleton: bone lengths are near the published ones, the hand is a median man's") {
     const Skeleton hand = right_skeleton();
     const auto length = [&](std::size_t joint) {
         return glm::length(hand.position[joint + 1] - hand.position[joint]) / mm;
@@ -92,7 +92,7 @@ TEST_CASE("Bones are as long as published, the hand is a median man's") {
     CHECK(hand.position[index_tip].z < hand.position[little_tip].z);
 }
 
-TEST_CASE("Breadth over the knuckles is a gloved hand's") {
+TEST_CASE("Skeleton: the breadth over the knuckles is that of a gloved hand") {
     double left = 0.0;
     double right = 0.0;
     for (const Vec3& p : test::joined(test::hands().right).positions) {

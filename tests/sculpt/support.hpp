@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/assets/model.hpp"
-#include "tools/sculpt/hand.hpp"
-#include "tools/sculpt/mesh.hpp"
+#include "tools/assets/sculpt/hand.hpp"
+#include "tools/assets/sculpt/mesh.hpp"
 
 namespace bolt::sculpt::test {
 

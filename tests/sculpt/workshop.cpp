@@ -1,12 +1,12 @@
-#include "tools/sculpt/workshop.hpp"
+#include "tools/assets/sculpt/workshop.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "tools/sculpt/mesh.hpp"
-#include "tools/sculpt/room.hpp"
+#include "tools/assets/sculpt/mesh.hpp"
+#include "tools/assets/sculpt/room.hpp"
 
 using namespace bolt;
 using namespace bolt::sculpt;
@@ -33,7 +33,7 @@ const assets::Mesh& mesh_of(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("The workshop keeps to its budget and names every node once") {
+TEST_CASE("Workshop: within its budget, node names are unique") {
     std::size_t triangles = 0;
     std::set<std::string> names;
     for (const assets::Node& node : workshop().nodes) {
@@ -48,7 +48,7 @@ TEST_CASE("The workshop keeps to its budget and names every node once") {
 }
 
 TEST_CASE(
-    "The clamping plate's upper face is y = 0, large enough for the reducer's foot; the floor lies below") {
+    "Workshop: the clamping plate's upper face is y = 0 and fits the reducer's foot; the floor is below") {
     float top = -1.0F;
     glm::vec3 low(9.0F);
     glm::vec3 high(-9.0F);
@@ -68,7 +68,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Boxes and sculpted tools are closed and look outward") {
+TEST_CASE("Workshop: boxes and tools are closed and outward oriented") {
     for (const std::string name : {"floor", "clamping_plate", "bench_top", "bench_drawers", "tool_board"}) {
         CAPTURE(name);
         TriMesh all;
@@ -86,7 +86,7 @@ TEST_CASE("Boxes and sculpted tools are closed and look outward") {
     }
 }
 
-TEST_CASE("Normals look the way of their triangles") {
+TEST_CASE("Workshop: normals agree with their triangles") {
     for (const assets::Mesh& mesh : workshop().meshes) {
         CAPTURE(mesh.name);
         std::size_t against = 0;

@@ -32,7 +32,7 @@ struct Bench {
     explicit Bench(Setup made) : setup(std::move(made)), state(initial_state(setup)) {}
     Output hold(double angle) {
         handle = angle;
-        const NutPlace& nut = setup.nuts[0];
+        const NutGeometry& nut = setup.nuts[0];
         const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
         Input input = test::holding(grip, test::tool_at(nut, at, setup.wrench.head_angle + handle));
         input.setting = static_cast<float>(scale);
@@ -53,7 +53,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("the wrench clicks at its setting, beside it by its own deviation, at any rate of the servo") {
+TEST_CASE("Click: the wrench clicks at its setting plus its deviation, at any servo rate") {
     for (const double dt : {1e-3, 2.5e-4})
         for (const double deviation : {-0.04, 0.0, 0.03}) {
             Bench bench(with_torque_wrench(deviation, dt));
@@ -70,7 +70,7 @@ TEST_CASE("the wrench clicks at its setting, beside it by its own deviation, at 
         }
 }
 
-TEST_CASE("without a setting, with another wrench, and with fingers nothing clicks") {
+TEST_CASE("Click: none without a setting, with a plain wrench or with fingers") {
     SUBCASE("no setting") {
         Bench bench(with_torque_wrench());
         bench.scale = 0.0;
@@ -95,7 +95,7 @@ TEST_CASE("without a setting, with another wrench, and with fingers nothing clic
     }
 }
 
-TEST_CASE("a scale that is turned after the click changes nothing until the wrench is let go of") {
+TEST_CASE("Click: a setting changed after the click has no effect until the wrench is released") {
     Bench turned(with_torque_wrench()), left(with_torque_wrench());
     for (Bench* bench : {&turned, &left}) {
         bench->hold(0.0);
@@ -109,7 +109,7 @@ TEST_CASE("a scale that is turned after the click changes nothing until the wren
     }
 }
 
-TEST_CASE("taken off the nut it is armed again") {
+TEST_CASE("Click: the wrench is armed again once it left the nut") {
     Bench bench(with_torque_wrench());
     bench.hold(0.0);
     bench.pull(60.0);
@@ -121,7 +121,7 @@ TEST_CASE("taken off the nut it is armed again") {
     CHECK(bench.state.engagement.swung == 0.0);
 }
 
-TEST_CASE("the click is felt: a short fall of the device's torque, in no step above its limits") {
+TEST_CASE("Click: the device's torque drops briefly, within the slew limits") {
     for (const double dt : {1e-3, 2.5e-4}) {
         Bench bench(with_torque_wrench(0.0, dt));
         for (int i = 0; i < static_cast<int>(1.0 / dt); ++i) bench.hold(0.0);
@@ -139,9 +139,9 @@ TEST_CASE("the click is felt: a short fall of the device's torque, in no step ab
     }
 }
 
-TEST_CASE("each wrench has a deviation of its own, within its accuracy, and keeps it") {
+TEST_CASE("Click: each wrench has a constant deviation within its accuracy") {
     const joint::JointDesign design = test::m16_flange_joint();
-    Description description;
+    SetupDescription description;
     description.joints = {&design, 1};
     description.jaw = 24.2e-3;
     description.handle_length = 0.23;
@@ -161,7 +161,7 @@ TEST_CASE("each wrench has a deviation of its own, within its accuracy, and keep
     CHECK(most > 0.035);
 }
 
-TEST_CASE("ticks of a torque wrench allocate nothing and come out the same") {
+TEST_CASE("Click: ticks allocate nothing and give the same bits") {
     const auto run = [] {
         Bench bench(with_torque_wrench());
         bench.hold(0.0);

@@ -7,17 +7,17 @@
 using namespace bolt;
 using namespace bolt::servo;
 
-TEST_CASE("half play of a 24.2 mm jaw on a 24 mm hexagon is 0.84 degrees") {
+TEST_CASE("Engagement: half play of a 24.2 mm jaw on a 24 mm hexagon is 0.84 degrees") {
     CHECK(to_degrees(test::two_joints().wrench.half_play) == doctest::Approx(0.8376).epsilon(1e-4));
 }
 
-TEST_CASE("a right-hand thread: clockwise seen from the nut tightens, for any axis") {
+TEST_CASE("Engagement: clockwise seen from the nut tightens a right-hand thread, for any axis") {
     Random random(2);
     for (int trial = 0; trial < 50; ++trial) {
         const Vec3 axis =
             glm::normalize(Vec3(random.normal(), random.normal(), random.normal()) + Vec3(0, 1e-3, 0));
         const Setup setup = test::two_joints({}, axis);
-        const NutPlace& nut = setup.nuts[0];
+        const NutGeometry& nut = setup.nuts[0];
         CHECK(glm::length(glm::cross(nut.e1, nut.e2) - nut.axis) < 1e-12);
         // Turn the tool by −10° about the axis (clockwise from outside): tightening is +10°.
         const DeviceSample before = test::tool_at(nut, Vec3(0.0), 0.3);
@@ -30,10 +30,10 @@ TEST_CASE("a right-hand thread: clockwise seen from the nut tightens, for any ax
     }
 }
 
-TEST_CASE("the jaw goes on every 60 degrees, and flipped in between: 30 degrees apart") {
+TEST_CASE("Engagement: the jaw fits every 60 degrees, and flipped 30 degrees between") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
-    const NutPlace& nut = setup.nuts[0];
+    const NutGeometry& nut = setup.nuts[0];
     const Vec3 centre = nut_centre(nut, 0.0);
     int upright = 0, flipped = 0;
     double last_upright = 0.0, last_flipped = 0.0;
@@ -56,12 +56,10 @@ TEST_CASE("the jaw goes on every 60 degrees, and flipped in between: 30 degrees 
     CHECK(to_degrees(apart) == doctest::Approx(30.0).epsilon(0.01));
 }
 
-TEST_CASE(
-    "the jaw does not go on when off centre, tilted, too high or out of line; fingers are not so "
-    "particular") {
+TEST_CASE("Engagement: a jaw that is off centre, tilted, too high or misaligned does not fit; fingers do") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
-    const NutPlace& nut = setup.nuts[0];
+    const NutGeometry& nut = setup.nuts[0];
     const Vec3 centre = nut_centre(nut, 0.0);
     const double fits = setup.wrench.head_angle;  // handle angle at which the jaw lies on the flats
     const auto holds = [&](Grip grip, const Vec3& at, double angle, double tilt) {
@@ -80,7 +78,7 @@ TEST_CASE(
     CHECK(holds(Grip::fingers, centre + 0.008 * nut.e1, fits + to_radians(2.0), to_radians(6.0)));
 }
 
-TEST_CASE("a lying device: NaN, infinity and no quaternion at all engage nothing and make no force") {
+TEST_CASE("Engagement: NaN, infinity and invalid quaternions engage nothing and make no force") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
     const float nan = std::nanf("");

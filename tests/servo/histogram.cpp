@@ -9,7 +9,7 @@
 using namespace bolt;
 using namespace bolt::servo;
 
-TEST_CASE("bins: every value has one, they follow each other without a gap, none is wider than a sixteenth") {
+TEST_CASE("Histogram: bins cover all values without a gap, none wider than a sixteenth") {
     std::uint64_t begin = 0;
     for (std::size_t bin = 0; bin < Histogram::bins; ++bin) {
         const std::uint64_t end = end_of(bin);
@@ -22,7 +22,7 @@ TEST_CASE("bins: every value has one, they follow each other without a gap, none
     CHECK(begin == Histogram::most + 1);
 }
 
-TEST_CASE("quantiles against sorted values: never understated, overstated by a sixteenth at most") {
+TEST_CASE("Histogram: quantiles never underestimate and overestimate by at most a sixteenth") {
     Random random(3);
     for (int trial = 0; trial < 20; ++trial) {
         Histogram h;
@@ -44,7 +44,7 @@ TEST_CASE("quantiles against sorted values: never understated, overstated by a s
     }
 }
 
-TEST_CASE("an empty histogram has nothing to say; a clock that goes back and an endless wait are counted") {
+TEST_CASE("Histogram: empty gives zeros; negative and endless durations are counted") {
     Histogram h;
     CHECK(quantile(h, 0.5) == 0.0);
     CHECK(mean(h) == 0.0);
@@ -58,7 +58,7 @@ TEST_CASE("an empty histogram has nothing to say; a clock that goes back and an 
     CHECK(h.counts[Histogram::bins - 1] == 1);
 }
 
-TEST_CASE("mean, share above, and two histograms added are that of all values") {
+TEST_CASE("Histogram: mean, share above and sums of histograms are exact") {
     Histogram a, b, all;
     for (int us = 1; us <= 1000; ++us) {
         add(us % 3 == 0 ? a : b, 1000 * us);

@@ -38,7 +38,7 @@ DeviceSample tilted(const DeviceSample& sample, const Vec3& about, double angle)
 struct Held {
     Setup setup = test::two_joints(at_once());
     State state = initial_state(setup);
-    const NutPlace& nut = setup.nuts[0];
+    const NutGeometry& nut = setup.nuts[0];
     Vec3 centre = nut_centre(nut, 0.0);
 
     Output step(Grip grip, const DeviceSample& sample) {
@@ -55,7 +55,7 @@ struct Held {
 
 }  // namespace
 
-TEST_CASE("an engaged tool that is moved off the nut is drawn back to its centre, 1 N a millimetre") {
+TEST_CASE("Hold: an engaged tool is pulled back to the nut's centre with 1 N per millimetre") {
     Held held;
     REQUIRE(held.step(Grip::wrench, held.at(Vec3(0.0))).joint == 0);
     const Vec3 places[] = {0.005 * held.nut.e1, -0.004 * held.nut.e2, 0.003 * held.nut.axis};
@@ -67,7 +67,7 @@ TEST_CASE("an engaged tool that is moved off the nut is drawn back to its centre
     }
 }
 
-TEST_CASE("taken hold of off centre, the nut pulls with nothing at first and with all of it after 50 ms") {
+TEST_CASE("Hold: engaged off centre, the pull starts at zero and settles with a time constant of 50 ms") {
     Held held;
     const Vec3 offset = 1e-3 * held.nut.e1;
     for (int n = 0; n <= 1000; ++n) {
@@ -79,7 +79,7 @@ TEST_CASE("taken hold of off centre, the nut pulls with nothing at first and wit
     CHECK(glm::length(held.state.engagement.held_at) < 1e-9);
 }
 
-TEST_CASE("a tilted wrench is turned back square to the bolt, upright and flipped") {
+TEST_CASE("Hold: a tilted wrench is turned square to the bolt, upright and flipped") {
     for (const bool flipped : {false, true}) {
         for (const double degrees : {-10.0, 10.0}) {
             CAPTURE(flipped);
@@ -97,7 +97,7 @@ TEST_CASE("a tilted wrench is turned back square to the bolt, upright and flippe
     }
 }
 
-TEST_CASE("pulled 0.3 of its width sideways or 0.6 of its height off, the nut is let go") {
+TEST_CASE("Hold: 0.3 of the width sideways or 0.6 of the height along the axis releases the nut") {
     const struct {
         bool sideways;
         double share;
@@ -116,7 +116,7 @@ TEST_CASE("pulled 0.3 of its width sideways or 0.6 of its height off, the nut is
 }
 
 TEST_CASE(
-    "a wrench tilted further than 30 degrees comes off; fingers let go where the handle nears the axis") {
+    "Hold: a wrench tilted by more than 30 degrees is released; fingers when the handle nears the axis") {
     for (const double degrees : {29.0, 31.0}) {
         Held held;
         const DeviceSample square_on = held.at(Vec3(0.0));
@@ -138,7 +138,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("an angle that leaps further than a hand turns in a tick lets go and does not turn the nut") {
+TEST_CASE("Hold: an angle that changes faster than any hand releases the nut and does not turn it") {
     for (const Grip grip : {Grip::fingers, Grip::wrench}) {
         for (const double leap : {0.33, 0.37, -0.37, 3.0}) {
             CAPTURE(leap);
@@ -157,11 +157,11 @@ TEST_CASE("an angle that leaps further than a hand turns in a tick lets go and d
     }
 }
 
-TEST_CASE("an empty hand is led to the centre of the guided nut with k over the distance") {
+TEST_CASE("Servo: an empty hand is guided to the nut's centre with k over the distance") {
     CHECK(Held().setup.guiding.greatest == 3.0);
     for (std::int16_t guide = 0; guide < 2; ++guide) {
         Held held;
-        const NutPlace& nut = held.setup.nuts[static_cast<std::size_t>(guide)];
+        const NutGeometry& nut = held.setup.nuts[static_cast<std::size_t>(guide)];
         const Vec3 away = 0.1 * nut.axis + 0.01 * nut.e2;
         Input input = test::holding(Grip::none, test::tool_at(nut, nut_centre(nut, 0.0) + away, 0.0));
         input.guide = guide;
@@ -174,12 +174,12 @@ TEST_CASE("an empty hand is led to the centre of the guided nut with k over the 
     }
 }
 
-TEST_CASE("at the greatest torque wrench and wrists have given 2.5 degrees") {
+TEST_CASE("Servo: at the largest torque wrench and wrists yield 2.5 degrees") {
     const Setup setup = test::two_joints();
     CHECK(to_degrees(210.0 / setup.wrench.stiffness) == doctest::Approx(2.5).epsilon(1e-12));
 }
 
-TEST_CASE("fingers that have slipped at the seat unload at once when the hand turns back") {
+TEST_CASE("Fingers: after slipping at the seat they unload at once when the hand turns back") {
     Held held;
     const double limit = held.setup.finger_torque(held.nut);
     CHECK(limit == doctest::Approx(0.5 * 65.0 * 0.024));
@@ -201,10 +201,10 @@ TEST_CASE("fingers that have slipped at the seat unload at once when the hand tu
     CHECK(held.state.joints[0].nut.angle == stands_at);
 }
 
-TEST_CASE("a pose that turns to NaN at 40 kN lets go: the nut stays and the torque only falls") {
+TEST_CASE("Servo: a NaN pose at 40 kN releases the nut, which stays, and the torque only falls") {
     Setup setup = test::two_joints();
     State state = initial_state(setup);
-    const NutPlace& nut = setup.nuts[0];
+    const NutGeometry& nut = setup.nuts[0];
     double angle = setup.wrench.head_angle;
     Output output;
     for (int i = 0; i < 60'000 && output.clamp < 40e3; ++i) {
@@ -232,7 +232,7 @@ TEST_CASE("a pose that turns to NaN at 40 kN lets go: the nut stays and the torq
     CHECK(glm::length(output.force) == 0.0);
 }
 
-TEST_CASE("a sample that is no pose is not taken for a hand at the origin, with a nut just there") {
+TEST_CASE("Servo: an invalid sample is not taken for a hand at the origin") {
     for (const bool engaged_before : {true, false}) {
         Held held;  // the first seat is the origin, and a default pose would lie in the fingers' reach of it
         const DeviceSample there = test::tool_at(held.nut, held.centre, 0.0);
@@ -248,7 +248,7 @@ TEST_CASE("a sample that is no pose is not taken for a hand at the origin, with 
     }
 }
 
-TEST_CASE("a running nut stands when it is let go, and a wrench put on it meets it at rest") {
+TEST_CASE("Servo: a released running nut stops, and a wrench meets it at rest") {
     Held held;
     const auto run = [&] {
         for (int i = 0; i < 500; ++i) {
@@ -274,10 +274,10 @@ TEST_CASE("a running nut stands when it is let go, and a wrench put on it meets 
     CHECK(held_by_wrench);
 }
 
-TEST_CASE("a device that falls silent at full torque: nothing within 20 ms, told, and back when it speaks") {
+TEST_CASE("Servo: a device silent at full torque has zero output within 20 ms, a fault, and recovers") {
     Setup setup = test::two_joints();
     State state = initial_state(setup);
-    const NutPlace& nut = setup.nuts[0];
+    const NutGeometry& nut = setup.nuts[0];
     double angle = setup.wrench.head_angle;
     Output output;
     const auto input = [&] {

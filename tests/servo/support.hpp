@@ -12,7 +12,7 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
     std::vector<joint::JointDesign> designs(2, m16_flange_joint());
     designs[1].seat = Vec3(0.2, 0.0, 0.0);
     for (joint::JointDesign& d : designs) d.axis = axis;
-    servo::Description description;
+    servo::SetupDescription description;
     description.joints = designs;
     description.jaw = 24.2e-3;
     description.head_angle = to_radians(15.0);
@@ -23,7 +23,7 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
 }
 
 // A tool at a place, its handle at `angle` about the nut's axis (tightening positive), upright or flipped.
-inline servo::DeviceSample tool_at(const servo::NutPlace& nut, const Vec3& position, double angle,
+inline servo::DeviceSample tool_at(const servo::NutGeometry& nut, const Vec3& position, double angle,
                                    bool flipped = false) {
     const Vec3 x = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
     const Vec3 z = flipped ? -nut.axis : nut.axis;

@@ -25,7 +25,7 @@ bool flushes_now() {
 
 }  // namespace
 
-TEST_CASE("denormals are flushed while it lives and as before afterwards, also nested") {
+TEST_CASE("Denormals: flushed during the object's lifetime, restored afterwards, also nested") {
     REQUIRE_FALSE(flushes_now());
     {
         const FlushDenormals outer;
@@ -36,10 +36,10 @@ TEST_CASE("denormals are flushed while it lives and as before afterwards, also n
     CHECK_FALSE(flushes_now());
 }
 
-TEST_CASE("the thread ticks until it is told to stop, in order, and its timing counts every tick") {
+TEST_CASE("Servo thread: ticks in order until stopped, and its timing counts every tick") {
     std::atomic<std::uint64_t> ticks{0}, backwards{0};
     std::uint64_t last = 0;
-    Result<Thread> thread = Thread::start({}, [&](const Beat& beat) {
+    Result<Thread> thread = Thread::start({}, [&](const Deadline& beat) {
         if (beat.number != last + beat.missed + 1) ++backwards;
         last = beat.number;
         ++ticks;
@@ -61,9 +61,9 @@ TEST_CASE("the thread ticks until it is told to stop, in order, and its timing c
     thread->stop();  // once more does no harm
 }
 
-TEST_CASE("a tick that says no ends the thread by itself") {
+TEST_CASE("Servo thread: a tick that returns false ends it") {
     int ticks = 0;
-    Result<Thread> thread = Thread::start({4000.0}, [&](const Beat&) { return ++ticks < 10; });
+    Result<Thread> thread = Thread::start({4000.0}, [&](const Deadline&) { return ++ticks < 10; });
     REQUIRE(thread.has_value());
     CHECK(test::eventually([&] { return !thread->running(); }));
     thread->stop();
@@ -71,10 +71,10 @@ TEST_CASE("a tick that says no ends the thread by itself") {
     CHECK(thread->timing().ticks == 10);
 }
 
-TEST_CASE("what it says it got is what the kernel says, in the thread and only there") {
+TEST_CASE("Servo thread: the reported privileges are the kernel's, for this thread only") {
     std::atomic<int> policy{-1}, priority{-1};
     std::atomic<bool> flushes{false};
-    Result<Thread> thread = Thread::start({}, [&](const Beat&) {
+    Result<Thread> thread = Thread::start({}, [&](const Deadline&) {
         sched_param now{};
         int p = -1;
         pthread_getschedparam(pthread_self(), &p, &now);
@@ -85,7 +85,7 @@ TEST_CASE("what it says it got is what the kernel says, in the thread and only t
     });
     REQUIRE(thread.has_value());
     CHECK(test::eventually([&] { return !thread->running(); }));
-    const Granted& granted = thread->granted();
+    const ThreadPrivileges& granted = thread->privileges();
     CHECK((policy == SCHED_FIFO) == (granted.priority > 0));
     CHECK(priority == granted.priority);
     CHECK(flushes == granted.flushes_denormals);
@@ -97,19 +97,19 @@ TEST_CASE("what it says it got is what the kernel says, in the thread and only t
     CHECK(here == SCHED_OTHER);
 }
 
-TEST_CASE("without asking for anything nothing is refused") {
+TEST_CASE("Servo thread: without requests nothing is refused") {
     ThreadOptions options;
     options.priority = 0;
     options.lock_memory = false;
-    Result<Thread> thread = Thread::start(options, [](const Beat&) { return false; });
+    Result<Thread> thread = Thread::start(options, [](const Deadline&) { return false; });
     REQUIRE(thread.has_value());
-    CHECK(thread->granted().refused.empty());
-    CHECK(thread->granted().priority == 0);
-    CHECK_FALSE(thread->granted().memory_locked);
+    CHECK(thread->privileges().refused.empty());
+    CHECK(thread->privileges().priority == 0);
+    CHECK_FALSE(thread->privileges().memory_locked);
 }
 
-TEST_CASE("rates and priorities that are none are refused; a moved thread is stopped once") {
-    const auto no = [](const Beat&) { return false; };
+TEST_CASE("Servo thread: invalid rates and priorities are errors; a moved thread is stopped once") {
+    const auto no = [](const Deadline&) { return false; };
     CHECK_FALSE(Thread::start({0.0}, no).has_value());
     CHECK_FALSE(Thread::start({std::numeric_limits<double>::quiet_NaN()}, no).has_value());
     CHECK_FALSE(Thread::start({1e6}, no).has_value());
@@ -118,8 +118,8 @@ TEST_CASE("rates and priorities that are none are refused; a moved thread is sto
     CHECK_FALSE(Thread::start(options, no).has_value());
 
     std::atomic<int> a{0}, b{0};
-    Result<Thread> first = Thread::start({}, [&](const Beat&) { return ++a > 0; });
-    Result<Thread> second = Thread::start({}, [&](const Beat&) { return ++b > 0; });
+    Result<Thread> first = Thread::start({}, [&](const Deadline&) { return ++a > 0; });
+    Result<Thread> second = Thread::start({}, [&](const Deadline&) { return ++b > 0; });
     REQUIRE(first.has_value());
     REQUIRE(second.has_value());
     CHECK(test::eventually([&] { return a > 5 && b > 5; }));

@@ -32,12 +32,12 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("what was kept comes back, to the last bit, as often as is asked") {
+TEST_CASE("Undo: a checkpoint is restored bit for bit, any number of times") {
     Bench bench;
-    bench.ask(keep_mark);
+    bench.ask(save_checkpoint);
     const std::vector<joint::JointState> first = bench.state.joints;
     bench.turn(1.0);
-    bench.ask(keep_mark);
+    bench.ask(save_checkpoint);
     const double second = bench.state.joints[0].nut.angle;
     bench.turn(1.5);
     CHECK(bench.state.joints[0].nut.angle > second + 9.0);
@@ -52,26 +52,26 @@ TEST_CASE("what was kept comes back, to the last bit, as often as is asked") {
     CHECK(bench.ask(0).undone == 0);
 }
 
-TEST_CASE("without a mark, with more than there are, and beyond what is kept, nothing happens") {
+TEST_CASE("Undo: no effect without a checkpoint or beyond the stored ones") {
     Bench bench;
     bench.turn(1.0);
     const double angle = bench.state.joints[0].nut.angle;
     for (const int undo : {1, 2, 8, 9, 254}) CHECK(bench.ask(static_cast<std::uint8_t>(undo)).undone == 0);
     CHECK(bench.state.joints[0].nut.angle == angle);
-    for (int i = 0; i < 3 * most_marks; ++i) {
-        bench.ask(keep_mark);
+    for (int i = 0; i < 3 * max_checkpoints; ++i) {
+        bench.ask(save_checkpoint);
         bench.turn(0.05);
     }
-    CHECK(bench.ask(most_marks + 1).undone == 0);
-    CHECK(bench.ask(most_marks).undone == most_marks);
+    CHECK(bench.ask(max_checkpoints + 1).undone == 0);
+    CHECK(bench.ask(max_checkpoints).undone == max_checkpoints);
     CHECK(bench.state.joints[0].nut.angle > angle);
 }
 
-TEST_CASE("not while a nut is held, nor with the tool beside it") {
+TEST_CASE("Undo: not while a nut is held or the tool is beside it") {
     Bench bench;
-    bench.ask(keep_mark);
+    bench.ask(save_checkpoint);
     bench.turn(1.0);
-    const NutPlace& nut = bench.setup.nuts[0];
+    const NutGeometry& nut = bench.setup.nuts[0];
     const Vec3 at = nut_centre(nut, bench.state.joints[0].nut.angle);
     Input input = test::holding(Grip::fingers, test::tool_at(nut, at, 0.0));
     Output output;
@@ -85,11 +85,11 @@ TEST_CASE("not while a nut is held, nor with the tool beside it") {
     CHECK(bench.ask(1).undone == 1);
 }
 
-TEST_CASE("marks and undoing allocate nothing") {
+TEST_CASE("Undo: saving and restoring allocate nothing") {
     Bench bench;
     const test::Forbidden seen = test::forbidden_in([&] {
         for (int i = 0; i < 20; ++i) {
-            bench.ask(keep_mark);
+            bench.ask(save_checkpoint);
             bench.ask(1);
         }
     });

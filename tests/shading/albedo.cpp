@@ -7,7 +7,7 @@
 
 using namespace bolt::shading;
 
-TEST_CASE("a mirror gives back everything: x + y = 1, and y is Schlick's share") {
+TEST_CASE("Albedo: a mirror reflects everything, x + y = 1, and y is Schlick's factor") {
     for (const float cosine : {0.2F, 0.5F, 0.9F}) {
         const glm::vec2 e = integrate_albedo(1e-4F, cosine, 512);
         CHECK(e.x + e.y == doctest::Approx(1.0F).epsilon(1e-3));
@@ -15,7 +15,7 @@ TEST_CASE("a mirror gives back everything: x + y = 1, and y is Schlick's share")
     }
 }
 
-TEST_CASE("the table is its integral, and rough layers lose light to what a single scattering misses") {
+TEST_CASE("Albedo: the table equals its integral, and rough layers lose energy in single scattering") {
     for (const float alpha : {0.01F, 0.1F, 0.4F, 1.0F})
         for (const float cosine : {0.05F, 0.3F, 0.7F, 1.0F}) {
             const glm::vec2 exact = integrate_albedo(alpha, cosine, 1 << 16);

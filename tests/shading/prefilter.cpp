@@ -12,7 +12,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// Light from the upper half of the sphere only.
+// Light from the upper hemisphere only.
 RadianceImage sky() {
     RadianceImage image{64, 32, {}};
     for (int y = 0; y < 32; ++y)
@@ -22,7 +22,7 @@ RadianceImage sky() {
 
 }  // namespace
 
-TEST_CASE("texels cover the sphere once, and a direction finds its own texel") {
+TEST_CASE("Cube map: texels cover the sphere once, and a direction looks up its own texel") {
     for (const std::uint32_t size : {1U, 2U, 8U}) {
         double sum = 0.0;
         for (std::uint32_t y = 0; y < size; ++y)
@@ -39,7 +39,7 @@ TEST_CASE("texels cover the sphere once, and a direction finds its own texel") {
                       doctest::Approx(cube.at(face, x, y).x).epsilon(1e-4));
 }
 
-TEST_CASE("white surroundings stay white at every roughness, and light a diffuse surface white") {
+TEST_CASE("Prefilter: white surroundings stay white at every roughness and in the diffuse light") {
     const std::vector<Cube> levels = prefilter(constant(glm::vec3(1.0F, 0.5F, 0.25F)), 32);
     REQUIRE(levels.size() == 4);
     CHECK(levels.back().size == 4);
@@ -54,7 +54,7 @@ TEST_CASE("white surroundings stay white at every roughness, and light a diffuse
 }
 
 TEST_CASE(
-    "under a bright upper half: irradiance is (1 + cos)/2 within the nine harmonics' 2 %, reflection is "
+    "Prefilter: under a bright upper hemisphere irradiance is (1 + cos)/2 within 2 %, and reflections are "
     "bright upwards") {
     const std::vector<Cube> levels = prefilter(sky(), 64);
     const Harmonics h = diffuse_harmonics(levels[0]);
@@ -66,7 +66,7 @@ TEST_CASE(
         CHECK(lookup(level, {0, 1, 0}).x > 0.94F);
         CHECK(lookup(level, {0, -1, 0}).x < 0.06F);
     }
-    // The rougher, the wider the border between bright and dark.
+    // With roughness, the transition between bright and dark widens.
     const auto step = [&](std::size_t level) {
         return lookup(levels[level], {1, 0.3F, 0}).x - lookup(levels[level], {1, -0.3F, 0}).x;
     };

@@ -1,14 +1,15 @@
 // What there is to be heard of ticks that are written by hand.
 
-#include "game/sound/ear.hpp"
+#include "game/sound/event_detection.hpp"
 
 #include "game/sound/materials.hpp"
-#include "haptics/servo/touch.hpp"
+#include "haptics/servo/tool_contact.hpp"
 #include "tests/sound/support.hpp"
 #include "tests/support/forbidden.hpp"
 
 using namespace bolt;
 using namespace bolt::sound;
+using collision::ObstacleId;
 
 namespace {
 
@@ -19,9 +20,10 @@ struct Script {
     Ear ear;
     servo::Output output;
     Cues cues;
+    test::HapticWorld world{2};
 
     explicit Script(const force::OutputLimits& limits = {}) : setup(test::two_joints(limits)) {}
-    Heard tick() { return hear(ear, setup, output, cues); }
+    Heard tick() { return hear(ear, setup, world.write(output), cues); }
     // So many ticks at this speed; the strikes that are heard meanwhile.
     std::vector<float> move(const Vec3& velocity, int ticks) {
         std::vector<float> strikes;
@@ -41,7 +43,7 @@ struct Script {
 std::vector<float> against_wall(double speed) {
     Script script;
     std::vector<float> strikes = script.move({0, -speed, 0}, 50);
-    script.output.touched = 3;
+    script.output.touched = ObstacleId::fixed(3);
     for (const float more : script.move({}, 50)) strikes.push_back(more);
     return strikes;
 }
@@ -66,7 +68,7 @@ TEST_CASE(
         const double handle = script.setup.wrench.handle_length, turn = 0.2 / handle;  // rad/s
         std::vector<float> strikes;
         for (int i = 0; i < 100; ++i) {
-            if (i == 50) script.output.touched = turns ? servo::first_nut + 1 : 3;
+            if (i == 50) script.output.touched = turns ? ObstacleId::nut(1) : ObstacleId::fixed(3);
             const double angle = turn * dt * std::min(i, 50);
             script.output.tool.orientation = glm::angleAxis(angle, Vec3(0, 1, 0));
             if (const Heard heard = script.tick(); heard.strike > 0.0F) strikes.push_back(heard.strike);
@@ -83,21 +85,28 @@ TEST_CASE(
 TEST_CASE("what is met is iron or a nut, or as its name says") {
     const content::Loaded loaded = content::load_assembly("cover-m8");
     REQUIRE(loaded.ok());
-    const std::vector<record::ObstacleName> names{
-        {0, "housing"}, {1, "B1_bolt"}, {2, "B10_bolt"}, {4, "B4_washer_nut"}, {servo::first_nut, "B1_nut"}};
+    const std::vector<session::ObstacleName> names{{ObstacleId::fixed(0), "housing"},
+                                                   {ObstacleId::fixed(1), "B1_bolt"},
+                                                   {ObstacleId::fixed(2), "B10_bolt"},
+                                                   {ObstacleId::fixed(4), "B4_washer_nut"},
+                                                   {ObstacleId::nut(0), "B1_nut"}};
     const std::vector<Met> still = materials(loaded.assembly, names);
     CHECK(still == std::vector<Met>{Met::casing, Met::nut, Met::casing, Met::casing, Met::nut});
-    for (const int id : {0, 1, 2, 3, 4, 5, servo::first_nut + 1}) {
-        CAPTURE(id);
+    const ObstacleId nut = ObstacleId::nut(1);
+    for (const ObstacleId id :
+         {ObstacleId::fixed(0), ObstacleId::fixed(1), ObstacleId::fixed(2), ObstacleId::fixed(3),
+          ObstacleId::fixed(4), ObstacleId::fixed(5), ObstacleId::fixed(1001), nut}) {
+        CAPTURE(id.index());
         Script script;
         script.ear.still = still;
         script.move({0, -0.2, 0}, 50);
-        script.output.touched = static_cast<std::int16_t>(id);
+        script.output.touched = id;
         Heard struck;
         for (int i = 0; i < 20; ++i)
             if (const Heard heard = script.tick(); heard.strike > 0.0F) struck = heard;
         CHECK(struck.strike > 0.1F);
-        CHECK((struck.met == Met::nut) == (id == 1 || id == 4 || id >= servo::first_nut));
+        CHECK((struck.met == Met::nut) ==
+              (id == ObstacleId::fixed(1) || id == ObstacleId::fixed(4) || id == nut));
     }
 }
 
@@ -109,31 +118,31 @@ TEST_CASE(
     CHECK(air.move({}, 50).empty());
 
     Script away;
-    away.output.touched = 3;
+    away.output.touched = ObstacleId::fixed(3);
     away.move({}, 50);
     CHECK(away.move({0.4, 0, 0}, 50).empty());
 
     Script held_back;
-    held_back.output.touched = 3;
+    held_back.output.touched = ObstacleId::fixed(3);
     held_back.move({0.3, 0, 0}, 50);
     CHECK(held_back.move({}, 1).empty());
     CHECK(held_back.move({0.3, 0, 0}, 50).empty());
 
     Script taken;
-    taken.output.touched = 3;
+    taken.output.touched = ObstacleId::fixed(3);
     taken.move({}, 50);
     CHECK(taken.move({400, 0, 0}, 1).empty());
     CHECK(taken.move({}, 50).empty());
 
     Script stops;  // at 4 m/s²
-    stops.output.touched = 3;
+    stops.output.touched = ObstacleId::fixed(3);
     stops.move({0.2, 0, 0}, 50);
     for (int i = 0; i <= 50; ++i) CHECK(stops.move({0.2 - 0.004 * i, 0, 0}, 1).empty());
 }
 
 TEST_CASE("what trembles against a wall knocks no more than what rings on") {
     Script script;
-    script.output.touched = 3;
+    script.output.touched = ObstacleId::fixed(3);
     std::size_t strikes = 0;
     for (int i = 0; i < 100; ++i) strikes += script.move({0, i % 2 == 0 ? -0.1 : 0.1, 0}, 5).size();
     CHECK(strikes >= 1);
@@ -147,16 +156,16 @@ TEST_CASE(
     script.output.force = Vec3(3.0, 4.0, 0.0);
     script.move({0.2, 0, 0}, 10);
     CHECK(script.tick().slide == 0.0F);
-    script.output.touched = 3;
+    script.output.touched = ObstacleId::fixed(3);
     script.output.tool.position += Vec3(0.2 * dt, 0, 0);
     const Heard heard = script.tick();
     CHECK(heard.slide == doctest::Approx(0.2));
     CHECK(heard.press == doctest::Approx(4.0));
     script.output.joint = 1;
-    script.output.touched = servo::first_nut + 1;
+    script.output.touched = ObstacleId::nut(1);
     script.output.tool.position += Vec3(0.2 * dt, 0, 0);
     CHECK(script.tick().slide == 0.0F);
-    script.output.touched = servo::first_nut;  // the neighbour
+    script.output.touched = ObstacleId::nut(0);  // the neighbour
     script.output.tool.position += Vec3(0.2 * dt, 0, 0);
     CHECK(script.tick().slide == doctest::Approx(0.2));
 }
@@ -165,7 +174,7 @@ TEST_CASE("without a device that renders forces a usual one is taken for what pr
     force::OutputLimits none;
     none.force = none.torque = 0.0;
     Script script(none);
-    script.output.touched = 3;
+    script.output.touched = ObstacleId::fixed(3);
     script.move({0.2, 0, 0}, 10);
     script.output.tool.position += Vec3(0.2 * dt, 0, 0);
     CHECK(script.tick().press > 1.0F);
@@ -250,7 +259,7 @@ TEST_CASE("what the lesson says of a tick is passed on") {
 TEST_CASE("numbers of any kind give numbers, and the ear allocates nothing") {
     Script script;
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    script.output.touched = 3;
+    script.output.touched = ObstacleId::fixed(3);
     script.output.joint = 1;
     for (const double odd : {nan, 1e300, -1e300, 0.0}) {
         script.output.tool.position = Vec3(odd);
@@ -262,8 +271,8 @@ TEST_CASE("numbers of any kind give numbers, and the ear allocates nothing") {
     }
     // What comes afterwards is heard as ever.
     script.output.tool = {};
-    script.output.touched = -1;
+    script.output.touched = {};
     script.move({0, -0.2, 0}, 50);
-    script.output.touched = 3;
+    script.output.touched = ObstacleId::fixed(3);
     CHECK(script.move({}, 50).size() == 1);
 }

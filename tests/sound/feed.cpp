@@ -125,10 +125,11 @@ TEST_CASE("a window pushes the ticks of each picture and the speaker plays them"
     REQUIRE(live);
     servo::Output output;
     output.joint = 0;
+    test::HapticWorld world(2);
     CHECK(test::eventually([&] {
         for (int tick = 0; tick < 17; ++tick) {
             output.nut_angle += 9.0 * setup.dt;
-            live->tick(output, {});
+            live->tick(world.write(output), {});
         }
         return loudest > 0.02;
     }));
@@ -140,7 +141,7 @@ TEST_CASE("a window pushes the ticks of each picture and the speaker plays them"
     loudest = 0.0;
     CHECK(test::eventually([&] {
         output.nut_angle += 9.0 * setup.dt;
-        other->tick(output, {});
+        other->tick(world.write(output), {});
         return loudest > 0.01;
     }));
 }

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "engine/base/file.hpp"
-#include "game/play/replay.hpp"
+#include "game/session/replay.hpp"
 #include "tests/sound/support.hpp"
 #include "tests/support/folder.hpp"
 
@@ -50,7 +50,7 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
     std::size_t count = 0, ticks = 0, since = 0;
     double most = 0.0, step = 0.0;
     float before = 0.0F;
-    const play::Played played = test::hear_lesson(
+    const session::Played played = test::hear_lesson(
         "cover-m8", "expert", 300.0, "torque_wrench", folder / "a.boltwright",
         [&](const servo::Output& output, const sound::Heard& heard, std::span<const float> samples) {
             REQUIRE(wav->write(samples));
@@ -69,7 +69,7 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
             // Away from what rings on for itself.
             since = heard.click || heard.done || heard.strike > 0.0F ? 0 : since + 1;
             if (since < 2000) return;
-            if (output.joint < 0 && output.touched < 0) air.add(samples);
+            if (output.joint < 0 && output.touched.is_none()) air.add(samples);
             if (heard.run > 5.0F) spun.add(samples);
             if (heard.creep > 0.2F && heard.load > 0.2F && heard.load < 0.4F) half.add(samples);
             if (heard.creep > 0.2F && heard.load > 0.6F) full.add(samples);
@@ -110,20 +110,23 @@ TEST_CASE("a replay sounds as the lesson did, sample for sample") {
     CHECK(clicks > 0);
     CHECK(strikes > 0);
     CHECK(chimes > 4);
-    const auto reader = record::Reader::open(folder / "a.boltwright");
+    const auto reader = session::Reader::open(folder / "a.boltwright");
     REQUIRE(reader);
     for (const bool changed : {false, true}) {
-        auto again = play::prepare_again(*reader);
+        auto again = session::prepare_again(*reader);
         REQUIRE(again);
         sound::Ear ear;
         ear.still = sound::materials(again->assembly, again->obstacle_names);
         sound::Track track(sound::make_synth(again->setup, test::rate), again->setup.dt);
         Sum replay;
-        const auto replayed = play::replay(*reader, std::move(*again), [&](const play::Moment& moment) {
+        world::World world;
+        world::add_haptics(world, again->state);
+        const auto replayed = session::replay(*reader, std::move(*again), [&](const session::Moment& moment) {
             servo::Output output = moment.output;
             if (changed) output.clicked = false;
             const sound::Cues cues = sound::cues_of(moment.lesson.events);
-            replay.add(track.next(sound::hear(ear, moment.setup, output, cues)));
+            world::write_snapshot(world, {moment.state, moment.input, output});
+            replay.add(track.next(sound::hear(ear, moment.setup, world, cues)));
             return true;
         });
         REQUIRE(replayed);

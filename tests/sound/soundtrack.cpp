@@ -2,9 +2,9 @@
 
 #include "game/sound/soundtrack.hpp"
 
-#include "engine/audio/pcm.hpp"
+#include "engine/audio/sink.hpp"
 #include "engine/base/file.hpp"
-#include "game/play/replay.hpp"
+#include "game/session/replay.hpp"
 #include "tests/sound/support.hpp"
 #include "tests/support/folder.hpp"
 
@@ -26,14 +26,17 @@ std::vector<std::int16_t> samples_of(const std::filesystem::path& wav) {
     return samples;
 }
 
-void write_track(const record::Reader& session, const std::filesystem::path& wav, double from) {
-    auto at = play::prepare_again(session);
+void write_track(const session::Reader& session, const std::filesystem::path& wav, double from) {
+    auto at = session::prepare_again(session);
     REQUIRE(at);
     auto track =
         sound::Soundtrack::create(wav, at->setup, sound::materials(at->assembly, at->obstacle_names), from);
     REQUIRE(track);
-    const auto replayed = play::replay(session, std::move(*at), [&](const play::Moment& m) {
-        REQUIRE(track->hear(m.setup, m.output, sound::cues_of(m.lesson.events), m.time));
+    world::World world;
+    world::add_haptics(world, at->state);
+    const auto replayed = session::replay(session, std::move(*at), [&](const session::Moment& m) {
+        world::write_snapshot(world, {m.state, m.input, m.output});
+        REQUIRE(track->hear(m.setup, world, sound::cues_of(m.lesson.events), m.time));
         return true;
     });
     REQUIRE(replayed);
@@ -52,7 +55,7 @@ TEST_CASE("the sound of a replay is that of the lesson, sample for sample, where
                           for (const float s : samples) lesson.push_back(audio::to_pcm16(s));
                       });
     CHECK(std::any_of(lesson.begin(), lesson.end(), [](int s) { return std::abs(s) > 1000; }));
-    const auto reader = record::Reader::open(session);
+    const auto reader = session::Reader::open(session);
     REQUIRE(reader);
     write_track(*reader, wav, 0.0);
     CHECK((samples_of(wav) == lesson));

@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "content/format/load.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/course.hpp"
-#include "game/sound/ear.hpp"
+#include "game/session/lesson_session.hpp"
+#include "game/sound/event_detection.hpp"
 #include "game/sound/materials.hpp"
 #include "game/sound/track.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tests/servo/support.hpp"
+#include "tests/support/haptic_world.hpp"
 
 namespace bolt::test {
 
@@ -79,24 +80,28 @@ inline std::vector<float> listen(sound::Synth& synth, const sound::Heard& heard,
 // A lesson as boltwright train plays it, listened to and recorded; `visit` gets every tick's output and
 // samples.
 using Visit = std::function<void(const servo::Output&, const sound::Heard&, std::span<const float>)>;
-inline play::Played hear_lesson(const char* name, const char* trainee, double longest, const char* tool,
-                                const std::filesystem::path& session, const Visit& visit) {
+inline session::Played hear_lesson(const char* name, const char* trainee, double longest, const char* tool,
+                                   const std::filesystem::path& session, const Visit& visit) {
     content::Loaded loaded = content::load_assembly(name);
     REQUIRE(loaded.ok());
     REQUIRE(content::choose_tool(loaded.assembly, tool));
-    play::CourseOptions options;
-    options.obstacles = play::Obstacles::required;
-    auto begun = play::Course::begin(loaded.assembly, options, session);
+    session::CourseOptions options;
+    options.obstacles = session::Obstacles::required;
+    auto begun = session::Course::begin(loaded.assembly, options, session);
     REQUIRE(begun);
-    play::Course& course = **begun;
-    operators::Operator hand(operators::find_profile(trainee).value(), options.seed, course.setup());
+    session::Course& course = **begun;
+    trainees::Operator hand(trainees::find_profile(trainee).value(), options.seed, course.setup());
     sound::Ear ear;
     ear.still = sound::materials(course.assembly(), course.obstacle_names());
     sound::Track track(sound::make_synth(course.setup(), rate), course.setup().dt);
+    world::World world;
+    world::add_haptics(world, course.state());
     while (!course.over() && course.time() < longest) {
         const auto output = course.step(hand.act(course.setup(), course.state(), course.lesson()));
         REQUIRE(output);
-        const sound::Heard heard = sound::hear(ear, course.setup(), *output, sound::cues_of(course.events()));
+        world::write_joints(world, course.state().joints, course.state().rounded);
+        world::write_output(world, *output);
+        const sound::Heard heard = sound::hear(ear, course.setup(), world, sound::cues_of(course.events()));
         visit(*output, heard, track.next(heard));
     }
     const auto played = course.finish();

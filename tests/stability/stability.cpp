@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "haptics/force/output_stage.hpp"
-#include "tests/god_object/scene.hpp"
+#include "tests/proxy/scene.hpp"
 #include "tests/support/range.hpp"
 #include "tests/support/simulated_arm.hpp"
 
@@ -64,7 +64,7 @@ Trial trial(std::uint64_t seed) {
                 t.scene.obstacles.push_back(Rod{{0.03 * i, 0.0, -0.2}, {0.03 * i, 0.0, -0.008}, 0.008});
             break;
         case Before::ball:
-            t.scene.obstacles.push_back(Ball{{0.0, 0.0, -0.04}, 0.04, 0});
+            t.scene.obstacles.push_back(Ball{{0.0, 0.0, -0.04}, 0.04});
             break;
     }
     t.from = Vec3(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), 0.06);
@@ -111,8 +111,8 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
         input.pose = test::sample(arm);
         input.enabled = true;
         step_god_object(parameters, tool, input.pose, t.scene, dt);
-        const Wanted wanted{tool.felt, stored_energy(parameters.coupling, tool.offset)};
-        test::step(arm, render(limits, stage, input, wanted, dt), dt);
+        const ForceRequest request{tool.felt, stored_energy(parameters.coupling, tool.offset)};
+        test::step(arm, render(limits, stage, input, request, dt), dt);
         outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_out);
         outcome.deepest = std::min(outcome.deepest, clearance(t.scene, tool.tool));
         outcome.touched = outcome.touched || glm::length(tool.felt.force) > 0.2;

@@ -9,7 +9,7 @@
 #include <deque>
 
 #include "engine/base/random.hpp"
-#include "haptics/glove/conversation.hpp"
+#include "haptics/hand/glove_session.hpp"
 #include "tests/station/gloved.hpp"
 #include "tests/station/support.hpp"
 #include "tests/support/forbidden.hpp"
@@ -18,7 +18,7 @@
 
 using namespace bolt;
 using namespace bolt::station;
-using device::Mishap;
+using device::InjectedFault;
 
 namespace {
 
@@ -32,38 +32,41 @@ constexpr double done = 1.5;          // s after which a hand that closed or ope
 
 bool nothing(const force::OutputCommand& c) { return c.force == Vec3(0.0) && c.torque == Vec3(0.0); }
 
-bool mutes(Mishap what) {
-    return what == Mishap::unplugged || what == Mishap::silent || what == Mishap::no_number;
+bool mutes(InjectedFault what) {
+    return what == InjectedFault::unplugged || what == InjectedFault::silent ||
+           what == InjectedFault::not_a_number;
 }
 
 // A device of the station, what befalls it, and whether the promises are kept.
 struct Watched {
     test::VirtualLine line;
     Random random;
-    device::Trouble trouble{Mishap::silent, -1.0, -1.0};  // the newest; in the past if there is none now
-    double sound_since = 0.0;                             // when the last one ended
-    double undisturbed = 0.0;  // when nothing any more kept a write from going through
-    bool again = true;         // usable since then
-    std::array<std::uint64_t, device::mishaps> counts{};
+    device::FaultInterval trouble{InjectedFault::silent, -1.0,
+                                  -1.0};  // the newest; in the past if there is none now
+    double sound_since = 0.0;             // when the last one ended
+    double undisturbed = 0.0;             // when nothing any more kept a write from going through
+    bool again = true;                    // usable since then
+    std::array<std::uint64_t, device::injected_fault_count> counts{};
     double longest_back = 0.0;  // s from the end of a mishap to being usable
     double longest_lost = 0.0, longest_let_go = 0.0, longest_hung = 0.0;  // s that a force stayed
 
-    Watched(device::SimulatedDesign design, std::uint64_t seed) : line(std::move(design)), random(seed) {}
+    Watched(device::SimulatedDeviceOptions design, std::uint64_t seed)
+        : line(std::move(design)), random(seed) {}
 
     void live(double now) {
         if (now >= trouble.until && now > sound_since + 0.1 && random.chance(dt / 4.0)) {
-            const auto kind = static_cast<Mishap>(random.bits() % device::mishaps);
+            const auto kind = static_cast<InjectedFault>(random.bits() % device::injected_fault_count);
             // A millisecond to three seconds, as many short ones as long ones.
             const double lasts = 1e-3 * std::exp(random.uniform() * std::log(3000.0));
             trouble = {kind, now, now + lasts};
-            line.thing.happen(trouble);
+            line.thing.inject(trouble);
             ++counts[static_cast<std::size_t>(kind)];
             again = false;
         }
         if (now < trouble.until) {
             sound_since = trouble.until;
-            if (trouble.what == Mishap::stuck || trouble.what == Mishap::slow)
-                undisturbed = trouble.until + device::slow_write;
+            if (trouble.what == InjectedFault::stuck || trouble.what == InjectedFault::slow)
+                undisturbed = trouble.until + device::slow_write_time;
         }
         line.until(now);
     }
@@ -100,10 +103,10 @@ class Soak {
           setup_(test::two_joints(limits_of(layout_))),
           servo_(servo::initial_state(setup_)),
           state_(initial_state(layout_)),
-          arm_({test::arm(), [this](double) { return reach(); }, device::HoldingHand{}, {}}, 4 * seed),
+          arm_({test::arm(), [this](double) { return reach(); }, device::HandImpedance{}, {}}, 4 * seed),
           wheel_({test::wheel_of(8.0),
                   [this](double) { return turn(); },
-                  device::HoldingHand{0.3, 300.0, 10.0, 0.01, 30.0, 0.5},
+                  device::HandImpedance{0.3, 300.0, 10.0, 0.01, 30.0, 0.5},
                   {}},
                  4 * seed + 1),
           random_(4 * seed + 2),
@@ -137,7 +140,7 @@ class Soak {
   private:
     // What the hand does: to the first nut, some seconds on it, away, over and over.
     device::Sample reach() {
-        const servo::NutPlace& nut = setup_.nuts[0];
+        const servo::NutGeometry& nut = setup_.nuts[0];
         const double phase = std::fmod(now_, 20.0);
         const double height = phase < 2.0 ? 0.1 : phase < 17.0 ? 0.0 : 0.1;
         const Vec3 at = servo::nut_centre(nut, servo_.joints[0].nut.angle) + height * nut.axis;
@@ -150,8 +153,8 @@ class Soak {
                 : rotation_vector(glm::normalize(wanted.orientation * glm::conjugate(tool.orientation)));
         device::Sample meant;
         const Pose& hand = state_.hand;
-        meant.pose.position = hand.position + force::at_most(at - tool.position, 0.02);
-        meant.pose.orientation = glm::normalize(rotation(force::at_most(turn, 0.1)) * hand.orientation);
+        meant.pose.position = hand.position + force::clamp_length(at - tool.position, 0.02);
+        meant.pose.orientation = glm::normalize(rotation(force::clamp_length(turn, 0.1)) * hand.orientation);
         return meant;
     }
     // Tightens to 120 N·m, loosens to nothing.
@@ -166,14 +169,14 @@ class Soak {
     }
 
     void wish() {
-        wishes_.grip = servo::Grip::wrench;
+        controls_.grip = servo::Grip::wrench;
         if (random_.chance(dt / 10.0)) {
-            wishes_.held = !wishes_.held;
-            if (!wishes_.held) released_ = now_;
-            tally_.releases += wishes_.held ? 0 : 1;
+            controls_.dead_man = !controls_.dead_man;
+            if (!controls_.dead_man) released_ = now_;
+            tally_.releases += controls_.dead_man ? 0 : 1;
         }
-        wishes_.clutch =
-            random_.chance(dt / 20.0) ? !wishes_.clutch : wishes_.clutch && !random_.chance(dt / 0.3);
+        controls_.clutch =
+            random_.chance(dt / 20.0) ? !controls_.clutch : controls_.clutch && !random_.chance(dt / 0.3);
         if (now_ > hangs_until_ + 1.0 && random_.chance(dt / 30.0)) {
             ++tally_.hangs;
             hang_begins_ = now_;
@@ -182,18 +185,18 @@ class Soak {
     }
 
     void serve() {
-        Heard heard;
-        heard.mover = arm_.line.told();
-        heard.wheel = wheel_.line.told();
-        heard.wishes = wishes_;
-        heard.hand = grip_of(hand_);
+        StationInputs heard;
+        heard.mover = arm_.line.snapshot();
+        heard.wheel = wheel_.line.snapshot();
+        heard.controls = controls_;
+        heard.hand_grip = grip_of(hand_);
         heard.missed = static_cast<std::uint64_t>((now_ - ticked_) / dt + 0.5) - (tally_.ticks > 0 ? 1 : 0);
         ticked_ = now_;
         const test::Forbidden forbidden =
             test::forbidden_in([&] { answer_ = station::tick(layout_, setup_, state_, servo_, heard); });
         tally_.allocations += static_cast<std::uint64_t>(forbidden.all());
-        arm_.line.order(answer_.mover);
-        wheel_.line.order(answer_.wheel);
+        arm_.line.command(answer_.mover);
+        wheel_.line.command(answer_.wheel);
         ++tally_.ticks;
         if (!nothing(answer_.mover)) ++tally_.forces;
         if (!nothing(answer_.wheel)) ++tally_.turned;
@@ -207,10 +210,10 @@ class Soak {
         }
         const bool troubled = now_ < glove_until_;
         glove_.stalled = troubled && !glove_cut_;
-        std::vector<std::uint8_t> heard = glove_.go_on(said_, now_);
+        std::vector<std::uint8_t> heard = glove_.advance(said_, now_);
         if (troubled && glove_cut_) heard.clear();
         const std::uint64_t before = tally_.glove_frames;
-        said_ = conversation_.go_on(heard, now_, [&](const glove::Frame& frame) {
+        said_ = conversation_.update(heard, now_, [&](const hand::GloveFrame& frame) {
             sample_ = {frame, ++tally_.glove_frames, now_};
         });
         if (troubled && glove_cut_) said_.clear();
@@ -232,16 +235,16 @@ class Soak {
     void grip() {
         live_in_glove();
         const bool held = hand_.grip.held, lost = hand_.grip.lost, fresh = sample_.number != hand_.number;
-        const ToolPlace place{state_.workspace.tool, state_.output.tool};
-        grip::Told told{};
+        const ToolPoses place{state_.workspace.tool, state_.output.tool};
+        hand::GraspEvent told{};
         const test::Forbidden forbidden =
-            test::forbidden_in([&] { told = hand_step(plan_, hand_, sample_, place, looks * dt); });
+            test::forbidden_in([&] { told = update_hand(plan_, hand_, sample_, place, looks * dt); });
         tally_.allocations += static_cast<std::uint64_t>(forbidden.all());
-        tally_.taken += told == grip::Told::taken ? 1 : 0;
-        tally_.let_go += told == grip::Told::let_go ? 1 : 0;
-        tally_.lost_in_grasp += told == grip::Told::glove_lost && held ? 1 : 0;
+        tally_.taken += told == hand::GraspEvent::grasped ? 1 : 0;
+        tally_.let_go += told == hand::GraspEvent::released ? 1 : 0;
+        tally_.lost_in_grasp += told == hand::GraspEvent::glove_lost && held ? 1 : 0;
 
-        const grip::Grip& now = hand_.grip;
+        const hand::GraspState& now = hand_.grip;
         if (fresh) frame_at_ = now_;
         if (fresh && lost) back_at_ = now_;
         const bool dropped = held && !now.held;
@@ -253,11 +256,12 @@ class Soak {
         // A frame may come out of a line that is already lost.
         const double quiet = now_ - frame_at_;
         if (now.held) {
-            const auto told_now = words({now.held, now.lost}, plan_.wearer.hand.side, {});
+            const auto told_now = messages({now.held, now.lost}, plan_.wearer.hand.side, {});
             const bool so = !told_now.empty() && told_now[0].find("stays in your hand") != std::string::npos;
             if (!so) tally_.longest_untold = std::max(tally_.longest_untold, quiet);
         }
-        tally_.must(!now.any || quiet <= said || now.lost, "the glove is lost and nobody says so", now_);
+        tally_.must(!now.has_frame || quiet <= said || now.lost, "the glove is lost and nobody says so",
+                    now_);
         const double sound = now_ - std::max({moved_at_, back_at_, glove_until_ + usable_again});
         tally_.must(sound <= 0.0 || !now.lost, "the glove is back and is said to be lost", now_);
         if (sound > done)
@@ -273,7 +277,7 @@ class Soak {
         fault_ = fault;
         for (Watched* w : {&arm_, &wheel_}) {
             const char* who = w == &arm_ ? "arm" : "wheel";
-            const device::Trouble& t = w->trouble;
+            const device::FaultInterval& t = w->trouble;
             const force::OutputCommand has = w->line.thing.rendered();
             const force::OutputCommand& ordered = w == &arm_ ? answer_.mover : answer_.wheel;
             const auto is = [&](const char* what) { return fmt::format("{} {}", who, what); };
@@ -287,16 +291,16 @@ class Soak {
                 if (mutes(t.what) && !nothing(has)) w->longest_lost = std::max(w->longest_lost, since);
                 if (mutes(t.what) && since > gone && !nothing(has))
                     tally_.must(false, is("is lost and has a force"), now_);
-                if (t.what == Mishap::stuck && since > gone && !hangs && !nothing(ordered))
+                if (t.what == InjectedFault::stuck && since > gone && !hangs && !nothing(ordered))
                     tally_.must(false, is("is stuck and a force is ordered"), now_);
                 if (mutes(t.what) && since > said && w->line.report().trouble.empty())
                     tally_.must(false, is("is lost and nobody says so"), now_);
-                if (t.what == Mishap::stuck && since > said && w == &arm_ && !hangs &&
+                if (t.what == InjectedFault::stuck && since > said && w == &arm_ && !hangs &&
                     w->line.report().trouble.empty() && state_.output.fault == force::Fault::none &&
                     state_.output.joint < 0)
                     tally_.must(false, is("is stuck and nobody says so"), now_);
             } else if (!w->again) {
-                if (w->line.report().state == device::State::usable && w->line.told().usable) {
+                if (w->line.report().state == device::DeviceState::usable && w->line.snapshot().usable) {
                     w->again = true;
                     w->longest_back = std::max(w->longest_back, now_ - t.until);
                 } else if (now_ - w->sound_since > usable_again) {
@@ -304,13 +308,13 @@ class Soak {
                 }
             }
             if (now_ > w->undisturbed) {
-                if (!wishes_.held && !hangs && !nothing(has))
+                if (!controls_.dead_man && !hangs && !nothing(has))
                     w->longest_let_go = std::max(w->longest_let_go, now_ - released_);
                 const double hung = now_ - std::max(hang_begins_, w->undisturbed);
                 if (hangs && !nothing(has)) w->longest_hung = std::max(w->longest_hung, hung);
                 if (now_ - faulty_since_ > gone && !hangs && !nothing(has))
                     tally_.must(false, is("has a force that is held off"), now_);
-                if (!wishes_.held && now_ - released_ > gone && !hangs && !nothing(has))
+                if (!controls_.dead_man && now_ - released_ > gone && !hangs && !nothing(has))
                     tally_.must(false, is("has a force without the dead-man"), now_);
                 if (hangs && hung > gone && !nothing(has))
                     tally_.must(false, is("has a force and the servo hangs"), now_);
@@ -335,19 +339,19 @@ class Soak {
     Watched arm_, wheel_;
     Random random_;
     emulate::Glove glove_;
-    glove::Conversation conversation_;
-    HandPlan plan_;
+    hand::GloveSession conversation_;
+    HandSetup plan_;
     HandState hand_;
-    glove::Sample sample_;
-    const glove::BySensor<std::uint8_t> raw_open_ = test::raw_open(), raw_closed_ = test::raw_closed();
+    hand::GloveSample sample_;
+    const hand::PerSensor<std::uint8_t> raw_open_ = test::raw_open(), raw_closed_ = test::raw_closed();
     bool open_ = true;  // the hand in the glove
     double moved_at_ = 0.0, hand_until_ = 3.0;
     double frame_at_ = 0.0, back_at_ = -1.0;  // of the glove, after it was lost
     std::vector<std::uint8_t> said_;
     double glove_until_ = -1.0, glove_heard_ = 0.0;
     bool glove_cut_ = false;
-    Wishes wishes_{.held = true};
-    Answer answer_;
+    StationControls controls_{.dead_man = true};
+    DeviceCommands answer_;
     Tally tally_;
 };
 
@@ -363,8 +367,7 @@ double seconds() {
 
 }  // namespace
 
-TEST_CASE(
-    "hours of devices that are unplugged, stall, jump and talk nonsense: no force stays, all come back") {
+TEST_CASE("Station: hours of faulty devices leave no force behind, and all devices recover") {
     Soak soak(seed());
     const Tally tally = soak.run(seconds());
     MESSAGE(
@@ -392,7 +395,7 @@ TEST_CASE(
     CHECK(tally.engaged > tally.ticks / 20);
     CHECK(tally.releases > 2);
     CHECK(tally.hangs > 2);
-    CHECK(tally.jumps >= soak.arm().counts[static_cast<std::size_t>(Mishap::jumped)] / 2);
+    CHECK(tally.jumps >= soak.arm().counts[static_cast<std::size_t>(InjectedFault::jumped)] / 2);
     for (Watched* w : {&soak.arm(), &soak.wheel()})
         for (const std::uint64_t count : w->counts) CHECK(count > 2);
     CHECK(tally.glove_frames > tally.ticks / 50);

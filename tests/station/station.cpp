@@ -6,11 +6,11 @@
 
 #include <thread>
 
-#include "haptics/device/puck.hpp"
+#include "haptics/device/virtual_puck.hpp"
 #include "tests/station/gloved.hpp"
 #include "tests/station/support.hpp"
 #include "tests/support/eventually.hpp"
-#include "tools/emulate/glove_line.hpp"
+#include "tools/emulate/serial_glove.hpp"
 
 using namespace bolt;
 using namespace bolt::station;
@@ -46,7 +46,7 @@ class OnCable final : public device::Device {
     std::unique_ptr<device::Device> device_;
 };
 
-device::Open on_cable(std::shared_ptr<Cable> cable, device::Open open) {
+device::DeviceFactory on_cable(std::shared_ptr<Cable> cable, device::DeviceFactory open) {
     return [cable = std::move(cable), open = std::move(open)]() -> Result<std::unique_ptr<device::Device>> {
         if (!cable->plugged) return OnCable::pulled();
         auto device = open();
@@ -55,12 +55,12 @@ device::Open on_cable(std::shared_ptr<Cable> cable, device::Open open) {
     };
 }
 
-Plan plan_of(device::Open mover) {
-    Plan plan;
+StationOptions plan_of(device::DeviceFactory mover) {
+    StationOptions plan;
     plan.mover = std::move(mover);
     plan.home.position = Vec3(0.0, 0.3, 0.0);
-    plan.patience = 60.0;
-    plan.line.priority = plan.servo.priority = 0;
+    plan.open_timeout = 60.0;
+    plan.device_threads.priority = plan.servo.priority = 0;
     plan.servo.lock_memory = false;
     plan.setup = [](const force::OutputLimits& limits, double) { return test::two_joints(limits); };
     return plan;
@@ -74,65 +74,96 @@ std::string words(const std::vector<std::string>& troubles) {
 
 }  // namespace
 
-TEST_CASE("a puck moves the tool; every tick is there to be recorded, in order") {
-    device::Puck puck({}, device::steady_timer());
+TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in order") {
+    device::VirtualPuck puck({}, device::steady_timer());
     Result<Station> station = Station::start(plan_of(puck.open()));
     REQUIRE(station);
     CHECK(station->layout().mover->name == "mouse and keyboard");
     CHECK(station->setup().limits.force == 0.0);
-    Wishes wishes;
-    wishes.held = true;
-    wishes.guide = 1;
-    station->wish(wishes);
+    StationControls controls;
+    controls.dead_man = true;
+    controls.guide = 1;
+    station->set_controls(controls);
     std::uint64_t number = 0, ticks = 0;
     bool in_order = true;
     float height = 0.0F;
     REQUIRE(eventually([&] {
-        puck.put({Vec3(0, 1, 0), Vec3(0.0), 0});
-        for (Ticked tick; station->next(tick); ++ticks) {
+        puck.set_input({Vec3(0, 1, 0), Vec3(0.0), 0});
+        for (TickRecord tick; station->next_tick(tick); ++ticks) {
             in_order = in_order && tick.number > number;
             number = tick.number;
             height = tick.input.device.position[1];
         }
-        return height > 0.4F && station->newest().input.enabled && station->newest().input.guide == 1;
+        return height > 0.4F && station->latest_tick().input.enabled &&
+               station->latest_tick().input.guide == 1;
     }));
     CHECK(in_order);
-    CHECK(station->lost() == 0);
+    CHECK(station->lost_ticks() == 0);
     station->stop();
-    for (Ticked tick; station->next(tick);) ++ticks;
+    for (TickRecord tick; station->next_tick(tick);) ++ticks;
     CHECK(ticks == station->servo().timing().ticks - 1);  // the last turn only saw that it was to stop
 }
 
-TEST_CASE("a cable pulled at work is said, lets the tool stand, and all goes on when it is back") {
-    device::Puck puck({}, device::steady_timer());
+TEST_CASE("Station: every command reaches the servo once and in order; a full queue is an error") {
+    device::VirtualPuck puck({}, device::steady_timer());
+    Result<Station> station = Station::start(plan_of(puck.open()));
+    REQUIRE(station);
+    constexpr int rounds = 200;
+    int saved = 0;
+    const auto read_ticks = [&] {
+        for (TickRecord tick; station->next_tick(tick);)
+            saved += tick.input.undo == servo::save_checkpoint ? 1 : 0;
+    };
+    for (int i = 1; i <= rounds; ++i) {
+        const Pose there{Vec3(0.001 * i, 0.4, 0.0), Quat(1, 0, 0, 0)};
+        for (const StationCommand& command :
+             {StationCommand(SaveCheckpoint{}), StationCommand(PlaceTool{there})})
+            REQUIRE(eventually([&] { return station->send(command).has_value(); }));
+        read_ticks();
+    }
+    REQUIRE(eventually([&] {
+        read_ticks();
+        return saved >= rounds;
+    }));
+    CHECK(saved == rounds);
+    CHECK(glm::distance(station->latest_tick().tool.position, Vec3(0.001 * rounds, 0.4, 0.0)) < 1e-9);
+    station->stop();
+    for (std::size_t i = 0; i < command_queue_capacity; ++i) REQUIRE(station->send(SaveCheckpoint{}));
+    const Status full = station->send(SaveCheckpoint{});
+    REQUIRE_FALSE(full);
+    CHECK(full.error().message().find("the command queue is full") != std::string::npos);
+}
+
+TEST_CASE("Station: an unplugged device is reported and stops the tool; it resumes when plugged in") {
+    device::VirtualPuck puck({}, device::steady_timer());
     const auto cable = std::make_shared<Cable>();
     Result<Station> station = Station::start(plan_of(on_cable(cable, puck.open())));
     REQUIRE(station);
-    Wishes wishes;
-    wishes.held = true;
-    station->wish(wishes);
+    StationControls controls;
+    controls.dead_man = true;
+    station->set_controls(controls);
     const auto height = [&] {
-        puck.put({Vec3(0, 1, 0), Vec3(0.0), 0});
-        return station->newest().input.device.position[1];
+        puck.set_input({Vec3(0, 1, 0), Vec3(0.0), 0});
+        return station->latest_tick().input.device.position[1];
     };
     REQUIRE(eventually([&] { return height() > 0.32F; }));
     CHECK(eventually([&] { return height() > 0.32F && station->troubles().empty(); }));
     cable->plugged = false;
-    REQUIRE(eventually([&] { return station->newest().output.fault == force::Fault::silent; }));
+    REQUIRE(eventually([&] { return station->latest_tick().output.fault == force::Fault::silent; }));
     REQUIRE(eventually([&] { return words(station->troubles()).find("plug it in") != std::string::npos; }));
-    REQUIRE(eventually([&] { return station->passed().mover.longest_silence > 0.3; }));
-    CHECK(station->passed().mover.samples > 0);
-    CHECK(station->mover()->losses == 1);
+    REQUIRE(eventually([&] { return station->link_stats().mover.longest_silence > 0.3; }));
+    CHECK(station->link_stats().mover.samples > 0);
+    CHECK(station->mover_report()->losses == 1);
     const float stands = height();
     for (int i = 0; i < 20; ++i) CHECK(height() == stands);
     cable->plugged = true;
     REQUIRE(eventually([&] { return height() > stands + 0.02F; }));
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
-    CHECK(station->newest().output.fault == force::Fault::none);
+    CHECK(station->latest_tick().output.fault == force::Fault::none);
 }
 
-TEST_CASE("a device whose driver does not come back is said, though its line cannot") {
-    device::Puck puck({}, device::steady_timer());
+TEST_CASE("Station: a driver that hangs is reported, although its thread is blocked") {
+    device::VirtualPuck puck({}, device::steady_timer());
     const auto cable = std::make_shared<Cable>();
     Result<Station> station = Station::start(plan_of(on_cable(cable, puck.open())));
     REQUIRE(station);
@@ -144,49 +175,50 @@ TEST_CASE("a device whose driver does not come back is said, though its line can
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
 }
 
-TEST_CASE("a station has a glove on a line of its own, and says what is wrong with it") {
-    auto line = emulate::GloveLine::start({.sensors = 22}, 0.5);
+TEST_CASE("Station: the glove has its own thread, and its problems are reported") {
+    auto line = emulate::SerialGlove::start({.sensors = 22}, 0.5);
     REQUIRE(line);
-    device::Puck puck({}, device::steady_timer());
-    Plan plan = plan_of(puck.open());
+    device::VirtualPuck puck({}, device::steady_timer());
+    StationOptions plan = plan_of(puck.open());
     plan.glove = line->port();
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
     REQUIRE(station->glove() != nullptr);
     CHECK(station->hand() == nullptr);
-    CHECK(station->wheel() == nullptr);
+    CHECK(station->wheel_report() == nullptr);
     REQUIRE(eventually([&] { return station->glove()->sample().number > 5; }));
     line->stall(true);
     REQUIRE(eventually([&] { return words(station->troubles()).find("glove") != std::string::npos; }));
-    REQUIRE(eventually([&] { return station->gloved()->longest_silence > 0.5; }));
-    CHECK(station->gloved()->frames > 5);
+    REQUIRE(eventually([&] { return station->glove_report()->longest_silence > 0.5; }));
+    CHECK(station->glove_report()->frames > 5);
     line->stall(false);
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
 }
 
 TEST_CASE(
-    "a gloved hand at a station takes the wrench, keeps it while the glove is gone, lets it go by opening") {
-    auto line = emulate::GloveLine::start({.sensors = 22});
+    "Station: a gloved hand grasps the wrench, holds it while the glove is lost, and releases it by "
+    "opening") {
+    auto line = emulate::SerialGlove::start({.sensors = 22});
     REQUIRE(line);
     line->show(test::raw_open());
-    device::Puck puck({}, device::steady_timer());
-    Plan plan = plan_of(puck.open());
+    device::VirtualPuck puck({}, device::steady_timer());
+    StationOptions plan = plan_of(puck.open());
     plan.glove = line->port();
     plan.hand = test::hand_at_bar();
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
     CHECK(station->glove() == nullptr);
-    Wishes wishes;
-    wishes.grip = servo::Grip::wrench;  // does not count: the hand is open
-    station->wish(wishes);
-    const auto grip = [&] { return station->newest().input.grip; };
-    REQUIRE(eventually([&] { return station->hand()->any && grip() == servo::Grip::none; }));
+    StationControls controls;
+    controls.grip = servo::Grip::wrench;  // does not count: the hand is open
+    station->set_controls(controls);
+    const auto grip = [&] { return station->latest_tick().input.grip; };
+    REQUIRE(eventually([&] { return station->hand()->has_frame && grip() == servo::Grip::none; }));
     const hand::Skeleton open = station->hand()->joints;
-    station->wish({});
+    station->set_controls({});
     line->show(test::raw_closed());
     REQUIRE(eventually([&] { return grip() == servo::Grip::wrench; }));
     REQUIRE(eventually([&] {
-        const ShownHand& hand = *station->hand();
+        const DisplayedHand& hand = *station->hand();
         return hand.held &&
                glm::length(hand.joints.position[hand::index_tip] - open.position[hand::index_tip]) > 0.03;
     }));
@@ -195,12 +227,12 @@ TEST_CASE(
     REQUIRE(eventually(
         [&] { return words(station->troubles()).find("stays in your hand") != std::string::npos; }));
     line->show(test::raw_open());  // nobody sees that
-    const std::uint64_t then = station->newest().number;
+    const std::uint64_t then = station->latest_tick().number;
     bool kept = true;
     REQUIRE(eventually([&] {
-        for (Ticked tick; station->next(tick);)
+        for (TickRecord tick; station->next_tick(tick);)
             kept = kept && (tick.number < then || tick.input.grip == servo::Grip::wrench);
-        return station->newest().number > then + 300;
+        return station->latest_tick().number > then + 300;
     }));
     CHECK(kept);
     line->show(test::raw_closed());
@@ -212,27 +244,27 @@ TEST_CASE(
     CHECK(!station->hand()->held);
 }
 
-TEST_CASE("a glove of the other hand than the one that wears it is said; a hand without a glove is none") {
-    auto line = emulate::GloveLine::start({.hand = glove::Hand::left});
+TEST_CASE("Station: a glove of the wrong side is reported; a gloved hand without a glove is an error") {
+    auto line = emulate::SerialGlove::start({.hand = hand::Side::left});
     REQUIRE(line);
-    device::Puck puck({}, device::steady_timer());
-    Plan plan = plan_of(puck.open());
+    device::VirtualPuck puck({}, device::steady_timer());
+    StationOptions plan = plan_of(puck.open());
     plan.hand = test::hand_at_bar();
     plan.glove = line->port();
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
     REQUIRE(
         eventually([&] { return words(station->troubles()).find("is a left one") != std::string::npos; }));
-    Plan bare = plan_of(puck.open());
+    StationOptions bare = plan_of(puck.open());
     bare.hand = test::hand_at_bar();
     CHECK_FALSE(Station::start(std::move(bare)));
 }
 
-TEST_CASE("a station whose device is not there, or is none that moves a tool, does not begin, and says why") {
+TEST_CASE("Station: a missing or unsuitable device is an error that names the remedy") {
     const auto cable = std::make_shared<Cable>();
     cable->plugged = false;
-    Plan plan = plan_of(on_cable(cable, {}));
-    plan.patience = 0.2;
+    StationOptions plan = plan_of(on_cable(cable, {}));
+    plan.open_timeout = 0.2;
     const Result<Station> none = Station::start(std::move(plan));
     REQUIRE_FALSE(none);
     CHECK(none.error().code == ErrorCode::no_device);

@@ -5,41 +5,44 @@
 #include <optional>
 
 #include "haptics/device/simulated.hpp"
-#include "haptics/station/step.hpp"
+#include "haptics/station/tick.hpp"
 #include "tests/device/support.hpp"
 #include "tests/servo/support.hpp"
 
 namespace bolt::test {
 
-// A device, its keeper and their mailboxes, as far as their thread would have come.
+// A device, its supervisor and their mailboxes, as far as their thread would have come.
 class VirtualLine {
   public:
-    explicit VirtualLine(device::SimulatedDesign design)
-        : thing(std::move(design), device::timer_of(time_)), keeper_(thing.open(), device::timer_of(time_)) {}
+    explicit VirtualLine(device::SimulatedDeviceOptions design)
+        : thing(std::move(design), device::virtual_timer(time_)),
+          supervisor_(thing.open(), device::virtual_timer(time_)) {}
 
-    device::Simulated thing;
+    device::SimulatedDevice thing;
 
     void until(double now) {
-        while (time_.now < now) device::serve(keeper_, boxes_, told_);
+        while (time_.now < now) device::run_once(supervisor_, mailboxes_, told_);
     }
-    const device::Told& told() {
-        boxes_.told.update();
-        return boxes_.told.latest();
+    const device::DeviceSnapshot& snapshot() {
+        mailboxes_.snapshots.update();
+        return mailboxes_.snapshots.latest();
     }
-    void order(const force::OutputCommand& command) { boxes_.orders.write({command, true, ++number_}); }
-    [[nodiscard]] const device::Report& report() const { return keeper_.report(); }
+    void command(const force::OutputCommand& command) {
+        mailboxes_.commands.write({command, true, ++number_});
+    }
+    [[nodiscard]] const device::DeviceReport& report() const { return supervisor_.report(); }
     [[nodiscard]] double now() const { return time_.now; }
 
   private:
     device::VirtualTime time_;
 
   public:
-    device::Keeper& keeper() { return keeper_; }
+    device::DeviceSupervisor& supervisor() { return supervisor_; }
 
   private:
-    device::Keeper keeper_;
-    device::Mailboxes boxes_;
-    device::Told told_;
+    device::DeviceSupervisor supervisor_;
+    device::DeviceMailboxes mailboxes_;
+    device::DeviceSnapshot told_;
     std::uint64_t number_ = 0;
 };
 

@@ -1,5 +1,4 @@
-// Waiting for what other processes do: a test passes when it happens, however long that takes on a busy
-// machine.
+// Waits for effects of other processes, independent of the machine's load.
 #pragma once
 
 #include <chrono>
@@ -7,7 +6,7 @@
 
 namespace bolt::test {
 
-// Two minutes at most: then it does not happen.
+// Polls until `test` returns true; returns false after two minutes.
 template <class Test>
 bool eventually(const Test& test) {
     for (int i = 0; i < 12000; ++i) {

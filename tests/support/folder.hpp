@@ -1,4 +1,4 @@
-// A folder of a test's own, empty at first, that goes away with the test.
+// A temporary folder that is removed with the object.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ class Folder {
     std::filesystem::path path_;
 };
 
-// In memory if there is such a place: for thousands of small files that would each wait for a busy disk.
+// Returns a folder in memory if there is one, for tests with thousands of small files.
 std::filesystem::path place_in_memory();
 
 }  // namespace bolt::test

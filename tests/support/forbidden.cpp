@@ -66,13 +66,13 @@ bool makes_no_system_call(void (*work)(void*), void* with) {
 
 }  // namespace bolt::test
 
-// Here and not in a test's own file: inlined there, gcc takes the pair for a mismatched one.
+// Not in a test's own file: if inlined there, gcc reports the pair as mismatched.
 void* operator new(std::size_t size) {
     count(&bolt::test::Forbidden::allocations);
     if (void* memory = std::malloc(size)) return memory;
     throw std::bad_alloc();
 }
-// The standard library's sorts ask in this way.
+// Used by the standard library's sorts.
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
     count(&bolt::test::Forbidden::allocations);
     return std::malloc(size);
@@ -95,7 +95,7 @@ void __libc_free(void*);
 
 namespace {
 
-// The function that would have been called, found once. Finding it may allocate, which is not counted.
+// Looks up the replaced function once. The lookup may allocate, which is not counted.
 template <class Function>
 Function* next(const char* name, Function*& found) {
     if (found == nullptr) {

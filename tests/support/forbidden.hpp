@@ -1,6 +1,6 @@
-// What a servo tick must not do, counted: allocate, lock, talk to the world, look at a clock. The program
-// that links forbidden.cpp has the C library's functions for these replaced by ones that count and pass on,
-// so calls from shared libraries (Embree, the C++ library) are seen too.
+// Counts what a servo tick must not do: allocate, lock, perform I/O, read a clock. In programs that link
+// forbidden.cpp, the C library's functions are replaced by counting wrappers, so that calls from shared
+// libraries (Embree, the C++ library) are counted too.
 #pragma once
 
 #include <utility>
@@ -15,14 +15,14 @@ struct Forbidden {
     [[nodiscard]] int all() const { return allocations + locks + io + clocks; }
 };
 
-// Sanitizers replace the C library's functions themselves: under them only operator new and delete are seen.
+// Sanitizers replace the C library's functions themselves; then only operator new and delete are counted.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool sees_the_c_library = false;
 #else
 inline constexpr bool sees_the_c_library = true;
 #endif
 
-void begin_counting();  // of the calling thread
+void begin_counting();  // on the calling thread
 Forbidden end_counting();
 
 template <class Work>
@@ -32,9 +32,8 @@ Forbidden forbidden_in(Work&& work) {
     return end_counting();
 }
 
-// Runs the work in a process of its own that the kernel ends at its first system call of any kind. True:
-// there was none. (A mutex nobody else holds and a clock need no call: that is why the functions are counted
-// as well.)
+// Runs the work in a child process that the kernel kills at its first system call. Returns true if there was
+// none. (An uncontended mutex and a clock need no system call, so the functions are counted as well.)
 bool makes_no_system_call(void (*work)(void*), void* with);
 
 template <class Work>

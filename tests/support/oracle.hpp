@@ -1,4 +1,4 @@
-// Files in tests/oracles and tests/data.
+// Access to files in tests/oracles and tests/data.
 #pragma once
 
 #include <map>
@@ -9,9 +9,9 @@ namespace bolt::test {
 
 using Row = std::map<std::string, std::string>;  // by column name
 
-std::string test_file(const std::string& path_in_tests);  // its path
+std::string test_file(const std::string& path_in_tests);  // returns its path
 
-// Lines that begin with # are comments. Throws if the file is not there: a missing oracle fails the test.
+// Reads a table; lines that begin with # are comments. Throws if the file is missing, which fails the test.
 std::vector<Row> read_table(const std::string& path_in_tests);
 
 inline double number(const Row& row, const std::string& column) { return std::stod(row.at(column)); }

@@ -1,4 +1,4 @@
-// A serial line with the test at its other end.
+// A pseudo-terminal: the driver under test opens port() as its serial port, the test holds the other end.
 #pragma once
 
 #include <fcntl.h>
@@ -31,22 +31,22 @@ class PseudoTerminal {
     }
     PseudoTerminal(const PseudoTerminal&) = delete;
     PseudoTerminal& operator=(const PseudoTerminal&) = delete;
-    ~PseudoTerminal() { pull(); }
+    ~PseudoTerminal() { unplug(); }
 
     [[nodiscard]] const std::filesystem::path& port() const { return port_; }
 
-    void say(std::string_view text) const {
+    void send(std::string_view text) const {
         [[maybe_unused]] const ssize_t n = write(master_, text.data(), text.size());
     }
-    // What came since the last call; waits a moment for the first of it.
-    [[nodiscard]] std::string heard() const {
+    // Bytes that the driver wrote since the last call; waits up to 100 ms for the first of them.
+    [[nodiscard]] std::string received() const {
         pollfd wait{master_, POLLIN, 0};
         poll(&wait, 1, 100);
         std::array<char, 4096> bytes{};
         const ssize_t n = read(master_, bytes.data(), bytes.size());
         return {bytes.data(), n > 0 ? static_cast<std::size_t>(n) : 0};
     }
-    void pull() {
+    void unplug() {
         for (int* file : {&keep_, &master_}) {
             if (*file >= 0) close(*file);
             *file = -1;

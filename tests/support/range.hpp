@@ -1,4 +1,4 @@
-// How far something went to and fro.
+// The minimum and maximum of a series of values.
 #pragma once
 
 #include <algorithm>

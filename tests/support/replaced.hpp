@@ -1,4 +1,4 @@
-// Text with one thing in it changed, which has to be there.
+// Replaces one occurrence in a text; the test fails if there is none.
 #pragma once
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// Whether a sanitizer slows everything down tenfold here: long runs that are about figures, and whose code
-// shorter ones walk too, are shorter then.
+// Whether sanitizers slow the program down about tenfold. Long statistical runs are then shortened if shorter
+// tests cover the same code.
 #pragma once
 
 namespace bolt::test {

@@ -7,13 +7,13 @@
 
 namespace bolt::test {
 
-Result<ScreenPicture> look_at_screen() {
+Result<ScreenPicture> read_screen() {
     const char* file = std::getenv("BOLT_SCREEN");
     if (file == nullptr) return fail(ErrorCode::failed, "there is no screen", "tests/with_screen.sh");
     std::ifstream stream(file, std::ios::binary);
     const std::string xwd((std::istreambuf_iterator<char>(stream)), {});
     if (xwd.size() < 100) return fail(ErrorCode::failed, std::string(file) + " is no picture");
-    // X11/XWDFile.h: numbers of 32 bits, highest byte first; then a table of colours, then the rows.
+    // X11/XWDFile.h: 32-bit numbers, most significant byte first; then a colour table, then the rows.
     const auto number = [&](std::size_t index) {
         std::uint32_t value = 0;
         for (std::size_t i = 0; i < 4; ++i)

@@ -1,4 +1,4 @@
-// What the X server of a test shows, read from where Xvfb keeps it ($BOLT_SCREEN, tests/with_screen.sh).
+// The screen contents of a test's X server, read from Xvfb's file ($BOLT_SCREEN, tests/with_screen.sh).
 #pragma once
 
 #include <array>
@@ -18,6 +18,6 @@ struct ScreenPicture {
         return {p[0], p[1], p[2]};
     }
 };
-Result<ScreenPicture> look_at_screen();
+Result<ScreenPicture> read_screen();
 
 }  // namespace bolt::test

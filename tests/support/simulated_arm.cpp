@@ -17,7 +17,8 @@ Vec3 quantised(const Vec3& v, double step) {
             step * std::floor(v.z / step + 0.5)};
 }
 
-// Velocity after h of a force, a damper taken implicitly, and dry friction that can stop but not turn it.
+// Returns the velocity after time h under a force, implicit damping, and dry friction, which may stop but not
+// reverse the motion.
 Vec3 accelerated(const Vec3& v, const Vec3& force, double mass, double damping, double friction, double h) {
     const Vec3 free = (v + force * (h / mass)) / (1.0 + h * damping / mass);
     const double speed = glm::length(free), lost = h * friction / mass;

@@ -1,9 +1,9 @@
-// An arm that holds a force-feedback device, for tests of stability: what the servo samples, late and
-// quantised, moves by the forces that it sends.
+// A simulated arm that holds a force-feedback device, for stability tests: the servo samples its motion,
+// delayed and quantised, and its forces move the arm.
 //
-// The hand is a mass, a damper and a spring to where it means to be, the model of Hogan (Controlling
-// impedance at the man/machine interface, ICRA 1989). The ranges are chosen: from a relaxed grip of two
-// fingers to a tense arm; light and little damped is the hard end.
+// The hand is a mass, a damper and a spring to its intended pose, the model of Hogan (Controlling impedance
+// at the man/machine interface, ICRA 1989). The chosen ranges extend from a relaxed grip of two fingers to a
+// tense arm; a light hand with little damping is the difficult case.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct ArmParameters {
     double angular_friction = 1e-3;  // N·m
     double encoder = 10e-6;          // m, one step
     double angular_encoder = 1e-4;   // rad
-    int delay = 1;                   // ticks from sending to having, at most 3
+    int delay = 1;                   // ticks from sending to effect, at most 3
 };
 
 ArmParameters random_arm(Random& random);
@@ -33,10 +33,10 @@ ArmParameters random_arm(Random& random);
 struct Arm {
     ArmParameters parameters;
     Pose pose;       // of the tool
-    Pose intention;  // where the hand means it to be
+    Pose intention;  // intended pose
     Vec3 velocity{0.0};
     Vec3 angular_velocity{0.0};
-    double energy_out = 0.0;  // J that the device gave to the hand, in truth: force times motion, every 25 µs
+    double energy_out = 0.0;  // J delivered to the hand: force times motion, integrated every 25 µs
     std::array<force::OutputCommand, 4> sent{};
 };
 

@@ -34,7 +34,7 @@ double box_distance(glm::dvec2 p, glm::dvec2 low, glm::dvec2 high) {
     return -glm::length(glm::max(beyond, 0.0)) - std::min(std::max(beyond.x, beyond.y), 0.0);
 }
 
-// The largest difference from what the distance ought to be.
+// Returns the largest deviation from the exact distance.
 template <class Exact>
 double worst(const DistanceField& field, double texels_per_em, double reach, const Exact& exact) {
     double largest = 0.0;
@@ -50,7 +50,7 @@ double worst(const DistanceField& field, double texels_per_em, double reach, con
 
 }  // namespace
 
-TEST_CASE("the distance to a circle, a ring and a box is what it is on paper") {
+TEST_CASE("Distance field: exact for a circle, a ring and a box") {
     const glm::dvec2 middle(0.31, 0.42);
     const auto of_circle = [&](glm::dvec2 p) { return 0.3 - glm::distance(p, middle); };
     const DistanceField disc = distance_field({circle(middle, 0.3)}, 64.0, 0.125);
@@ -74,19 +74,20 @@ TEST_CASE("the distance to a circle, a ring and a box is what it is on paper") {
     CHECK(distance_field({{{0.1, 0.1}, {0.1, 0.1}}}, 64.0, 0.1).distances.empty());
 }
 
-TEST_CASE("where strokes overlap there is no edge inside") {
-    // A cross of two bars, as Chinese fonts draw one.
+TEST_CASE("Distance field: overlapping strokes have no edge inside") {
+    // A cross of two bars, as drawn in Chinese fonts.
     const glm::dvec2 a0(0.0, 0.4), a1(1.0, 0.6), b0(0.4, 0.0), b1(0.6, 1.0);
     const DistanceField cross = distance_field({box(a0, a1), box(b0, b1)}, 64.0, 0.12);
-    // To the union; inside it the nearest edge is that of a bar that the other one does not cover.
+    // The distance to the union; inside, the nearest edge is that of a bar where the other bar does not cover
+    // it.
     const auto exact = [&](glm::dvec2 p) {
         const double a = box_distance(p, a0, a1), b = box_distance(p, b0, b1);
         if (a < 0.0 && b < 0.0) return std::max(a, b);
-        if (a < 0.0 || b < 0.0) {  // in one bar only: its edges, up to where the other begins
+        if (a < 0.0 || b < 0.0) {  // in one bar only: its edges, up to the start of the other bar
             const double inside = std::max(a, b), to_other = -std::min(a, b);
             return to_other > 0.11 ? inside : -1.0;
         }
-        // In both: the nearest of the four corners where the bars meet.
+        // In both bars: the nearest of the four corners where they meet.
         double nearest = 1.0;
         for (const double x : {0.4, 0.6})
             for (const double y : {0.4, 0.6}) nearest = std::min(nearest, glm::distance(p, {x, y}));
@@ -105,23 +106,23 @@ TEST_CASE("where strokes overlap there is no edge inside") {
             largest = std::max(largest, std::abs(made - std::clamp(wanted, -0.12, 0.12)));
         }
     CHECK(compared > 2000);
-    CHECK(largest < 1.0 / 64.0);  // pieces of an edge are a texel long
+    CHECK(largest < 1.0 / 64.0);  // pieces of an edge are one texel long
 }
 
-TEST_CASE("an atlas gives glyphs room of their own, tells what has changed, and says when it is full") {
+TEST_CASE("Atlas: glyphs do not overlap, changed rows are reported, and a full atlas is an error") {
     const Result<Fonts> fonts = load_fonts();
     REQUIRE(fonts.has_value());
     Atlas atlas(256);
-    CHECK(atlas.take_changed().count == 256);  // at first all of it
+    CHECK(atlas.take_changed().count == 256);  // at first all rows
     CHECK(atlas.take_changed().count == 0);
     std::vector<AtlasGlyph> made;
-    const AtlasGlyph* space = atlas.glyph(*fonts, find(*fonts, U' '));
+    const AtlasGlyph* space = atlas.glyph(*fonts, find_glyph(*fonts, U' '));
     REQUIRE(space != nullptr);
     CHECK(space->low == space->high);
     CHECK(atlas.take_changed().count == 0);
     char32_t point = U'A';
     for (;; ++point) {
-        const AtlasGlyph* glyph = atlas.glyph(*fonts, find(*fonts, point));
+        const AtlasGlyph* glyph = atlas.glyph(*fonts, find_glyph(*fonts, point));
         if (glyph == nullptr) break;
         made.push_back(*glyph);
         REQUIRE(point < U'z');
@@ -140,6 +141,6 @@ TEST_CASE("an atlas gives glyphs room of their own, tells what has changed, and 
             CHECK(apart);
         }
     }
-    REQUIRE(atlas.glyph(*fonts, find(*fonts, U'A')) != nullptr);  // known ones stay
-    CHECK(atlas.glyph(*fonts, find(*fonts, U'A'))->uv_low == made.front().uv_low);
+    REQUIRE(atlas.glyph(*fonts, find_glyph(*fonts, U'A')) != nullptr);  // existing glyphs stay
+    CHECK(atlas.glyph(*fonts, find_glyph(*fonts, U'A'))->uv_low == made.front().uv_low);
 }

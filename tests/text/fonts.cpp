@@ -10,21 +10,21 @@
 using namespace bolt;
 using namespace bolt::text;
 
-TEST_CASE("every letter of German, Chinese and of what is written about bolts has a glyph") {
+TEST_CASE("Fonts: every character of German, Chinese and bolting symbols has a glyph") {
     const Result<Fonts> fonts = load_fonts();
     REQUIRE(fonts.has_value());
     REQUIRE(fonts->faces.size() == 2);
     for (const char32_t point : std::u32string_view(U"AZaz09ÄÖÜäöüßẞéñ·×°±²³≈≤≥√µμσ∠→"))
         CHECK(fonts->faces[0].glyph(point) != 0);
     for (const char32_t point : std::u32string_view(U"螺栓预紧力拧扳手减速器扭矩角度顺序第一步，。（）"))
-        CHECK(find(*fonts, point).glyph != 0);
-    CHECK(find(*fonts, U'扭').face == 1);
-    CHECK(find(*fonts, U'ß').face == 0);
-    CHECK(find(*fonts, 0x10FFFF) == GlyphId{});  // nobody has it: the box
+        CHECK(find_glyph(*fonts, point).glyph != 0);
+    CHECK(find_glyph(*fonts, U'扭').face == 1);
+    CHECK(find_glyph(*fonts, U'ß').face == 0);
+    CHECK(find_glyph(*fonts, 0x10FFFF) == GlyphId{});  // no font has it: the box
     CHECK(fonts->faces[0].advance(0) > 0.0F);
 }
 
-TEST_CASE("a font that is not there is an error that names the package") {
+TEST_CASE("Fonts: the error for a missing font names its package") {
     const test::Folder kept;
     const std::filesystem::path& folder = kept.path();
     std::filesystem::create_directories(folder / "deep");
@@ -44,21 +44,21 @@ TEST_CASE("a font that is not there is an error that names the package") {
     std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("lines: as wide as their letters, one below the other, aligned as asked") {
+TEST_CASE("Text layout: line widths, line spacing and alignment") {
     const Result<Fonts> fonts = load_fonts();
     REQUIRE(fonts.has_value());
     const Face& face = fonts->faces[0];
     const float line = face.ascent() + face.descent();
     CHECK(line == doctest::Approx(1.164).epsilon(0.01));  // DejaVu Sans: 1901 and 483 of 2048 units
-    const Layout one = lay_out(*fonts, "nn");
+    const TextLayout one = lay_out(*fonts, "nn");
     REQUIRE(one.glyphs.size() == 2);
     CHECK(one.size.x == doctest::Approx(static_cast<double>(2.0F * face.advance(face.glyph('n')))));
     CHECK(one.size.y == doctest::Approx(static_cast<double>(line)));
     CHECK(one.glyphs[0].at == glm::vec2(0.0F, face.descent()));
     CHECK(lay_out(*fonts, "AV").size.x <
-          face.advance(face.glyph('A')) + face.advance(face.glyph('V')));  // kerned
+          face.advance(face.glyph('A')) + face.advance(face.glyph('V')));  // with kerning
     for (const float align : {0.0F, 0.5F, 1.0F}) {
-        const Layout two = lay_out(*fonts, "n\nnnn", align);
+        const TextLayout two = lay_out(*fonts, "n\nnnn", align);
         REQUIRE(two.glyphs.size() == 4);
         CHECK(two.size.y == doctest::Approx(static_cast<double>(2.0F * line)));
         CHECK(two.glyphs[0].at.y == doctest::Approx(static_cast<double>(face.descent() + line)));
@@ -67,5 +67,5 @@ TEST_CASE("lines: as wide as their letters, one below the other, aligned as aske
               doctest::Approx(static_cast<double>(align * 2.0F * face.advance(face.glyph('n')))));
     }
     CHECK(lay_out(*fonts, "").glyphs.empty());
-    CHECK(lay_out(*fonts, "预紧").size.x == doctest::Approx(2.0).epsilon(0.05));  // an em each
+    CHECK(lay_out(*fonts, "预紧").size.x == doctest::Approx(2.0).epsilon(0.05));  // one em each
 }

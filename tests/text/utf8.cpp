@@ -4,7 +4,7 @@
 
 using namespace bolt::text;
 
-TEST_CASE("UTF-8 there and back") {
+TEST_CASE("UTF-8: decoding and encoding are inverse") {
     const std::string text = "M8 × 30, Anziehdrehmoment ≈ 25 N·m, Größe, 预紧力 \xF0\x9F\x94\xA7";
     const std::u32string points = decode(text);
     CHECK(points.size() == 48);
@@ -15,15 +15,15 @@ TEST_CASE("UTF-8 there and back") {
           "\x7F\xC2\x80\xDF\xBF\xE0\xA0\x80\xEF\xBF\xBF\xF0\x90\x80\x80\xF4\x8F\xBF\xBF");
 }
 
-TEST_CASE("what is no UTF-8 is marked, byte by byte, and what follows is read") {
+TEST_CASE("UTF-8: invalid bytes are marked one by one, and decoding continues") {
     const std::u32string mark(1, 0xFFFD);
     CHECK(decode("a\xFFz") == U"a" + mark + U"z");
-    CHECK(decode("\xC3") == mark);                                   // cut off
-    CHECK(decode("\xE2\x82") == mark + mark);                        // likewise
-    CHECK(decode("\xC3(") == mark + U"(");                           // no follower
-    CHECK(decode("\xC0\xAF") == mark + mark);                        // longer than need be
-    CHECK(decode("\xE0\x80\xAF") == mark + mark + mark);             // likewise
-    CHECK(decode("\xED\xA0\x80") == mark + mark + mark);             // half a surrogate pair
+    CHECK(decode("\xC3") == mark);                                   // truncated
+    CHECK(decode("\xE2\x82") == mark + mark);                        // truncated
+    CHECK(decode("\xC3(") == mark + U"(");                           // no continuation byte
+    CHECK(decode("\xC0\xAF") == mark + mark);                        // overlong
+    CHECK(decode("\xE0\x80\xAF") == mark + mark + mark);             // overlong
+    CHECK(decode("\xED\xA0\x80") == mark + mark + mark);             // surrogate
     CHECK(decode("\xF4\x90\x80\x80") == mark + mark + mark + mark);  // beyond Unicode
     CHECK(decode("").empty());
 }

@@ -7,7 +7,7 @@
 
 #include "engine/base/file.hpp"
 #include "engine/base/random.hpp"
-#include "haptics/glove/cal_file.hpp"
+#include "haptics/hand/cal_file.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/replaced.hpp"
@@ -25,22 +25,22 @@ GloveCalibration example(std::uint64_t seed, std::size_t sensors) {
     GloveCalibration c;
     c.trainee = "Ada Lovelace";
     c.glove = "/dev/serial/by-id/usb-FTDI";
-    c.hand = seed % 2 == 0 ? glove::Hand::left : glove::Hand::right;
+    c.hand = seed % 2 == 0 ? hand::Side::left : hand::Side::right;
     c.sensors = sensors;
     c.date = "2026-11-22";
     c.quality = random.uniform();
     c.hand_length = random.uniform(0.16, 0.21);
-    for (const glove::Sensor s : glove::sensors_of(sensors))
+    for (const hand::Sensor s : hand::sensors_of(sensors))
         if (random.chance(0.9))
-            c.calibration.lines[glove::index(s)] =
-                glove::Line{random.uniform(-0.02, 0.02), random.uniform(0.0, 255.0)};
+            c.calibration.fits[hand::index(s)] =
+                hand::LinearFit{random.uniform(-0.02, 0.02), random.uniform(0.0, 255.0)};
     return c;
 }
 
-bool same(const glove::Calibration& a, const glove::Calibration& b) {
-    for (std::size_t i = 0; i < glove::all_sensors; ++i) {
-        if (a.lines[i].has_value() != b.lines[i].has_value()) return false;
-        if (a.lines[i] && (a.lines[i]->gain != b.lines[i]->gain || a.lines[i]->offset != b.lines[i]->offset))
+bool same(const hand::Calibration& a, const hand::Calibration& b) {
+    for (std::size_t i = 0; i < hand::sensor_count; ++i) {
+        if (a.fits[i].has_value() != b.fits[i].has_value()) return false;
+        if (a.fits[i] && (a.fits[i]->gain != b.fits[i]->gain || a.fits[i]->offset != b.fits[i]->offset))
             return false;
     }
     return true;
@@ -48,7 +48,7 @@ bool same(const glove::Calibration& a, const glove::Calibration& b) {
 
 }  // namespace
 
-TEST_CASE("what is written is read: to the last bit, and the same bytes again") {
+TEST_CASE("GloveCalibrationFile: writing and reading round-trips to the last bit") {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const GloveCalibration c = example(seed, seed % 3 == 0 ? 22 : 18);
         const std::string text = glove_calibration_text(c);
@@ -66,7 +66,7 @@ TEST_CASE("what is written is read: to the last bit, and the same bytes again") 
     }
 }
 
-TEST_CASE("what is wrong is said with file, line and column, and what would be right") {
+TEST_CASE("GloveCalibrationFile: errors name file, line, column and what was expected") {
     const std::string good = glove_calibration_text(example(1, 18));
     const auto message = [&](const std::string& from, const std::string& to) {
         const auto read = parse_glove_calibration(replaced(good, from, to), "ada.json");
@@ -95,12 +95,12 @@ TEST_CASE("what is wrong is said with file, line and column, and what would be r
     CHECK(!parse_glove_calibration("{\"format\": 3}", "x"));
 }
 
-TEST_CASE("files: kept by trainee and hand, and a write that fails leaves what was there") {
+TEST_CASE("GloveCalibrationFile: one file per trainee and hand, and a failed write keeps the old one") {
     const Folder folder;
     const GloveCalibration first = example(1, 22);
     const fs::path path = glove_calibration_path(folder.path(), first.trainee, first.hand);
     CHECK(path != glove_calibration_path(folder.path(), "ada lovelace", first.hand));
-    CHECK(path != glove_calibration_path(folder.path(), first.trainee, glove::Hand::left));
+    CHECK(path != glove_calibration_path(folder.path(), first.trainee, hand::Side::left));
     CHECK(glove_calibration_path(folder.path(), "../../etc/x", first.hand).parent_path() == folder.path());
     REQUIRE(save_glove_calibration(path, first));
     CHECK(same(load_glove_calibration(path)->calibration, first.calibration));
@@ -130,11 +130,11 @@ TEST_CASE("files: kept by trainee and hand, and a write that fails leaves what w
           std::string::npos);
 }
 
-TEST_CASE("a calibration of the vendor's file is kept as any other") {
+TEST_CASE("GloveCalibrationFile: a calibration from the vendor's file is stored like any other") {
     const std::string text =
         read_file(test::test_file("fuzz/corpus/hand.cal"), 4096, ErrorCode::failed).value_or("");
     REQUIRE(!text.empty());
-    const auto imported = glove::parse_cal(text, "hand.cal");
+    const auto imported = hand::parse_cal(text, "hand.cal");
     REQUIRE(imported);
     GloveCalibration c = example(1, 22);
     c.calibration = *imported;

@@ -34,6 +34,7 @@ Settings example(std::uint64_t seed) {
     s.left_handed = random.chance(0.5);
     s.force_scale = random.uniform(least_force_scale, 1.0);
     if (random.chance(0.5)) s.seated_height = random.uniform(lowest_seat, highest_seat);
+    if (random.chance(0.7)) s.law = random.chance(0.5) ? "published" : "mechanistic";
     if (random.chance(0.7)) s.keys["tool"] = random.chance(0.5) ? "T" : "F1";
     if (random.chance(0.7)) s.keys["hint"] = "H";
     return s;
@@ -41,7 +42,7 @@ Settings example(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("settings: what is written is read, to the last bit, and the same bytes again") {
+TEST_CASE("Settings: writing and reading round-trips to the last bit") {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const Settings s = example(seed);
         const std::string text = settings_text(s);
@@ -55,18 +56,20 @@ TEST_CASE("settings: what is written is read, to the last bit, and the same byte
         CHECK(read->left_handed == s.left_handed);
         CHECK(read->force_scale == s.force_scale);
         CHECK(read->seated_height == s.seated_height);
+        CHECK(read->law == s.law);
         CHECK(read->keys == s.keys);
         CHECK(settings_text(*read) == text);
     }
 }
 
-TEST_CASE("settings: what is wrong is said with file, line and column, and what would be right") {
+TEST_CASE("Settings: errors name file, line, column and what was expected") {
     Settings s = example(1);
     s.volume = 0.5;
     s.captions = true;
     s.seated_height = 1.2;
     s.force_scale = 0.5;
     s.palette = PaletteKind::usual;
+    s.law.clear();
     s.keys = {{"tool", "T"}, {"hint", "H"}};
     const std::string good = settings_text(s);
     const auto message = [&](const std::string& from, const std::string& to) {
@@ -76,6 +79,9 @@ TEST_CASE("settings: what is wrong is said with file, line and column, and what 
         return read.error().message();
     };
     CHECK(message("settings 1", "settings 2").find("ada.json:2:13: ") == 0);
+    CHECK(message("\"keys\"", "\"law\": \"publishd\", \"keys\"")
+              .find("/law: \"publishd\" is not a joint law; expected \"mechanistic\" or \"published\"") !=
+          std::string::npos);
     CHECK(message("\"zh\"", "\"zz\"").find("ada.json:4:15: /language: \"zz\" is no language") == 0);
     CHECK(message("0.5", "1.5").find("ada.json:5:13: ") == 0);
     CHECK(message("\"captions\": true", "\"captions\": 1").find("expected true or false") !=
@@ -102,7 +108,7 @@ TEST_CASE("settings: what is wrong is said with file, line and column, and what 
     CHECK(!parse_settings("{\"format\": 3}", "x", known));
 }
 
-TEST_CASE("settings: kept by trainee, and a write that fails leaves what was there") {
+TEST_CASE("Settings: one file per trainee, and a failed write keeps the old one") {
     const Folder folder;
     const fs::path path = settings_path(folder.path() / "made" / "for it", "Ada");
     CHECK(path != settings_path(path.parent_path(), "ada"));
@@ -130,7 +136,8 @@ TEST_CASE("settings: kept by trainee, and a write that fails leaves what was the
     CHECK(load_settings(path, known));
 }
 
-TEST_CASE("settings: what cannot be read is put aside, not written over; a folder that is none is told") {
+TEST_CASE(
+    "Settings: an unreadable file is set aside, never overwritten; a path that is not a folder is an error") {
     const Folder folder;
     const fs::path path = settings_path(folder.path(), "Ada");
     REQUIRE(write_file(path, "{ \"format\": \"boltwright settings 9\" }"));
@@ -148,7 +155,7 @@ TEST_CASE("settings: what cannot be read is put aside, not written over; a folde
     CHECK(read_file(folder / "taken", 1000, ErrorCode::failed).value() == "a file, no folder");
 }
 
-TEST_CASE("the folder of a user's data is where the XDG base directory specification has it") {
+TEST_CASE("Settings: the data folder follows the XDG base directory specification") {
     const char* was = std::getenv("XDG_DATA_HOME");  // NOLINT(concurrency-mt-unsafe): one thread
     const std::string kept = was != nullptr ? was : "";
     setenv("XDG_DATA_HOME", "/somewhere", 1);

@@ -1,5 +1,5 @@
 // What a hint shows in the scene points the right way, whatever the bolt's direction.
-#include "game/trainer/aids.hpp"
+#include "game/trainer/hint_visuals.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,15 +9,15 @@
 
 using namespace bolt;
 using namespace bolt::trainer;
-using hints::Motion;
+using lesson::Motion;
 
 namespace {
 
 Vec3 at(const scene::Arrow& arrow, const Vec3& point) { return Vec3(arrow.world * glm::dvec4(point, 1.0)); }
 Vec3 on_arc(double angle) { return {std::cos(angle), std::sin(angle), 0.0}; }
 
-servo::NutPlace some_nut(Random& random) {
-    servo::NutPlace nut;
+servo::NutGeometry some_nut(Random& random) {
+    servo::NutGeometry nut;
     const auto some = [&] {
         return Vec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
     };
@@ -34,7 +34,7 @@ servo::NutPlace some_nut(Random& random) {
 TEST_CASE("a round arrow goes where the handle goes: right-handed by -axis to tighten, by +axis to loosen") {
     Random random(7, 1);
     for (int i = 0; i < 50; ++i) {
-        const servo::NutPlace nut = some_nut(random);
+        const servo::NutGeometry nut = some_nut(random);
         MotionPlace place{nut, nut.seat, {}, {}, 0.3, false};
         place.tool.position = nut.seat;
         place.tool.orientation = glm::normalize(glm::quat_cast(glm::dmat3(nut.e2, -nut.e1, nut.axis)));
@@ -68,7 +68,7 @@ TEST_CASE("a round arrow goes where the handle goes: right-handed by -axis to ti
 
 TEST_CASE("a straight arrow comes down to the nut or leaves it, and never reaches into it") {
     Random random(8, 1);
-    const servo::NutPlace nut = some_nut(random);
+    const servo::NutGeometry nut = some_nut(random);
     const MotionPlace place{nut, nut.seat, {}, {{1.0, 2.0, 3.0}, {}}, 0.3, false};
     for (const Motion motion :
          {Motion::approach, Motion::reach, Motion::set_on, Motion::grip_nut, Motion::lift, Motion::let_go}) {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-#include "game/sound/ear.hpp"
+#include "game/sound/event_detection.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"
 
@@ -90,16 +90,18 @@ TEST_CASE("what goes on is said once it lasts, and for as long; a blip and silen
 TEST_CASE(
     "a lesson in words: nuts that run, joints that groan, chimes, and no words for what was not heard") {
     const content::Assembly cover = trainer_test::assembly("cover-m8");
-    play::CourseOptions options;
+    session::CourseOptions options;
     options.operator_name = "player";
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
-    auto course = play::Course::begin(cover, options, file);
+    auto course = session::Course::begin(cover, options, file);
     if (!course) FAIL(course.error().message());
-    play::Course& c = **course;
+    session::Course& c = **course;
     trainer_test::Player player;
     player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
     sound::Ear ear;
+    world::World world;
+    world::add_haptics(world, c.state());
     Captions captions;
     std::set<Caption> said, before_tightening;
     while (!c.over() && c.time() < 200.0) {
@@ -108,7 +110,9 @@ TEST_CASE(
         for (int i = 0; i < 20 && !c.over(); ++i) {
             const auto output = c.step(trainer::move(player.hand, c.setup(), c.state()));
             REQUIRE(output);
-            note(captions, sound::hear(ear, c.setup(), *output, sound::cues_of(c.events())), c.setup().dt);
+            world::write_joints(world, c.state().joints, c.state().rounded);
+            world::write_output(world, *output);
+            note(captions, sound::hear(ear, c.setup(), world, sound::cues_of(c.events())), c.setup().dt);
         }
         update(captions, 0.02);
         for (const Caption caption : shown(captions)) {

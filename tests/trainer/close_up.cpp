@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "game/scene/close_up.hpp"
 #include "game/trainer/mouse_hand.hpp"
+#include "game/view/close_up_eye.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"
 
@@ -44,31 +44,31 @@ TEST_CASE(
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
     for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
-        play::CourseOptions options;
+        session::CourseOptions options;
         options.task = task;
-        options.obstacles = play::Obstacles::required;
-        auto begun = play::Course::begin(trainer_test::assembly("zq350"), options, file);
+        options.obstacles = session::Obstacles::required;
+        auto begun = session::Course::begin(trainer_test::assembly("zq350"), options, file);
         REQUIRE(begun);
         const servo::Setup& setup = (*begun)->setup();
         const servo::State& state = (*begun)->state();
         REQUIRE(setup.nuts.size() == 12);
         const bool loosens = task == lesson::Task::loosen;
         const Pose rest{Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)};
-        operators::Sight sight;
+        motion::Sight sight;
         for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
             const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
-            scene::ViewOf of{setup, &*state.touch, i, nut, std::nullopt};
+            view::ViewOf of{setup, &*state.tool_contact, i, nut, std::nullopt};
             const Pose tool = wrench_on(rest, setup, state, i, loosens);
-            const scene::CloseUpEye fingers = scene::close_up_eye(of, tool, 0.0, sight);
+            const view::CloseUpEye fingers = view::close_up_eye(of, tool, 0.0, sight);
             of.wrench = tool;
-            const scene::CloseUpEye wrench =
-                scene::close_up_eye(of, tool, to_radians(loosens ? 60.0 : -60.0), sight);
+            const view::CloseUpEye wrench =
+                view::close_up_eye(of, tool, to_radians(loosens ? 60.0 : -60.0), sight);
             // Beside what it says itself, and in the middle of the pull too.
-            const double first = scene::seen_from(of, sight, tool * wrench.at);
+            const double first = view::seen_from(of, sight, tool * wrench.at);
             const Quat half = glm::angleAxis(to_radians(loosens ? 30.0 : -30.0), setup.nuts[i].axis);
             const Pose later{tool.position, half * tool.orientation};
             of.wrench = later;
-            const double then = scene::seen_from(of, sight, later * wrench.at);
+            const double then = view::seen_from(of, sight, later * wrench.at);
             MESSAGE((*begun)->assembly().joints[i].design.id << (loosens ? " tight: " : " loose: ")
                                                              << "wrench " << first << ", " << then
                                                              << ", fingers " << fingers.seen);

@@ -1,6 +1,6 @@
 // Steps that are taken back, by whoever asks and by mistakes.
 
-#include "game/trainer/going_back.hpp"
+#include "game/trainer/step_undo.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,7 +13,7 @@ using test::Script;
 
 namespace {
 
-void take(GoingBack& back, Script& s) {
+void take(StepUndo& back, Script& s) {
     for (const lesson::Event& event : s.lesson.events) note(back, s.lesson, event);
     s.lesson.events.clear();
 }
@@ -23,7 +23,7 @@ void take(GoingBack& back, Script& s) {
 TEST_CASE("what a key has wished is forgotten when it cannot be granted for long") {
     Script s(Mode::practice);
     s.seat_both();
-    GoingBack back;
+    StepUndo back;
     CHECK_FALSE(steps_back(back, s.lesson));
     go_back(back, s.lesson, 1);
     CHECK(steps_back(back, s.lesson) == 1);
@@ -39,7 +39,7 @@ TEST_CASE("a step that is to begin anew does so though letting go of the nut end
     Script s(Mode::practice);
     s.seat_both();
     s.tick(0, servo::Grip::wrench, 40.0, 1.0);
-    GoingBack back;
+    StepUndo back;
     go_back(back, s.lesson, 0);
     const std::size_t step = s.lesson.current;
     s.idle();
@@ -52,7 +52,7 @@ TEST_CASE("a mistake returns to the beginning of its step, in a guided lesson on
         Script s(mode);
         s.seat_both();
         const std::size_t step = s.lesson.current;
-        GoingBack back;
+        StepUndo back;
         take(back, s);
         CHECK_FALSE(steps_back(back, s.lesson));
         s.pull(1, 20.0);  // out of turn
@@ -85,7 +85,7 @@ TEST_CASE("a mistake returns to the beginning of its step, in a guided lesson on
 TEST_CASE("an assessment takes nothing back") {
     Script s(Mode::assessment);
     s.seat_both();
-    GoingBack back;
+    StepUndo back;
     go_back(back, s.lesson, 0);
     CHECK_FALSE(steps_back(back, s.lesson));
 }

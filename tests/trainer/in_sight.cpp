@@ -7,10 +7,11 @@
 TEST_CASE("what hides the due nut fades: a hand that waits alone, and about more of it") {
     using namespace bolt;
     const content::Assembly assembly = trainer_test::assembly("cover-m8");
-    play::CourseOptions options;
-    const auto begun = play::prepare(assembly, options);
+    session::CourseOptions options;
+    const auto begun = session::prepare(assembly, options);
     REQUIRE(begun);
     scene::World world;
+    world::add_haptics(world, begun->state);
     const ecs::Entity casing = world.create(), due = world.create(), other = world.create(),
                       hand = world.create();
     for (const ecs::Entity entity : {casing, due, other, hand}) world.add<scene::CanFade>(entity, true);
@@ -19,14 +20,14 @@ TEST_CASE("what hides the due nut fades: a hand that waits alone, and about more
     world.add<scene::Fingers>(hand);
     const auto fades = [&](ecs::Entity entity) { return world.get<scene::CanFade>(entity).fades; };
     render::Scene drawn;
-    scene::keep_in_sight(world, drawn, begun->setup, begun->state, 1, scene::Hides::hand);
+    scene::keep_in_sight(world, drawn, begun->setup, 1, scene::Hides::hand);
     const float waiting = drawn.cut_away.radius;
     CHECK(drawn.cut_away.strength == 1.0F);
     CHECK_FALSE(fades(casing));
     CHECK_FALSE(fades(due));
     CHECK_FALSE(fades(other));
     CHECK(fades(hand));
-    scene::keep_in_sight(world, drawn, begun->setup, begun->state, 1);
+    scene::keep_in_sight(world, drawn, begun->setup, 1);
     CHECK(drawn.cut_away.radius < waiting);
     CHECK(fades(casing));
     CHECK_FALSE(fades(due));

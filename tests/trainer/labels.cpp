@@ -6,6 +6,7 @@
 
 #include "haptics/servo/tick.hpp"
 #include "tests/lesson/script.hpp"
+#include "tests/support/haptic_world.hpp"
 
 using namespace bolt;
 using test::Script;
@@ -17,7 +18,9 @@ std::string shown(const char* language, const Script& s, bool wrench) {
     REQUIRE(loaded.ok());
     servo::Setup setup;
     setup.nuts.resize(2);
-    const auto label = scene::work_label(loaded.words, s.lesson, setup, s.state, s.output, wrench);
+    test::HapticWorld world(2);
+    const auto label =
+        scene::work_label(loaded.words, s.lesson, setup, world.write(s.state.joints, {}, s.output, wrench));
     return label ? label->text : "";
 }
 

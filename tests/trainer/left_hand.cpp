@@ -4,7 +4,7 @@
 #include "game/scene/postures.hpp"
 #include "game/scene/resting_place.hpp"
 #include "game/trainer/mouse_hand.hpp"
-#include "tests/contact/support.hpp"
+#include "tests/collision/support.hpp"
 
 using namespace bolt;
 using namespace bolt::scene;
@@ -32,7 +32,7 @@ double off_mirror(const Postures& left, const Postures& right) {
     return most;
 }
 
-const render::Box machine{{-0.4F, -0.1F, -0.2F}, {0.3F, 0.35F, 0.25F}};
+const render::BoundingBox machine{{-0.4F, -0.1F, -0.2F}, {0.3F, 0.35F, 0.25F}};
 const double middle = 0.5 * (static_cast<double>(machine.low.x) + static_cast<double>(machine.high.x));
 Vec3 in_mirror(const Vec3& p) { return {2.0 * middle - p.x, p.y, p.z}; }
 
@@ -45,14 +45,14 @@ TEST_CASE("a left hand's postures are the right one's in a mirror, around a hand
     CHECK(off_mirror(right, right) > 0.05);  // the check can fail
 
     constexpr double mm = 1e-3;
-    const contact::ContactMesh parts[] = {
+    const collision::ContactMesh parts[] = {
         contact_test::box(Vec3(-20.0, -12.0, -3.5) * mm, Vec3(240.0, 12.0, 3.5) * mm).mesh()};
-    const auto bar = contact::make_tool(parts);
+    const auto bar = collision::make_tool(parts);
     REQUIRE(bar);
     const Postures right_closed = make_postures(&*bar, 0.15, hand::Side::right);
     // A digit stops somewhere within stop_tolerance of the bar, and bends by so much over half a bone.
     CHECK(off_mirror(make_postures(&*bar, 0.15, hand::Side::left), right_closed) <
-          4.0 * grip::stop_tolerance / 0.02);
+          4.0 * hand::stop_tolerance / 0.02);
     CHECK(off_mirror(right_closed, make_postures(nullptr, 0.15)) > 0.05);  // it did close on the bar
 }
 

@@ -6,6 +6,7 @@
 
 #include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/support/skip.hpp"
 #include "tests/trainer/player.hpp"
 
 using namespace bolt;
@@ -21,13 +22,13 @@ struct Outcome {
     double longest_jump = 0.0;  // m in a tick, of the hand
 };
 
-Outcome play_through(const char* name, play::CourseOptions options, double longest) {
+Outcome play_through(const char* name, session::CourseOptions options, double longest) {
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
     options.operator_name = "person";
-    auto begun = play::Course::begin(assembly(name), options, file);
+    auto begun = session::Course::begin(assembly(name), options, file);
     REQUIRE(begun);
-    play::Course& course = **begun;
+    session::Course& course = **begun;
     Player player;
     player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
     Outcome out;
@@ -53,19 +54,19 @@ Outcome play_through(const char* name, play::CourseOptions options, double longe
 }  // namespace
 
 TEST_CASE("a lesson is played from beginning to end with a mouse") {
-    play::CourseOptions options;
-    SUBCASE("among obstacles") { options.obstacles = play::Obstacles::required; }
+    session::CourseOptions options;
+    SUBCASE("among obstacles") { options.obstacles = session::Obstacles::required; }
     SUBCASE("without") {}
     SUBCASE("not guided") { options.mode = lesson::Mode::practice; }
     SUBCASE("loosened again") {
         options.task = lesson::Task::loosen;
-        options.obstacles = play::Obstacles::required;
+        options.obstacles = session::Obstacles::required;
     }
     const char* name = "cover-m8";
     SUBCASE("the reducer, into yield") {
-        if (test::sanitized) return;  // sixty steps
+        if (test::sanitized) return test::skip_rest("sixty steps take minutes under a sanitizer");
         name = "zq350";
-        options.obstacles = play::Obstacles::required;
+        options.obstacles = session::Obstacles::required;
     }
     const Outcome out = play_through(name, options, 1200.0);
     CHECK(out.result.finished);

@@ -16,7 +16,7 @@ content::Assembly assembly(const char* name) {
     return std::move(loaded.assembly);
 }
 
-trainer::Wish wish_of(Player& p, const play::Course& course, double seconds) {
+trainer::Wish wish_of(Player& p, const session::Course& course, double seconds) {
     trainer::Wish wish;
     const lesson::Step* due = course.lesson().due();
     if (due == nullptr) return wish;

@@ -1,7 +1,7 @@
 // Somebody at a mouse who does what is due: presses, drags, watches the torque, lets go.
 #pragma once
 
-#include "game/play/course.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/trainer/mouse_hand.hpp"
 
 namespace trainer_test {
@@ -18,7 +18,7 @@ struct Player {
 };
 
 // What it wishes in a frame of that length.
-trainer::Wish wish_of(Player& player, const play::Course& course, double seconds);
+trainer::Wish wish_of(Player& player, const session::Course& course, double seconds);
 
 content::Assembly assembly(const char* name);
 

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/lesson/script.hpp"
+#include "tests/support/haptic_world.hpp"
 
 using namespace bolt;
 using test::Script;
@@ -14,7 +15,7 @@ namespace {
 // A tick of a hand that pulls, and its plot.
 void pull(Script& s, trainer::Plot& plot, int joint, double torque) {
     s.tick(joint, servo::Grip::wrench, torque, 1.0);
-    trainer::note(plot, s.lesson, s.output);
+    trainer::note(plot, s.lesson, test::HapticWorld(2).write(s.output));
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ TEST_CASE("a pull's plot aims at the window of its pass, not at the joint's last
     s.pull(1, 35.0);
     pull(s, plot, 0, 5.0);
     CHECK(plot.aim->low == doctest::Approx(63.0));
-    trainer::note(plot, s.lesson, servo::Output{});  // a hand in the air leaves it as it is
+    trainer::note(plot, s.lesson, test::HapticWorld(2).write({}));  // a hand in the air leaves it as it is
     CHECK(plot.joint == 0);
     CHECK(plot.aim);
 }

@@ -1,9 +1,11 @@
 // A hand that strains: as much as it pulls, smoothly, and not at all at rest.
-#include "game/scene/strain.hpp"
+#include "game/scene/effort.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+
+#include "tests/support/haptic_world.hpp"
 
 using namespace bolt;
 using namespace bolt::scene;
@@ -18,11 +20,12 @@ servo::Setup some_setup() {
     return setup;
 }
 
-servo::Output pulling(double torque) {
+const world::World& pulling(double torque, bool wrench = true) {
+    static test::HapticWorld world(1);
     servo::Output output;
     output.joint = 0;
     output.wrench_torque = torque;
-    return output;
+    return world.write(output, wrench);
 }
 
 }  // namespace
@@ -33,13 +36,13 @@ TEST_CASE(
     const double most = 1000.0 * to_radians(2.5);
     for (const double share : {-1.0, -0.4, 0.25, 1.0}) {
         Strain s;
-        for (int i = 0; i < 2000; ++i) strain(s, pulling(share * most), setup, true);
+        for (int i = 0; i < 2000; ++i) strain(s, setup, pulling(share * most));
         CHECK(s.share == doctest::Approx(std::abs(share)).epsilon(1e-6));
         CHECK(s.tremor == doctest::Approx(0.0).epsilon(1e-6));
     }
     // Of fingers: half their force times the nut's width.
-    CHECK(effort(pulling(0.5 * 65.0 * 0.013), setup, false) == doctest::Approx(1.0));
-    CHECK(effort(pulling(1e6), setup, true) == 1.0);
+    CHECK(effort(setup, pulling(0.5 * 65.0 * 0.013, false)) == doctest::Approx(1.0));
+    CHECK(effort(setup, pulling(1e6)) == 1.0);
 }
 
 TEST_CASE(
@@ -49,7 +52,7 @@ TEST_CASE(
     Strain s;
     double before = 0.0, tremor_before = 0.0, trembled = 0.0;
     for (int i = 1; i <= 400; ++i) {
-        strain(s, pulling(0.5 * most), setup, true);
+        strain(s, setup, pulling(0.5 * most));
         CHECK(s.share == doctest::Approx(0.5 * (1.0 - std::exp(-i * 1e-3 / 0.09))).epsilon(1e-9));
         CHECK(s.share > before);
         CHECK(std::abs(s.tremor - tremor_before) < 0.2);  // no leap in a tick
@@ -57,12 +60,13 @@ TEST_CASE(
         tremor_before = s.tremor;
     }
     for (int i = 0; i < 1000; ++i) {
-        strain(s, pulling(most * (0.5 + 0.02 * std::sin(2.0 * pi * 9.0 * i * 1e-3))), setup, true);
+        strain(s, setup, pulling(most * (0.5 + 0.02 * std::sin(2.0 * pi * 9.0 * i * 1e-3))));
         if (i > 500) trembled = std::max(trembled, std::abs(s.tremor));
     }
     CHECK(trembled > 0.05);
     CHECK(trembled < 0.3);
-    for (int i = 0; i < 1500; ++i) strain(s, {}, setup, true);
+    test::HapticWorld at_rest(1);
+    for (int i = 0; i < 1500; ++i) strain(s, setup, at_rest.write({}));
     CHECK(s.share == 0.0);
     CHECK(s.tremor == 0.0);
     CHECK(s.slow == 0.0);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "game/scene/find_view.hpp"
 #include "game/scene/postures.hpp"
 #include "game/trainer/mouse_hand.hpp"
+#include "game/view/view_search.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"
 
@@ -15,48 +15,48 @@ using namespace bolt;
 TEST_CASE("a point is in the picture or not") {
     view::Orbit orbit;  // from +Z at 1 m
     const double up = std::tan(0.5 * orbit.fov);
-    CHECK(scene::holds(orbit, {0.0, 0.85 * up, 0.0}, 2.0));
-    CHECK_FALSE(scene::holds(orbit, {0.0, 0.9 * up, 0.0}, 2.0));
-    CHECK(scene::holds(orbit, {1.7 * up, 0.0, 0.0}, 2.0));
-    CHECK_FALSE(scene::holds(orbit, {1.7 * up, 0.0, 0.0}, 1.0));
-    CHECK_FALSE(scene::holds(orbit, {0.0, 0.0, 1.5}, 1.0));  // behind the eye
-    CHECK(scene::holds(orbit, {0.7 * up, 0.55 * up, 0.0}, 2.0, scene::open_middle));
-    CHECK_FALSE(scene::holds(orbit, {0.75 * up, 0.0, 0.0}, 2.0, scene::open_middle));
-    CHECK_FALSE(scene::holds(orbit, {0.0, 0.65 * up, 0.0}, 2.0, scene::open_middle));
+    CHECK(view::holds(orbit, {0.0, 0.85 * up, 0.0}, 2.0));
+    CHECK_FALSE(view::holds(orbit, {0.0, 0.9 * up, 0.0}, 2.0));
+    CHECK(view::holds(orbit, {1.7 * up, 0.0, 0.0}, 2.0));
+    CHECK_FALSE(view::holds(orbit, {1.7 * up, 0.0, 0.0}, 1.0));
+    CHECK_FALSE(view::holds(orbit, {0.0, 0.0, 1.5}, 1.0));  // behind the eye
+    CHECK(view::holds(orbit, {0.7 * up, 0.55 * up, 0.0}, 2.0, view::open_middle));
+    CHECK_FALSE(view::holds(orbit, {0.75 * up, 0.0, 0.0}, 2.0, view::open_middle));
+    CHECK_FALSE(view::holds(orbit, {0.0, 0.65 * up, 0.0}, 2.0, view::open_middle));
 }
 
 TEST_CASE(
     "the view of every nut of the reducer has the wrist in it, and loses nothing of what is seen for it") {
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
-    play::CourseOptions options;
-    options.obstacles = play::Obstacles::required;
-    auto begun = play::Course::begin(trainer_test::assembly("zq350"), options, file);
+    session::CourseOptions options;
+    options.obstacles = session::Obstacles::required;
+    auto begun = session::Course::begin(trainer_test::assembly("zq350"), options, file);
     REQUIRE(begun);
     const servo::Setup& setup = (*begun)->setup();
     const servo::State& state = (*begun)->state();
     const Pose rest{Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)};
-    const scene::Postures postures = scene::make_postures(&state.touch->wrench, setup.wrench.handle_length);
+    const scene::Postures postures = scene::make_postures(&state.tool_contact->wrench, setup.wrench.handle_length);
     const Vec3 shoulder(0.6, 0.6, 0.7);
-    operators::Sight sight;
+    motion::Sight sight;
     int outside_before = 0;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
-        scene::ViewOf of{setup, &*state.touch, i, nut, trainer::wrench_on(rest, setup, state, i, false)};
+        view::ViewOf of{setup, &*state.tool_contact, i, nut, trainer::wrench_on(rest, setup, state, i, false)};
         const std::size_t grip = scene::natural_grip(postures, *of.wrench, Vec3(0, 1, 0), shoulder);
         const Vec3 wrist = *of.wrench * postures.on_handle.at(grip).position[hand::wrist];
         view::Orbit from;
         from.pitch = to_radians(30.0);
-        const view::Orbit without = scene::find_view(of, sight, from);
-        if (!scene::holds(without, wrist, of.aspect)) ++outside_before;
+        const view::Orbit without = view::find_view(of, sight, from);
+        if (!view::holds(without, wrist, of.aspect)) ++outside_before;
         of.wrist = wrist;
-        const view::Orbit found = scene::find_view(of, sight, from);
-        const double seen = scene::seen_from(of, sight, Vec3(view::viewpoint_of(found).eye));
+        const view::Orbit found = view::find_view(of, sight, from);
+        const double seen = view::seen_from(of, sight, Vec3(view::viewpoint_of(found).eye));
         MESSAGE((*begun)->assembly().joints[i].design.id << " seen " << seen << " from " << found.distance
                                                          << " m");
-        CHECK(scene::holds(found, nut, of.aspect, scene::open_middle));
-        CHECK(scene::holds(found, wrist, of.aspect));
-        CHECK(seen >= scene::well_seen);
+        CHECK(view::holds(found, nut, of.aspect, view::open_middle));
+        CHECK(view::holds(found, wrist, of.aspect));
+        CHECK(seen >= view::well_seen);
         CHECK(found.distance < 0.8);
     }
     CHECK(outside_before > 0);  // or this test shows nothing

@@ -19,7 +19,8 @@ Desk::Desk(AppOptions options, Display display) : folder_(options.out), display_
     std::filesystem::create_directories(folder_);
     options.out = folder_;
     options.tell = [this](const std::string& line) { told_.push_back(line); };
-    options.ended = [this](const content::Assembly&, const play::CourseOptions&, const play::Played& played) {
+    options.ended = [this](const content::Assembly&, const session::CourseOptions&,
+                           const session::Played& played) {
         played_ = played;
         return Status{};
     };
@@ -89,12 +90,12 @@ void Desk::release(const glm::dvec2& at) {
 
 glm::dvec2 Desk::hold(std::size_t joint) {
     const auto on = [&] { return playing().course->state().engagement.joint == static_cast<int>(joint); };
-    const play::Course& course = *playing().course;
+    const session::Course& course = *playing().course;
     const auto at = project(
         screen(), servo::nut_centre(course.setup().nuts[joint], course.state().joints[joint].nut.angle));
     REQUIRE(at);
     move(*at);
-    REQUIRE(playing().under == joint);
+    REQUIRE(playing().pointing.nut == joint);
     press(*at);
     for (int i = 0; i < 60 && !on(); ++i) frame();
     REQUIRE(on());
@@ -103,9 +104,9 @@ glm::dvec2 Desk::hold(std::size_t joint) {
 
 render::Picture Desk::picture() {
     need(painter_.frames->finish());
-    const render::Layer made = painter_.renderer->picture(0);
+    const render::ImageLayer made = painter_.renderer->picture(0);
     const auto texels =
-        gpu::download_image(*painter_.device, *made.image, gpu::Use::transfer_from, 4, 0, made.layer);
+        gpu::download_image(*painter_.device, *made.image, gpu::ResourceUse::transfer_from, 4, 0, made.layer);
     if (!texels) FAIL(texels.error().message());
     render::Picture picture{display_.size.width, display_.size.height, {}};
     for (const std::byte b : *texels) picture.rgba.push_back(static_cast<std::uint8_t>(b));

@@ -22,7 +22,7 @@ inline trainer::AppOptions options(const char* assembly, bool menu) {
     trainer::AppOptions o;
     o.choice.assembly = assembly;
     o.menu = menu;
-    o.course.obstacles = play::Obstacles::if_any;
+    o.course.obstacles = session::Obstacles::if_any;
     return o;
 }
 
@@ -56,7 +56,7 @@ class Desk : public Seat {
     [[nodiscard]] glm::dvec2 size() const override { return {display_.size.width, display_.size.height}; }
     [[nodiscard]] render::Picture picture();
     [[nodiscard]] const std::vector<std::string>& told() const { return told_; }
-    [[nodiscard]] const std::optional<play::Played>& played() const { return played_; }
+    [[nodiscard]] const std::optional<session::Played>& played() const { return played_; }
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
   private:
@@ -69,7 +69,7 @@ class Desk : public Seat {
     view::Painter painter_;
     std::unique_ptr<trainer::App> app_;
     std::vector<std::string> told_;
-    std::optional<play::Played> played_;
+    std::optional<session::Played> played_;
 };
 
 }  // namespace bolt::test

@@ -34,9 +34,9 @@ void Person::wait(double seconds) {
 
 void Person::do_step() {
     const bool fingers = due()->kind == lesson::StepKind::run_down;
-    if (p().hand.wrench == fingers) {
+    if (hand_of(p()).wrench == fingers) {
         seat_.key(platform::Key::t);
-        for (int i = 0; i < 200 && p().hand.wrench == fingers; ++i) seat_.frame();
+        for (int i = 0; i < 200 && hand_of(p()).wrench == fingers; ++i) seat_.frame();
         return;
     }
     const auto at = nut_on_screen();
@@ -67,21 +67,22 @@ std::optional<glm::dvec2> Person::nut_on_screen() {
     if (!at || at->x < edge || at->y < edge || at->x > seat_.size().x - edge || at->y > seat_.size().y - edge)
         return {};
     seat_.move(*at);
-    if (p().under != joint) return {};
+    if (p().pointing.nut != joint) return {};
     return at;
 }
 
 bool Person::spin(const glm::dvec2& from, glm::dvec2& pointer) {
     pointer = from + glm::dvec2(twist_of_width * seat_.size().x, 0.0);
     seat_.move(pointer);
-    return !p().hand.nut || p().course->state().joints[*p().hand.nut].stage != joint::Stage::navigation;
+    return !hand_of(p()).nut ||
+           p().course->state().joints[*hand_of(p()).nut].stage != joint::Stage::navigation;
 }
 
 bool Person::pull(std::size_t joint, glm::dvec2& pointer) {
-    const play::Course& course = *p().course;
+    const session::Course& course = *p().course;
     const servo::Setup& setup = course.setup();
     const double since = std::exchange(dragged_, now());
-    if (p().hand.doing != Doing::holding || course.state().engagement.joint != static_cast<int>(joint)) {
+    if (hand_of(p()).doing != Doing::holding || course.state().engagement.joint != static_cast<int>(joint)) {
         seat_.frame();
         return false;
     }
@@ -90,9 +91,9 @@ bool Person::pull(std::size_t joint, glm::dvec2& pointer) {
     const bool yields = course.state().joints[joint].stage == joint::Stage::yield;
     const double until = sought * step_due.torque;
     if (lesson::into_yield(course.lesson(), step_due) ? yields : torque >= until) return true;
-    if (p().hand.room < spent * p().mouse.room) return true;
-    const glm::dvec2 lever =
-        lever_on_screen(seat_.screen(), p().output.tool, setup.nuts[joint].axis, setup.wrench.handle_length);
+    if (hand_of(p()).room < spent * p().mouse.room) return true;
+    const glm::dvec2 lever = lever_on_screen(seat_.screen(), tool_of(p()).pose, setup.nuts[joint].axis,
+                                             setup.wrench.handle_length);
     const double share = std::max(slowest_share, 1.0 - torque / until);
     pointer += lever * (fastest_drag * share * (now() - since));
     seat_.move(pointer);

@@ -18,7 +18,7 @@ class Person {
     double sought = 1.0;  // of the torque that is due
 
   private:
-    [[nodiscard]] const trainer::Playing& p() const { return seat_.playing(); }
+    [[nodiscard]] const trainer::ActiveLesson& p() const { return seat_.playing(); }
     [[nodiscard]] const lesson::Step* due() const { return p().course->lesson().due(); }
     [[nodiscard]] bool going() const { return seat_.app().shows() == trainer::Shows::lesson; }
     [[nodiscard]] double now() const { return p().course->time(); }

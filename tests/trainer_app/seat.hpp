@@ -22,7 +22,7 @@ class Seat {
 
     // Presses on what has that label, so far from its middle (of half its width). It has to be there.
     void push(words::Key label, float off = 0.0F);
-    [[nodiscard]] const trainer::Playing& playing() const { return *app().playing(); }
+    [[nodiscard]] const trainer::ActiveLesson& playing() const { return *app().playing(); }
     [[nodiscard]] trainer::Screen screen() const { return trainer::screen_of(playing(), size()); }
 
   protected:

@@ -26,8 +26,8 @@ AppOptions options(lesson::Mode mode, bool menu, const char* folder) {
 void put_on(test::Desk& one) {
     one.frame();
     one.key(platform::Key::t);
-    for (int i = 0; i < 40 && !one.playing().hand.wrench; ++i) one.frame({}, 0.25);
-    REQUIRE(one.playing().hand.wrench);
+    for (int i = 0; i < 40 && !hand_of(one.playing()).wrench; ++i) one.frame({}, 0.25);
+    REQUIRE(hand_of(one.playing()).wrench);
 }
 
 // Of the picture's pixels those that are not as in the other.
@@ -46,7 +46,7 @@ double share_changed(const render::Picture& a, const render::Picture& b, const r
     return static_cast<double>(changed) / all;
 }
 
-bool straight_arrow_shown(const Playing& p) {
+bool straight_arrow_shown(const ActiveLesson& p) {
     bool shown = false;
     const_cast<scene::World&>(p.place.world).view<const scene::Pointer>().each([&](const scene::Pointer& it) {
         shown = shown || (it.shown && it.shape == scene::ArrowShape::straight);
@@ -61,7 +61,7 @@ TEST_CASE(
     "above") {
     test::Desk one(options(lesson::Mode::guided, false, "seen-guided"), big_letters);
     put_on(one);
-    CHECK_FALSE(one.playing().close_up.joint);  // far away
+    CHECK_FALSE(one.playing().view.close_up.joint);  // far away
     one.key(platform::Key::h);
     one.key(platform::Key::h);
     one.frame();
@@ -70,10 +70,10 @@ TEST_CASE(
     one.key(platform::Key::v);
     for (int i = 0; i < 4; ++i) one.frame({}, 0.25);
     const glm::dvec2 at = one.hold(joint);
-    const CloseUp& c = one.playing().close_up;
+    const CloseUp& c = one.playing().view.close_up;
     REQUIRE(c.joint == joint);
     CHECK(c.seen >= 0.6);
-    const servo::NutPlace& nut = one.playing().course->setup().nuts[joint];
+    const servo::NutGeometry& nut = one.playing().course->setup().nuts[joint];
     CHECK(glm::dot(c.tool * c.eye - c.tool.position, nut.axis) > 0.03);
     one.wait(0.6);
     one.frame({}, 0.001);
@@ -101,7 +101,7 @@ TEST_CASE("in an assessment there is no close-up, whatever is pressed, and no ar
     one.key(platform::Key::h);
     one.hold(0);
     one.frame();
-    CHECK_FALSE(one.playing().close_up.joint);
+    CHECK_FALSE(one.playing().view.close_up.joint);
     CHECK_FALSE(straight_arrow_shown(one.playing()));
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("a hint is read in full from its first picture on") {
     test::Desk one(options(lesson::Mode::guided, false, "seen-hint"), big_letters);
     one.frame();
     const auto hint_plate = [&]() -> std::optional<render::Rectangle> {
-        for (const render::Rectangle& plate : one.playing().plates)
+        for (const render::Rectangle& plate : one.playing().view.occupied)
             if (plate.low.y < 10.0F && plate.high.x > 0.6F * 320.0F) return plate;
         return std::nullopt;
     };
@@ -135,8 +135,8 @@ TEST_CASE("a hint is read in full from its first picture on") {
     for (int i = 0; i < 120 && changed < 3; ++i) {
         if (i == 60) one.key(platform::Key::h);
         one.frame();
-        const auto& hint = one.playing().hints.shown;
-        const std::string now = hint ? hints::say(en.words, *hint) + std::to_string(hint->level) : "";
+        const auto& hint = one.playing().coaching.hints.shown;
+        const std::string now = hint ? lesson::say(en.words, *hint) + std::to_string(hint->level) : "";
         if (now == said && first) {
             REQUIRE(hint_plate());
             CHECK(first->low == hint_plate()->low);
@@ -161,7 +161,7 @@ TEST_CASE("the name of what is due stands over no other nut, wherever one looks 
         one.move({300.0 - aside, 150.0 - down});
         one.release({300.0 - aside, 150.0 - down});
         one.wait(0.5);  // it has glided there
-        const Playing& p = one.playing();
+        const ActiveLesson& p = one.playing();
         const std::size_t due = p.course->lesson().due()->joint;
         const glm::vec2 picture(320.0F, 180.0F);
         for (const render::Label& label : p.scene.labels) {

@@ -78,12 +78,39 @@ TEST_CASE("all settings are changed by pointing, kept under the trainee's name, 
     CHECK_FALSE(another.settings().left_handed);
 }
 
+TEST_CASE("Menu: the joint law that is chosen is kept for the trainee and is in force in the lesson") {
+    const Fresh fresh;
+    {
+        Desk desk(options(true));
+        CHECK(desk.settings().law.empty());
+        desk.push("menu.law.published");
+        CHECK(desk.settings().law == "published");
+        desk.push("menu.start");
+        desk.frame();
+        REQUIRE(desk.app().shows() == Shows::lesson);
+        CHECK(desk.playing().course->assembly().law == joint::Law::published);
+        const auto reader = session::Reader::open(desk.folder() / "session.boltwright");
+        REQUIRE(reader);
+        CHECK(reader->header().law == "published");
+    }
+    Desk later(options(true));
+    CHECK(later.settings().law == "published");
+    later.push("menu.law.mechanistic");
+    CHECK(later.settings().law == "mechanistic");
+    AppOptions by_command_line = options(false);
+    by_command_line.law = joint::Law::published;
+    Desk asked(std::move(by_command_line));
+    asked.frame();
+    REQUIRE(asked.app().shows() == Shows::lesson);
+    CHECK(asked.playing().course->assembly().law == joint::Law::published);
+}
+
 TEST_CASE("a key that is taken is swapped, Escape leaves question, screen and pause one after the other") {
     const Fresh fresh;
     Desk desk(options(false));
     REQUIRE(desk.app().shows() == Shows::lesson);
     desk.key(Key::escape);
-    REQUIRE(desk.playing().paused);
+    REQUIRE(desk.playing().pace.paused);
     desk.push("menu.settings");
     desk.push("action.tool");
     desk.key(Key::h);
@@ -99,18 +126,18 @@ TEST_CASE("a key that is taken is swapped, Escape leaves question, screen and pa
     CHECK(desk.keys().of(Action::pause) == Key::p);
     desk.key(Key::escape);  // the screen
     CHECK_FALSE(desk.app().shows_settings());
-    CHECK(desk.playing().paused);
+    CHECK(desk.playing().pace.paused);
     desk.key(Key::escape);  // the pause
-    CHECK_FALSE(desk.playing().paused);
+    CHECK_FALSE(desk.playing().pace.paused);
     desk.key(Key::p);
-    CHECK(desk.playing().paused);
+    CHECK(desk.playing().pace.paused);
     desk.key(Key::escape);
-    CHECK_FALSE(desk.playing().paused);
+    CHECK_FALSE(desk.playing().pace.paused);
     // The new key takes the wrench, the old one does not.
     desk.key(Key::t);
-    CHECK(desk.playing().hand.doing == Doing::resting);
+    CHECK(hand_of(desk.playing()).doing == Doing::resting);
     desk.key(Key::h);
-    CHECK(desk.playing().hand.doing == Doing::reaching);
+    CHECK(hand_of(desk.playing()).doing == Doing::reaching);
 }
 
 TEST_CASE("while a key is waited for, closing the window closes it, and no key starts or presses anything") {
@@ -149,18 +176,19 @@ TEST_CASE("left-handed: the wrench lies on the other side, and the force is the 
         return std::make_unique<Desk>(std::move(o));
     };
     const auto right = lesson(false, 1.0), left = lesson(true, 0.25);
-    const Playing &r = *right->app().playing(), &l = *left->app().playing();
+    const ActiveLesson &r = *right->app().playing(), &l = *left->app().playing();
     const double middle = 0.5 * static_cast<double>(r.place.machine.low.x + r.place.machine.high.x);
     const Vec3 grip(r.course->setup().wrench.handle_length, 0.0, 0.0);
-    const double to_right = (r.hand.rest * grip).x - middle, to_left = (l.hand.rest * grip).x - middle;
+    const double to_right = (hand_of(r).rest * grip).x - middle,
+                 to_left = (hand_of(l).rest * grip).x - middle;
     CHECK(to_right > 0.1);
     CHECK(to_left == doctest::Approx(-to_right));
     CHECK(l.shoulder.x - middle == doctest::Approx(middle - r.shoulder.x));
     CHECK(l.shoulder.y < r.shoulder.y);
-    CHECK(l.camera.goal.pitch <= r.camera.goal.pitch);
+    CHECK(l.view.camera.goal.pitch <= r.view.camera.goal.pitch);
     CHECK(l.course->setup().limits.force == 0.25 * r.course->setup().limits.force);
-    CHECK(l.captions.has_value());
-    CHECK_FALSE(r.captions.has_value());
+    CHECK(l.sound.captions.has_value());
+    CHECK_FALSE(r.sound.captions.has_value());
 }
 
 TEST_CASE("what cannot be read is told with its place, and a lesson can be played all the same") {

@@ -1,7 +1,7 @@
 // The program at a station: what it takes from devices, says of them, and leaves when they fail.
 #include <doctest/doctest.h>
 
-#include "game/record/session.hpp"
+#include "game/session/session_file.hpp"
 #include "tests/station/virtual_bench.hpp"
 #include "tests/trainer_app/desk.hpp"
 
@@ -13,17 +13,18 @@ namespace {
 
 struct AtBench {
     test::VirtualBench* bench = nullptr;
-    std::optional<station::ShownHand> gloved;
+    std::optional<station::DisplayedHand> gloved;
 
     std::optional<Error> refuses;
 
     AppOptions options(bool menu) {
         AppOptions o = test::options("cover-m8", menu);
         o.choice.with.keyboard = true;
-        o.station = [this](const content::Assembly& assembly, const play::CourseOptions& course,
-                           const Equipment&, const std::string&) -> Result<std::unique_ptr<station::Bench>> {
+        o.station = [this](const content::Assembly& assembly, const session::CourseOptions& course,
+                           const Equipment&,
+                           const std::string&) -> Result<std::unique_ptr<station_setup::Bench>> {
             if (refuses) return fail(*refuses);
-            auto prepared = play::prepare(assembly, course);
+            auto prepared = session::prepare(assembly, course);
             if (!prepared) return fail(prepared.error());
             auto made = std::make_unique<test::VirtualBench>(std::move(*prepared), course);
             bench = made.get();
@@ -56,13 +57,13 @@ TEST_CASE(
     REQUIRE(desk.app().shows() == Shows::lesson);
     REQUIRE(desk.playing().station);
     CHECK(desk.playing().course->time() > 0.3);
-    CHECK(desk.playing().hints.shown.has_value());
+    CHECK(desk.playing().coaching.hints.shown.has_value());
     const Vec3 home = desk.playing().station->home.position;
-    CHECK(glm::distance(desk.playing().hand.pose.position, home) < 0.05);
+    CHECK(glm::distance(hand_of(desk.playing()).pose.position, home) < 0.05);
     at.frame(desk, {down(platform::Key::e)});
     for (int i = 0; i < 5; ++i) at.frame(desk);
     at.frame(desk, {up(platform::Key::e)});
-    CHECK(desk.playing().hand.pose.position.y > home.y + 0.05);
+    CHECK(hand_of(desk.playing()).pose.position.y > home.y + 0.05);
     at.frame(desk, {down(platform::Key::escape)});
     at.frame(desk, {up(platform::Key::escape)});
     const double paused = desk.playing().course->time();
@@ -71,7 +72,7 @@ TEST_CASE(
     desk.push("menu.end");
     desk.frame();
     REQUIRE(desk.played());
-    const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
+    const auto reader = session::Reader::open(desk.folder() / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
     CHECK(reader->header().servo == "1000 Hz");
@@ -83,11 +84,11 @@ TEST_CASE("what is pressed at a station goes out with that frame, and the next p
     Desk desk(at.options(false));
     desk.frame();
     for (int i = 0; i < 3; ++i) at.frame(desk);
-    const Vec3 before = desk.playing().hand.pose.position;
+    const Vec3 before = hand_of(desk.playing()).pose.position;
     desk.frame({down(platform::Key::e)});
     at.bench->pass(0.02);
     desk.frame();
-    CHECK(desk.playing().hand.pose.position.y > before.y + 1e-3);
+    CHECK(hand_of(desk.playing()).pose.position.y > before.y + 1e-3);
 }
 
 TEST_CASE("a station that does not come up is told of in the menu, and the mouse is still there") {
@@ -115,29 +116,29 @@ TEST_CASE("ticks that were lost end the lesson in words, and the session until t
     REQUIRE_FALSE(status);
     CHECK(status.error().message().find("3 ticks") != std::string::npos);
     REQUIRE(desk.app().end_lesson());
-    const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
+    const auto reader = session::Reader::open(desk.folder() / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
     CHECK(reader->tick_count() >= 500);
 }
 
 TEST_CASE("a glove of the left hand: the wrench lies for that one, and the session says so") {
-    const auto rests_at = [](std::optional<station::ShownHand> gloved) {
+    const auto rests_at = [](std::optional<station::DisplayedHand> gloved) {
         AtBench at;
         at.gloved = gloved;
         Desk desk(at.options(false));
         desk.frame();
-        const Playing& p = desk.playing();
+        const ActiveLesson& p = desk.playing();
         const double middle = 0.5 * static_cast<double>(p.place.machine.low.x + p.place.machine.high.x);
         const Vec3 grip(p.course->setup().wrench.handle_length, 0.0, 0.0);
         const double aside = (p.station->rest * grip).x - middle;
         REQUIRE(desk.app().end_lesson());
-        const auto reader = record::Reader::open(desk.folder() / "session.boltwright");
+        const auto reader = session::Reader::open(desk.folder() / "session.boltwright");
         REQUIRE(reader);
         CHECK(reader->header().hand == (gloved ? "left" : "right"));
         return aside;
     };
-    station::ShownHand left;
+    station::DisplayedHand left;
     left.side = hand::Side::left;
     const double bare = rests_at({});
     CHECK(bare > 0.1);

@@ -6,10 +6,11 @@
 #include <exception>
 #include <thread>
 
-#include "game/play/replay.hpp"
-#include "game/record/session.hpp"
+#include "game/session/replay.hpp"
+#include "game/session/session_file.hpp"
 #include "game/view/size.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/support/skip.hpp"
 #include "tests/trainer/one_joint.hpp"
 #include "tests/trainer_app/person.hpp"
 #include "tests/trainer_window/program.hpp"
@@ -34,12 +35,12 @@ lesson::Mode mode_asked() {
 
 // Pulls the first nut that is to be tightened too far, and looks on until it is as it was.
 void overdo(test::Seat& seat, test::Person& person) {
-    const trainer::Playing& p = seat.playing();
+    const trainer::ActiveLesson& p = seat.playing();
     const lesson::Lesson& lesson = p.course->lesson();
     while (lesson.due() != nullptr && lesson.due()->kind == lesson::StepKind::run_down)
         person.play(p.course->time() + 1.0, lesson.current + 1);
     person.sought = 1.4;
-    while (!p.mistakes.shown && seat.app().shows() == trainer::Shows::lesson)
+    while (!p.coaching.mistakes.shown && seat.app().shows() == trainer::Shows::lesson)
         person.play(p.course->time() + 1.0);
     person.sought = 1.0;
     person.wait(3.0);
@@ -60,14 +61,14 @@ void play_all(test::Seat& seat, bool overdoes) {
 }  // namespace
 
 TEST_CASE("a whole lesson in a window, from the menu to the result") {
-    if (test::sanitized) return;  // ten times slower
+    if (test::sanitized) return test::skip_rest("playing a lesson takes minutes under a sanitizer");
     const bool filmed = !asked("BOLT_FILM").empty();
     const auto one = filmed ? std::nullopt : std::make_optional<test::OneJoint>("cover-m8");
     trainer::AppOptions options;
     options.choice.assembly = one ? one->name() : asked("BOLT_FILM");
     options.choice.mode = mode_asked();
     options.choice.tool = asked("BOLT_FILM_TOOL");
-    options.course.obstacles = play::Obstacles::if_any;
+    options.course.obstacles = session::Obstacles::if_any;
     options.out = std::filesystem::path(BOLT_TRAINER_OUT) / "lesson";
     const auto size = view::parse_size(asked("BOLT_FILM_SIZE", "320x200"));
     REQUIRE(size);
@@ -93,12 +94,13 @@ TEST_CASE("a whole lesson in a window, from the menu to the result") {
     REQUIRE(program.played);
     CHECK(program.played->result.finished);
     CHECK(program.played->result.score > 85.0);
-    const auto reader = record::Reader::open(program.out / "session.boltwright");
+    const auto reader = session::Reader::open(program.out / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
-    auto at = play::prepare_again(*reader);
+    auto at = session::prepare_again(*reader);
     REQUIRE(at);
-    const auto replayed = play::replay(*reader, std::move(*at), [](const play::Moment&) { return true; });
+    const auto replayed =
+        session::replay(*reader, std::move(*at), [](const session::Moment&) { return true; });
     REQUIRE(replayed);
     CHECK(replayed->wrong == 0);
 }

@@ -47,7 +47,7 @@ struct Program {
     platform::Window window;
     std::optional<gpu::Instance> instance;
     std::optional<trainer::App> app;
-    std::optional<play::Played> played;
+    std::optional<session::Played> played;
 
     Program(trainer::AppOptions options, platform::Size size)
         : out(options.out),
@@ -59,8 +59,8 @@ struct Program {
         instance.emplace(need(gpu::Instance::create(validated)));
         std::filesystem::create_directories(out);
         options.tell = [this](const std::string& line) { log.add(line); };
-        options.ended = [this](const content::Assembly&, const play::CourseOptions&,
-                               const play::Played& how) {
+        options.ended = [this](const content::Assembly&, const session::CourseOptions&,
+                               const session::Played& how) {
             played = how;
             return Status{};
         };

@@ -1,8 +1,8 @@
 // The trainer in a real window, with somebody at its keys and mouse.
 #include <thread>
 
-#include "game/record/session.hpp"
-#include "tests/platform/hand.hpp"
+#include "game/session/session_file.hpp"
+#include "tests/platform/window_user.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/screen_picture.hpp"
 #include "tests/trainer_window/program.hpp"
@@ -24,7 +24,7 @@ TEST_CASE(
     test::Program program(std::move(options), {width, height});
     bool begun = false, taken = false, large = false;
     std::thread somebody([&] {
-        test::Hand hand("boltwright");
+        test::WindowUser hand("boltwright");
         begun = test::eventually([&] {
             hand.key("Return");
             return program.log.has("lesson begun");
@@ -36,7 +36,8 @@ TEST_CASE(
             return program.log.has("in the hand");
         });
         hand.key("F11");
-        large = test::eventually([&] { return test::Hand("boltwright").place().width > int{width}; });
+        large =
+            test::eventually([&] { return test::WindowUser("boltwright").rectangle().width > int{width}; });
         hand.close();
     });
     const Status run = trainer::run_in_window(*program.app, program.window, *program.instance);
@@ -45,7 +46,7 @@ TEST_CASE(
     CHECK(taken);
     CHECK(large);
     CHECK_MESSAGE(run.has_value(), (run ? "" : run.error().message()));
-    const auto reader = record::Reader::open(program.out / "session.boltwright");
+    const auto reader = session::Reader::open(program.out / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
     CHECK(reader->tick_count() > 500);

@@ -51,7 +51,7 @@ void WindowSeat::sit(const std::function<void()>& act) {
     };
     try {
         wait_for(Turn::sits);
-        hand_ = std::make_unique<Hand>("boltwright");
+        hand_ = std::make_unique<WindowUser>("boltwright");
         act();
     } catch (...) {
         leave();

@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "engine/platform/window.hpp"
-#include "tests/platform/hand.hpp"
+#include "tests/platform/window_user.hpp"
 #include "tests/trainer_app/seat.hpp"
 
 namespace bolt::test {
@@ -36,7 +36,7 @@ class WindowSeat final : public Seat {
   private:
     const trainer::App& app_;
     const platform::Window& window_;
-    std::unique_ptr<Hand> hand_;
+    std::unique_ptr<WindowUser> hand_;
     // A semaphore would do, but that of libstdc++ 12 was seen to sleep on here when it had been released.
     enum class Turn : std::uint8_t { shows, sits };
     void wait_for(Turn turn);

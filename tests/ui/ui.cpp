@@ -1,4 +1,4 @@
-// The interface as its user sees and touches it.
+// The user interface, tested through its pictures and input.
 #include "engine/ui/ui.hpp"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr VkExtent2D extent{480, 160};
 
-// A window without a window system: a black scene, and what is drawn on it.
+// A window without a window system: a black scene and the interface on it.
 struct Screen {
     test::Studio studio;
     std::unique_ptr<ui::Ui> ui = studio.gpu().need(ui::Ui::create(studio.gpu().device()));
@@ -28,10 +28,10 @@ struct Screen {
         scene.background = {0, 0, 0, 1};
     }
 
-    // One frame of an interface.
+    // Draws one frame of an interface.
     template <class Draw>
     Picture show(ui::Ui& of, const Draw& draw) {
-        gpu::Frame* frame = studio.gpu().need(studio.frames().begin());
+        gpu::FrameContext* frame = studio.gpu().need(studio.frames().begin());
         const Eye eye = make_eye({0, 0, 5}, {0, 0, 0}, {});
         studio.gpu().need(studio.renderer().render(*frame, scene, {&eye, 1}, extent));
         studio.gpu().need(of.begin(*frame, input));
@@ -42,7 +42,7 @@ struct Screen {
     }
     template <class Draw>
     Picture show(const Draw& draw) {
-        return show(*ui, [&](gpu::Frame&) { draw(); });
+        return show(*ui, [&](gpu::FrameContext&) { draw(); });
     }
 
     Picture written(const std::string& text) {
@@ -62,11 +62,11 @@ std::vector<double> coverage(const Picture& picture) {
     return values;
 }
 
-// How much of a text's ink, as stb_truetype rasterises it at this size, lies elsewhere in the picture;
-// wherever ImGui has put the origin of the first letter, near (40, 40) and a line below.
+// Returns the fraction of a text's ink (rasterised by stb_truetype at this size) that is elsewhere in the
+// picture, for the best origin near (40, 40) and one line below.
 double astray(const std::vector<double>& made, const text::Fonts& fonts, const std::string& utf8,
               float em_px) {
-    const text::Layout layout = text::lay_out(fonts, utf8);
+    const text::TextLayout layout = text::lay_out(fonts, utf8);
     double best = 1e9;
     const int baseline = 40 + static_cast<int>(std::lround(em_px * fonts.faces[0].ascent()));
     for (int dy = -2; dy <= 2; ++dy) {
@@ -97,12 +97,11 @@ double astray(const std::vector<double>& made, const text::Fonts& fonts, const s
 
 }  // namespace
 
-TEST_CASE("text is rasterised at the size at which it is seen, on displays of every scale") {
+TEST_CASE("Text: rasterised at its displayed size on displays of every scale") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     Screen screen;
-    const std::string word =
-        "HEFT";  // upright stems: ImGui places letters at other fractions of a pixel than we
+    const std::string word = "HEFT";  // upright stems: ImGui places glyphs at other fractions of a pixel
     for (const float scale : {1.0F, 1.25F, 1.5F, 2.0F, 2.5F}) {
         CAPTURE(scale);
         screen.input.scale = scale;
@@ -111,7 +110,7 @@ TEST_CASE("text is rasterised at the size at which it is seen, on displays of ev
         CAPTURE(off);
         CHECK(off < 0.1);
     }
-    // Text of another size stretched to this one is another thing.
+    // Text of another size, scaled to this one, differs.
     screen.input.scale = 1.0F;
     const std::vector<double> small = coverage(screen.written(word));
     std::vector<double> stretched(small.size());
@@ -123,7 +122,7 @@ TEST_CASE("text is rasterised at the size at which it is seen, on displays of ev
     CHECK(astray(stretched, *fonts, word, 28.0F) > 0.2);
 }
 
-TEST_CASE("Chinese is written once it is asked for") {
+TEST_CASE("Text: Chinese characters are available after need()") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     Screen screen;
@@ -136,10 +135,10 @@ TEST_CASE("Chinese is written once it is asked for") {
     CHECK(astray(coverage(known), *fonts, word, 28.0F) < 0.1);
     CHECK(astray(coverage(unknown), *fonts, word, 28.0F) > 0.5);
     CHECK(screen.written(word).rgba == known.rgba);
-    CHECK(screen.written("Größe").rgba != screen.written("Gr??e").rgba);  // German is always there
+    CHECK(screen.written("Größe").rgba != screen.written("Gr??e").rgba);  // German is always available
 }
 
-TEST_CASE("what ImGui fills and clips is on the picture to the pixel") {
+TEST_CASE("ImGui: fills and clips are exact to the pixel") {
     Screen screen;
     const Picture made = screen.show([] {
         ImDrawList& list = *ImGui::GetForegroundDrawList();
@@ -159,17 +158,17 @@ TEST_CASE("what ImGui fills and clips is on the picture to the pixel") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("pictures of other views are shown texel for pixel") {
+TEST_CASE("Pictures: other views are drawn texel by pixel") {
     Screen screen;
     screen.scene.background = {0, 0, 0, 1};
     const assets::Model model = test::sphere({}, 24);
     const GpuModel gpu_model = screen.studio.upload(model);
-    place(screen.scene, model, gpu_model);
+    add_model(screen.scene, model, gpu_model);
     const EnvironmentLight light = screen.studio.light(shading::studio(64));
     screen.scene.environment = &light;
     const Eye eye = make_eye({2, 1, 3}, {0, 0, 0}, {});
     const Picture single = screen.studio.shoot(screen.scene, eye, {60, 60});
-    const Picture made = screen.show(*screen.ui, [&](gpu::Frame& frame) {
+    const Picture made = screen.show(*screen.ui, [&](gpu::FrameContext& frame) {
         Renderer& renderer = screen.studio.renderer();
         screen.studio.gpu().need(renderer.render(frame, screen.scene, {&eye, 1}, {60, 60}, 3));
         const ImTextureID id = screen.ui->picture(renderer.picture(0, 3));
@@ -185,7 +184,7 @@ TEST_CASE("pictures of other views are shown texel for pixel") {
     CHECK(test::pixel(single, 30, 30) != test::pixel(single, 2, 2));
 }
 
-TEST_CASE("buttons are pressed, also between two frames, and text is typed in every language") {
+TEST_CASE("Input: buttons are pressed, also between two frames, and text is typed in every language") {
     Screen screen;
     int clicks = 0;
     bool over = false;
@@ -238,12 +237,12 @@ TEST_CASE("buttons are pressed, also between two frames, and text is typed in ev
     CHECK(clicks == 2);
 }
 
-TEST_CASE("two interfaces do not know of each other") {
+TEST_CASE("Ui: two interfaces are independent") {
     Screen screen;
     ui::UiOptions large;
     large.text_size = 30.0F;
     const auto other = screen.studio.gpu().need(ui::Ui::create(screen.studio.gpu().device(), large));
-    const auto window = [](gpu::Frame&) {
+    const auto window = [](gpu::FrameContext&) {
         ImGui::SetNextWindowPos(ImVec2(10, 10));
         ImGui::Begin("window", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
         ImGui::TextUnformatted("M8 × 30");

@@ -12,7 +12,7 @@ using namespace bolt::view;
 
 namespace {
 
-const render::Box box{{-0.2F, -0.1F, -0.3F}, {0.4F, 0.3F, 0.1F}};
+const render::BoundingBox box{{-0.2F, -0.1F, -0.3F}, {0.4F, 0.3F, 0.1F}};
 
 Orbit some(Random& random) {
     Orbit o;

@@ -16,7 +16,7 @@ TEST_CASE("two eyes meet at the target; what is nearer or further is apart by wh
     orbit.pitch = 0.4;
     orbit.distance = 0.8;
     constexpr float aspect = 1.5F;
-    const render::Box box{glm::vec3(-1.0F), glm::vec3(1.0F)};
+    const render::BoundingBox box{glm::vec3(-1.0F), glm::vec3(1.0F)};
     const auto eyes = view::eyes_aside(true);
     REQUIRE(eyes.size() == 2);
     CHECK(view::eyes_aside(false) == std::vector<float>{0.0F});

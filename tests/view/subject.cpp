@@ -1,4 +1,4 @@
-#include "game/view/subject.hpp"
+#include "game/view/loaded_model.hpp"
 
 #include <doctest/doctest.h>
 

@@ -56,12 +56,12 @@ bool is_sentence(std::string text) {
 bool letters_are_there(const text::Fonts& fonts, const std::string& said) {
     const std::u32string points = text::decode(said);
     return std::all_of(points.begin(), points.end(),
-                       [&](char32_t point) { return find(fonts, point).glyph != 0; });
+                       [&](char32_t point) { return find_glyph(fonts, point).glyph != 0; });
 }
 
 }  // namespace
 
-TEST_CASE("there are English, German and Chinese, and each has every text with its places") {
+TEST_CASE("Words: English, German and Chinese exist, and each has every text with its placeholders") {
     const std::vector<std::string> there = languages(words_folder());
     for (const char* language : {"en", "de", "zh"})
         CHECK(std::find(there.begin(), there.end(), language) != there.end());
@@ -74,7 +74,7 @@ TEST_CASE("there are English, German and Chinese, and each has every text with i
     }
 }
 
-TEST_CASE("the fonts have every letter of every language") {
+TEST_CASE("Words: the fonts have every letter of every language") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     for (const std::string& language : languages(words_folder())) {
@@ -89,7 +89,7 @@ TEST_CASE("the fonts have every letter of every language") {
     CHECK_FALSE(letters_are_there(*fonts, "a\U000E0001b"));  // and it can fail
 }
 
-TEST_CASE("a translation is one: hints are not left in English") {
+TEST_CASE("Words: translations differ from English") {
     const Words en = english();
     for (const std::string& language : languages(words_folder())) {
         if (language == "en") continue;
@@ -103,7 +103,7 @@ TEST_CASE("a translation is one: hints are not left in English") {
     }
 }
 
-TEST_CASE("files are in the order of the table, so that translators find their way") {
+TEST_CASE("Words: files follow the order of the table") {
     for (const std::string& language : languages(words_folder())) {
         const auto file = nlohmann::ordered_json::parse(text_of(language));
         std::size_t i = 0;
@@ -111,7 +111,7 @@ TEST_CASE("files are in the order of the table, so that translators find their w
     }
 }
 
-TEST_CASE("what is said: places are filled in, numbers are written as the language writes them") {
+TEST_CASE("Words: placeholders are filled in, and numbers follow the language") {
     const Words en = english();
     const Words de = load_words(words_folder(), "de").words;
     CHECK(say(en, "hint.next", {{"joint", "B7"}}) == "B7 is next.");
@@ -126,7 +126,7 @@ TEST_CASE("what is said: places are filled in, numbers are written as the langua
     CHECK(say(en, "hint.set_back", {{"joint", "B7"}}) == en["hint.set_back"]);
 }
 
-TEST_CASE("torques have no more decimals than a torque wrench shows") {
+TEST_CASE("Words: torques have as many decimals as a torque wrench shows") {
     const Words en = english();
     for (const auto& [torque, said] : {std::pair{20.0, "20"},
                                        {7.5, "7.5"},
@@ -138,7 +138,7 @@ TEST_CASE("torques have no more decimals than a torque wrench shows") {
         CHECK(say(en, torque_number(torque)) == said);
 }
 
-TEST_CASE("mistakes of a file are told with their place") {
+TEST_CASE("Words: errors of a file name their position") {
     const std::string text = text_of("en");
     const auto line =
         std::count(text.begin(), text.begin() + static_cast<long>(text.find("\"hint.next\"")), '\n') + 1;
@@ -169,7 +169,7 @@ TEST_CASE("mistakes of a file are told with their place") {
     CHECK(parse_words(R"({"words": 3})", "x").errors.size() == 5);
 }
 
-TEST_CASE("a language that is not there is answered with those that are") {
+TEST_CASE("Words: an unknown language lists those that exist") {
     const Loaded none = load_words(words_folder(), "ed");
     REQUIRE(none.errors.size() == 1);
     CHECK(none.errors[0].code == ErrorCode::usage);

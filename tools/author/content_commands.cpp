@@ -18,10 +18,10 @@ int run_new(const std::string& given, const std::string& title) {
     const std::filesystem::path last =
         folder.has_filename() ? folder.filename() : folder.parent_path().filename();
     const std::string name = title.empty() ? last.string() : title;
-    if (Status made = content::create_assembly(folder, name); !made) return complain(made.error());
-    const Status said = say(fmt::format("{}\nCheck it with: bolt-author validate {}\n",
+    if (Status made = content::create_assembly(folder, name); !made) return print_error(made.error());
+    const Status said = print(fmt::format("{}\nCheck it with: bolt-author validate {}\n",
                                         (folder / "assembly.json").string(), given));
-    return said ? 0 : complain(said.error());
+    return said ? 0 : print_error(said.error());
 }
 
 }  // namespace

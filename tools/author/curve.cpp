@@ -38,13 +38,13 @@ int run_curve(const CurveOptions& options) {
         error.code = ErrorCode::usage;
         error.what = "there is nothing to write";
         error.expected = "--csv FILE or --svg FILE";
-        return complain(error);
+        return print_error(error);
     }
     const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
-    if (!loaded.ok()) return complain(loaded.errors);
+    if (!loaded.ok()) return print_error(loaded.errors);
     const content::Assembly& assembly = loaded.assembly;
     Result<std::size_t> joint = find_joint(assembly, options.joint);
-    if (!joint) return complain(joint.error());
+    if (!joint) return print_error(joint.error());
 
     const joint::Law law = options.law.empty()          ? assembly.law
                            : options.law == "published" ? joint::Law::published
@@ -64,7 +64,7 @@ int run_curve(const CurveOptions& options) {
             fmt::format("{} {}, law {}, {}", assembly.name, options.joint, name(law), options.direction);
         const Status kept =
             write_file(options.svg, curve_svg(assembly.joints[*joint], run, curve.direction, title));
-        if (!kept) return complain(kept.error());
+        if (!kept) return print_error(kept.error());
     }
     if (options.csv.empty()) return 0;
     std::string text = "angle_deg,stage,torque_Nm,clamp_N\n";
@@ -73,10 +73,10 @@ int run_curve(const CurveOptions& options) {
                        name(s.stage), s.torque, s.clamp);
     if (options.csv != "-") {
         const Status kept = write_file(options.csv, text);
-        return kept ? 0 : complain(kept.error());
+        return kept ? 0 : print_error(kept.error());
     }
-    const Status said = say(text);
-    return said ? 0 : complain(said.error());
+    const Status said = print(text);
+    return said ? 0 : print_error(said.error());
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "game/report/decimate.hpp"
-#include "game/report/plot.hpp"
-#include "game/report/style.hpp"
+#include "game/plot/decimate.hpp"
+#include "game/plot/plot.hpp"
+#include "game/plot/style.hpp"
 
 namespace bolt::author {
 
@@ -27,11 +27,11 @@ std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint
     const std::size_t contact = on ? std::min(first_contact(run), run.size() - 1) : 0;
     const double zero = to_degrees(run[contact].angle);
 
-    report::Plot plot;
+    plot::Plot plot;
     plot.width = 760.0;
     plot.height = 400.0;
     plot.title = std::string(title);
-    std::vector<report::Point> torque, clamp;
+    std::vector<plot::Point> torque, clamp;
     double highest_torque = 0.0, highest_clamp = 0.0;
     for (const joint::CurveSample& s : run) {
         const double x = to_degrees(s.angle) - zero;
@@ -41,12 +41,12 @@ std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint
         highest_torque = std::max(highest_torque, torque.back().y);
         highest_clamp = std::max(highest_clamp, s.clamp / 1e3);
     }
-    const report::Range shown{torque.front().x, torque.back().x};
-    plot.x = {report::degree_ticks(shown, 9),
+    const plot::Range shown{torque.front().x, torque.back().x};
+    plot.x = {plot::degree_ticks(shown, 9),
               on ? "nut angle from first contact, °" : "nut angle turned back, °"};
-    plot.y = {report::covering_ticks(0.0, std::max(highest_torque, on ? joint.spec.torque.high : 0.0)),
+    plot.y = {plot::covering_ticks(0.0, std::max(highest_torque, on ? joint.spec.torque.high : 0.0)),
               "torque, N·m"};
-    plot.y2 = report::Axis{report::covering_ticks(0.0, highest_clamp), "clamp, kN"};
+    plot.y2 = plot::Axis{plot::covering_ticks(0.0, highest_clamp), "clamp, kN"};
 
     constexpr std::string_view stage_styles[] = {"s0", "s1", "s2", "s3"};
     for (std::size_t i = 0, begin = 0; i <= run.size(); ++i) {
@@ -64,9 +64,9 @@ std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint
         plot.rules.push_back({joint.spec.torque.target, "tgt", "target", true});
     }
     const double column = (shown.high - shown.low) / 1500.0;
-    plot.lines.push_back({report::decimate(clamp, column), "ln cl", true});
-    plot.lines.push_back({report::decimate(torque, column), "ln p2", false});
-    return report::standalone(report::draw(plot), report::style_sheet());
+    plot.lines.push_back({plot::decimate(clamp, column), "ln cl", true});
+    plot.lines.push_back({plot::decimate(torque, column), "ln p2", false});
+    return plot::standalone(plot::draw(plot), plot::style_sheet());
 }
 
 }  // namespace bolt::author

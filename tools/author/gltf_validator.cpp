@@ -37,10 +37,10 @@ fs::path gltf_validator() {
 Result<std::vector<Error>> run_gltf_validator(const fs::path& script, const std::vector<std::string>& files) {
     std::vector<std::string> command{"node", script.string()};
     for (const std::string& file : files) command.push_back(fs::absolute(file).string());
-    const Result<Finished> run = run_program(command, Hear::output);
+    const Result<ProgramResult> run = run_program(command, Capture::output);
     if (!run) return broken(run.error().what);
     if (run->exit_code != 0) return broken("it failed");
-    const json reports = json::parse(run->said, nullptr, false);
+    const json reports = json::parse(run->output, nullptr, false);
     if (!reports.is_array() || reports.size() != files.size()) return broken("it said nothing that we know");
     std::vector<Error> errors;
     for (std::size_t i = 0; i < files.size(); ++i)

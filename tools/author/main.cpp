@@ -1,6 +1,6 @@
 // bolt-author: the tool of those who make assemblies.
 
-#include "game/cli/program.hpp"
+#include "engine/base/program.hpp"
 #include "tools/author/commands.hpp"
 #include "tools/author/import_command.hpp"
 
@@ -17,5 +17,5 @@ int main(int argc, char** argv) {
     bolt::author::add_torque(app, exit_code);
     bolt::author::add_views(app, exit_code);
     bolt::author::add_words(app, exit_code);
-    return bolt::cli::run_program(app, argc, argv, exit_code);
+    return bolt::run_command_line(app, argc, argv, exit_code);
 }

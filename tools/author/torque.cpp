@@ -26,12 +26,12 @@ int run_torque(const TorqueOptions& options) {
     Result<joint::ThreadSize> size = joint::parse_thread(name);
     if (!size) {
         size.error().code = ErrorCode::usage;
-        return complain(size.error());
+        return print_error(size.error());
     }
     Result<joint::PropertyClass> bolt = joint::property_class(options.property_class, size->size.d);
     if (!bolt) {
         bolt.error().code = ErrorCode::usage;
-        return complain(bolt.error());
+        return print_error(bolt.error());
     }
     const joint::AssemblyPreload preload = joint::assembly_preload(
         size->thread, *bolt, options.mu, options.mu,
@@ -50,8 +50,8 @@ int run_torque(const TorqueOptions& options) {
                            bolt->name, options.mu, 100.0 * options.utilisation, preload.force / 1e3,
                            preload.torque);
     }
-    const Status said = say(text);
-    return said ? 0 : complain(said.error());
+    const Status said = print(text);
+    return said ? 0 : print_error(said.error());
 }
 
 }  // namespace

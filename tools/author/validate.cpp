@@ -8,8 +8,8 @@
 #include "content/format/load.hpp"
 #include "engine/base/console.hpp"
 #include "tools/author/commands.hpp"
+#include "tools/author/geometry/check.hpp"
 #include "tools/author/gltf_validator.hpp"
-#include "tools/geometry/check.hpp"
 
 namespace bolt::author {
 
@@ -60,7 +60,7 @@ int run_validate(const std::vector<std::string>& assemblies, const std::string& 
     for (const std::string& where : assemblies) {
         const content::Loaded loaded = content::load_assembly(where, variant);
         if (!loaded.ok()) {
-            worst = std::max(worst, complain(loaded.errors));
+            worst = std::max(worst, print_error(loaded.errors));
             continue;
         }
         const Verdict verdict = judge(loaded.assembly);
@@ -69,8 +69,8 @@ int run_validate(const std::vector<std::string>& assemblies, const std::string& 
             text += fmt::format("{}: {} joints, {} passes, variant {}: no mistakes\n", loaded.assembly.file,
                                 loaded.assembly.joints.size(), loaded.assembly.passes.size(),
                                 loaded.assembly.variant.empty() ? "-" : loaded.assembly.variant);
-        worst = std::max(worst, complain(verdict.errors));
-        if (const Status said = say(text); !said) return complain(said.error());
+        worst = std::max(worst, print_error(verdict.errors));
+        if (const Status said = print(text); !said) return print_error(said.error());
     }
     return worst;
 }

@@ -8,9 +8,9 @@
 
 #include "content/format/load.hpp"
 #include "engine/base/console.hpp"
-#include "game/play/nut_views.hpp"
-#include "game/play/servo_setup.hpp"
-#include "game/play/touch_models.hpp"
+#include "game/session/contact_models.hpp"
+#include "game/session/nut_views.hpp"
+#include "game/session/servo_setup.hpp"
 #include "tools/author/commands.hpp"
 
 namespace bolt::author {
@@ -19,7 +19,7 @@ namespace {
 
 struct Row {
     std::string joint;
-    std::vector<play::NutView> views;
+    std::vector<session::NutView> views;
     std::optional<std::size_t> best;
 };
 
@@ -60,24 +60,24 @@ std::string json_of(const content::Assembly& assembly, const std::vector<Row>& r
 
 int run(const std::string& name, bool as_json) {
     const content::Loaded loaded = content::load_assembly(name);
-    if (!loaded.ok()) return complain(loaded.errors.front());
+    if (!loaded.ok()) return print_error(loaded.errors.front());
     const content::Assembly& assembly = loaded.assembly;
-    const servo::Setup setup = play::make_setup(assembly, assembly.law, {}, 1, 1e-3);
-    Result<std::optional<servo::Touch>> touch = play::load_touch(assembly, setup);
-    if (!touch) return complain(touch.error());
+    const servo::Setup setup = session::make_setup(assembly, assembly.law, {}, 1, 1e-3);
+    Result<std::optional<servo::ToolContact>> touch = session::load_tool_contact(assembly, setup);
+    if (!touch) return print_error(touch.error());
     if (!*touch)
-        return complain({ErrorCode::bad_content,
+        return print_error({ErrorCode::bad_content,
                          fmt::format("{} has no contact model, so nothing tells what hides what", name),
                          "\"contact\" under \"models\", and a wrench with a model"});
-    play::seat_nuts(setup, **touch);
+    session::seat_nuts(setup, **touch);
     std::vector<Row> rows;
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
-        Row row{assembly.joints[i].design.id, play::views_of_nut(assembly, **touch, i), {}};
-        row.best = play::best_view(row.views);
+        Row row{assembly.joints[i].design.id, session::views_of_nut(assembly, **touch, i), {}};
+        row.best = session::best_view(row.views);
         rows.push_back(std::move(row));
     }
-    const Status said = say(as_json ? json_of(assembly, rows) : table_of(assembly, rows));
-    return said ? 0 : complain(said.error());
+    const Status said = print(as_json ? json_of(assembly, rows) : table_of(assembly, rows));
+    return said ? 0 : print_error(said.error());
 }
 
 }  // namespace

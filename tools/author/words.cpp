@@ -20,7 +20,7 @@ std::vector<Error> missing_letters(const words::Loaded& loaded, const std::strin
     std::vector<Error> errors;
     for (std::size_t i = 0; i < words::key_count; ++i)
         for (const char32_t point : text::decode(loaded.words.texts[i])) {
-            if (text::find(fonts, point).glyph != 0) continue;
+            if (text::find_glyph(fonts, point).glyph != 0) continue;
             Error error;
             error.code = ErrorCode::bad_content;
             error.file = file;
@@ -38,18 +38,18 @@ int run_words(std::vector<std::string> files) {
         for (const std::string& language : words::languages(words::words_folder()))
             files.push_back((words::words_folder() / (language + ".json")).string());
     const Result<text::Fonts> fonts = text::load_fonts();
-    if (!fonts) return complain(fonts.error());
+    if (!fonts) return print_error(fonts.error());
     int worst = 0;
     for (const std::string& file : files) {
         const words::Loaded loaded = words::read_words(file);
         std::vector<Error> errors = loaded.errors;
         if (errors.empty()) errors = missing_letters(loaded, file, *fonts);
         if (!errors.empty()) {
-            worst = std::max(worst, complain(errors));
+            worst = std::max(worst, print_error(errors));
             continue;
         }
-        const Status said = say(fmt::format("{}: {}, {} texts\n", file, loaded.words.name, words::key_count));
-        if (!said) return complain(said.error());
+        const Status said = print(fmt::format("{}: {}, {} texts\n", file, loaded.words.name, words::key_count));
+        if (!said) return print_error(said.error());
     }
     return worst;
 }

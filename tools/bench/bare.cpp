@@ -10,7 +10,7 @@ namespace bolt::bench {
 
 namespace {
 
-using gpu::Use;
+using gpu::ResourceUse;
 
 struct Push {
     glm::mat4 clip_from_object;
@@ -39,21 +39,18 @@ Status take(T& to, Result<T> made) {
 Result<BareRenderer> BareRenderer::create(gpu::Device& device, VkExtent2D extent) {
     BareRenderer bare;
     bare.extent_ = extent;
-    if (Status s = take(bare.cache_, gpu::PipelineCache::open(device, {})); !s) return fail(s.error());
-    const Result<gpu::Shader> vertex = gpu::make_shader("bare.vert", bench_shaders("bare.vert"));
-    if (!vertex) return fail(vertex.error());
-    const Result<gpu::Shader> fragment = gpu::make_shader("bare.frag", bench_shaders("bare.frag"));
-    if (!fragment) return fail(fragment.error());
+    BOLT_TRY(take(bare.cache_, gpu::PipelineCache::open(device, {})));
+    BOLT_TRY_ASSIGN(const auto vertex, gpu::make_shader("bare.vert", bench_shaders("bare.vert")));
+    BOLT_TRY_ASSIGN(const auto fragment, gpu::make_shader("bare.frag", bench_shaders("bare.frag")));
     gpu::GraphicsInfo info;
-    info.vertex = &*vertex;
-    info.fragment = &*fragment;
+    info.vertex = &vertex;
+    info.fragment = &fragment;
     info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0}};
     info.strides = {sizeof(glm::vec3)};
     info.colors = {render::color_format};
     info.depth = render::depth_format;
     info.samples = VK_SAMPLE_COUNT_4_BIT;
-    if (Status s = take(bare.pipeline_, gpu::make_graphics_pipeline(device, bare.cache_, info)); !s)
-        return fail(s.error());
+    BOLT_TRY(take(bare.pipeline_, gpu::make_graphics_pipeline(device, bare.cache_, info)));
     Status s = take(bare.drawn_, make_target(device, extent, render::color_format, VK_SAMPLE_COUNT_4_BIT,
                                              VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT));
     if (s)
@@ -67,13 +64,13 @@ Result<BareRenderer> BareRenderer::create(gpu::Device& device, VkExtent2D extent
     return bare;
 }
 
-Status BareRenderer::render(gpu::Frame& frame, const render::Scene& scene, const render::Eye& eye) {
+Status BareRenderer::render(gpu::FrameContext& frame, const render::Scene& scene, const render::Eye& eye) {
     const VkCommandBuffer commands = frame.commands();
     frame.begin_timing("bare");
-    gpu::image_barrier_discarding(commands, drawn_.get(), Use::color_target, Use::color_target);
-    gpu::image_barrier_discarding(commands, depth_.get(), Use::depth_target, Use::depth_target,
+    gpu::image_barrier_discarding(commands, drawn_.get(), ResourceUse::color_target, ResourceUse::color_target);
+    gpu::image_barrier_discarding(commands, depth_.get(), ResourceUse::depth_target, ResourceUse::depth_target,
                                   {VK_IMAGE_ASPECT_DEPTH_BIT});
-    gpu::image_barrier_discarding(commands, picture_.get(), Use::transfer_from, Use::color_target);
+    gpu::image_barrier_discarding(commands, picture_.get(), ResourceUse::transfer_from, ResourceUse::color_target);
     VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     color.imageView = drawn_.view();
     color.imageLayout = color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
@@ -106,7 +103,7 @@ Status BareRenderer::render(gpu::Frame& frame, const render::Scene& scene, const
         vkCmdBindIndexBuffer(commands, object.model->indices.get(), 0, VK_INDEX_TYPE_UINT32);
         const render::MeshRange range = object.model->meshes[object.mesh];
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-            const render::Part& part = object.model->parts[i];
+            const render::MeshPart& part = object.model->parts[i];
             const render::LevelRange& all = part.levels.front();
             const Push push{eye.clip_from_world * object.world,
                             glm::vec4(glm::vec3(0.25F + 0.07F * static_cast<float>(i % 8)), 1.0F)};
@@ -116,7 +113,7 @@ Status BareRenderer::render(gpu::Frame& frame, const render::Scene& scene, const
         }
     }
     vkCmdEndRendering(commands);
-    gpu::image_barrier(commands, picture_.get(), Use::color_target, Use::transfer_from);
+    gpu::image_barrier(commands, picture_.get(), ResourceUse::color_target, ResourceUse::transfer_from);
     frame.end_timing();
     return {};
 }

@@ -1,5 +1,5 @@
-// The least that draws a scene's triangles: one colour an object, 4 samples a pixel, no light, no culling of
-// objects, no sorting. What a frame of the renderer costs beside this is what its light costs.
+// A minimal renderer of a scene's triangles: one colour per object, 4 samples per pixel, no light, no culling
+// of objects, no sorting. The rest of the renderer's time is the cost of its light.
 #pragma once
 
 #include "engine/gpu/pipeline.hpp"
@@ -11,7 +11,7 @@ class BareRenderer {
   public:
     static Result<BareRenderer> create(gpu::Device& device, VkExtent2D extent);
 
-    Status render(gpu::Frame& frame, const render::Scene& scene, const render::Eye& eye);
+    Status render(gpu::FrameContext& frame, const render::Scene& scene, const render::Eye& eye);
 
   private:
     VkExtent2D extent_{};

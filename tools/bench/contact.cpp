@@ -1,6 +1,6 @@
-// Proximity, tick by tick along one way of the wrench near and along the casing: a benchmark is the whole
-// way, what counts are the counters, in microseconds of this thread's own work, of three rounds each the
-// least. `touching_*`: of those that found contacts alone; `after_load`: the very first.
+// Contact queries, tick by tick along a path of the wrench near and on the casing. A benchmark iteration is
+// the whole path. The counters are microseconds of this thread's CPU time, the least of three rounds for each
+// tick. `touching_*`: only ticks with contacts; `after_load`: the first tick.
 
 #include <benchmark/benchmark.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <memory>
 
-#include "haptics/contact/proximity.hpp"
+#include "haptics/collision/narrow_phase.hpp"
 #include "tools/bench/contact_peers.hpp"
 #include "tools/bench/need.hpp"
 #include "tools/bench/sweep.hpp"
@@ -26,39 +26,39 @@ std::string content() {
 }
 
 constexpr double band = 0.6e-3;
-constexpr double longest_of_a_million = 8.5e-3;  // m: edges of the casing of about a million triangles
+constexpr double longest_of_a_million = 8.5e-3;  // m: the longest edge for about a million triangles
 
-constexpr double seconds = 24.0;  // of the way
-constexpr int rounds = 3;         // of which each tick's least time counts
+constexpr double seconds = 24.0;  // of the path
+constexpr int rounds = 3;         // the least time of each tick counts
 
-// Of casings: as shipped (about 60,000 triangles: both halves and the wheels) and refined (0, 1).
+// Arguments 0, 1: the casing as shipped (about 60,000 triangles) and refined.
 struct Ground {
-    std::array<std::vector<contact::ContactMesh>, 2> casings;
-    std::array<contact::World, 2> worlds;
-    std::vector<contact::ContactMesh> wrench;
-    contact::ToolShape tool;
+    std::array<std::vector<collision::ContactMesh>, 2> casings;
+    std::array<collision::World, 2> worlds;
+    std::vector<collision::ContactMesh> wrench;
+    collision::ToolShape tool;
     std::vector<Pose> sweep;
 
     static const Ground& get() {
         static const Ground ground;
         return ground;
     }
-    [[nodiscard]] contact::World world(std::size_t casing, double cell) const {
-        std::vector<contact::Obstacle> obstacles;
-        for (const contact::ContactMesh& part : casings[casing])
-            obstacles.push_back({static_cast<std::int32_t>(obstacles.size()), &part, {}, false});
-        return need(contact::make_world(obstacles, {cell}));
+    [[nodiscard]] collision::World world(std::size_t casing, double cell) const {
+        std::vector<collision::Obstacle> obstacles;
+        for (const collision::ContactMesh& part : casings[casing])
+            obstacles.push_back({collision::ObstacleId::fixed(obstacles.size()), &part, {}, false});
+        return need(collision::make_world(obstacles, {cell}));
     }
 
   private:
     Ground() {
         casings[0] = need(
             bench::load_contact(content() + "/assemblies/zq350/zq350.contact.glb", {"casing_", "wheel_"}));
-        for (const contact::ContactMesh& part : casings[0])
+        for (const collision::ContactMesh& part : casings[0])
             casings[1].push_back(bench::refined(part, longest_of_a_million));
-        for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i] = world(i, contact::WorldOptions{}.cell);
+        for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i] = world(i, collision::WorldOptions{}.cell);
         wrench = need(bench::load_contact(content() + "/tools/wrench-24.contact.glb"));
-        tool = need(contact::make_tool(wrench));
+        tool = need(collision::make_tool(wrench));
         sweep = bench::make_sweep(worlds[0], worlds[0].shapes[0].solid, tool, 0.1e-3, seconds);
     }
 };
@@ -85,7 +85,8 @@ class Ticks {
     std::vector<double> all_, touching_, first_;  // microseconds
 };
 
-// Every `every`-th pose. `make_step()`: who knows nothing yet; `step(pose)`: whether the tool touches.
+// Measures every `every`-th pose. `make_step()` returns a step without cached state; `step(pose)` returns
+// whether the tool touches.
 template <class MakeStep>
 void along(benchmark::State& state, std::size_t every, const MakeStep& make_step) {
     const std::vector<Pose>& sweep = Ground::get().sweep;
@@ -102,7 +103,7 @@ void along(benchmark::State& state, std::size_t every, const MakeStep& make_step
         }
         Ticks ticks;
         for (std::size_t i = 0; i < sweep.size(); i += every) {
-            // Between two places the tool is put down anew.
+            // Between two segments the tool is placed without a path.
             const bool follows = i > 0 && glm::length(sweep[i].position - sweep[i - 1].position) < 2e-3;
             ticks.add(least[i], touches[i], follows);
         }
@@ -113,17 +114,17 @@ void along(benchmark::State& state, std::size_t every, const MakeStep& make_step
 
 std::string triangles(std::size_t casing) {
     std::size_t count = 0;
-    for (const contact::ContactMesh& part : Ground::get().casings[casing]) count += part.triangles.size();
+    for (const collision::ContactMesh& part : Ground::get().casings[casing]) count += part.triangles.size();
     return std::to_string(count) + " triangles";
 }
 
-void proximity(benchmark::State& state, const contact::World& world, bool forgetful) {
+void proximity(benchmark::State& state, const collision::World& world, bool forgetful) {
     guarded(state, [&] {
-        const contact::ToolShape& tool = Ground::get().tool;
+        const collision::ToolShape& tool = Ground::get().tool;
         along(state, forgetful ? 50 : 1, [&] {
-            return [&, known = contact::make_proximity(world, tool)](const Pose& pose) mutable {
-                std::array<contact::Contact, 32> contacts;
-                if (forgetful) contact::forget(known, world, tool);
+            return [&, known = collision::make_narrow_phase(world, tool)](const Pose& pose) mutable {
+                std::array<collision::Contact, 32> contacts;
+                if (forgetful) collision::clear_cache(known, world, tool);
                 return find_contacts(world, tool, pose, band, known, contacts).count > 0;
             };
         });
@@ -132,21 +133,21 @@ void proximity(benchmark::State& state, const contact::World& world, bool forget
                        std::to_string(world.shapes[0].samples.samples.size()) + " on the casing");
     });
 }
-const contact::World& ground(const benchmark::State& state) {
+const collision::World& ground(const benchmark::State& state) {
     return Ground::get().worlds[static_cast<std::size_t>(state.range(0))];
 }
 void contact_proximity(benchmark::State& state) { proximity(state, ground(state), false); }
 BENCHMARK(contact_proximity)->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
 
-// Baselines of our own: nothing known from the tick before, and no vicinity.
+// Baselines of our own: nothing known from the tick before, and no octree.
 void contact_proximity_forgetful(benchmark::State& state) { proximity(state, ground(state), true); }
 BENCHMARK(contact_proximity_forgetful)->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
-void contact_proximity_without_vicinity(benchmark::State& state) {
+void contact_narrow_phase_without_octree(benchmark::State& state) {
     proximity(state, Ground::get().world(0, 0.0), false);
 }
-BENCHMARK(contact_proximity_without_vicinity)->Arg(0)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(contact_narrow_phase_without_octree)->Arg(0)->Iterations(1)->Unit(benchmark::kMillisecond);
 
-// Peers: whatever of them was there when this was built.
+// The peer libraries that were found at build time.
 void contact_peer(benchmark::State& state, bench::MakePeer make, std::size_t every) {
     guarded(state, [&] {
         const auto casing = static_cast<std::size_t>(state.range(0));

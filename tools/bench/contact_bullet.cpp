@@ -1,6 +1,6 @@
-// Bullet: the casing as a tree of triangles, the tool as convex hulls, for that is how Bullet takes moving
-// bodies. The hulls are of slices across the tool's longest side, so the jaw is filled: good for a time, not
-// for a contact.
+// Bullet: the casing as a triangle tree, the tool as convex hulls, because Bullet needs convex moving bodies.
+// Each hull holds a slice across the tool's longest side, so the jaw is filled: the time is comparable, the
+// contacts are not.
 #include <btBulletCollisionCommon.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Contacts : btCollisionWorld::ContactResultCallback {
 class Bullet final : public Peer {
   public:
     Bullet(Parts casing, Parts tool) {
-        for (const contact::ContactMesh& part : casing)
+        for (const collision::ContactMesh& part : casing)
             for (std::size_t t = 0; t < part.triangles.size(); ++t) {
                 const auto [a, b, c] = corners(part, t);
                 triangles_.addTriangle(at(a), at(b), at(c));
@@ -61,7 +61,7 @@ class Bullet final : public Peer {
         constexpr std::size_t slices = 24;
         Vec3 low(1e9);
         Vec3 high(-1e9);
-        for (const contact::ContactMesh& part : tool)
+        for (const collision::ContactMesh& part : tool)
             for (const glm::vec3& v : part.vertices) {
                 low = glm::min(low, Vec3(v));
                 high = glm::max(high, Vec3(v));
@@ -74,7 +74,7 @@ class Bullet final : public Peer {
             const double share = (p[axis] - low[axis]) / size[axis];
             return std::min(slices - 1, static_cast<std::size_t>(share * static_cast<double>(slices)));
         };
-        for (const contact::ContactMesh& part : tool)
+        for (const collision::ContactMesh& part : tool)
             for (std::size_t t = 0; t < part.triangles.size(); ++t) {
                 const auto face = corners(part, t);
                 const auto [first, last] = std::minmax({slice(face[0]), slice(face[1]), slice(face[2])});

@@ -13,7 +13,7 @@ using Model = fcl::BVHModel<fcl::OBBRSSd>;
 std::shared_ptr<Model> make_model(Parts parts) {
     auto model = std::make_shared<Model>();
     model->beginModel();
-    for (const contact::ContactMesh& part : parts)
+    for (const collision::ContactMesh& part : parts)
         for (std::size_t t = 0; t < part.triangles.size(); ++t) {
             const auto [a, b, c] = corners(part, t);
             const auto at = [](const Vec3& p) { return fcl::Vector3d(p.x, p.y, p.z); };

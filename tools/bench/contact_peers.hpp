@@ -1,4 +1,4 @@
-// Other collision libraries, asked the same: whether, and where, the wrench at a pose touches the casing.
+// Other collision libraries with the same query: whether and where the wrench at a pose touches the casing.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/pose.hpp"
-#include "haptics/contact/mesh.hpp"
+#include "haptics/collision/mesh.hpp"
 
 namespace bolt::bench {
 
@@ -20,7 +20,7 @@ class Peer {
     virtual bool touches(const Pose& tool) = 0;
 };
 
-using Parts = std::span<const contact::ContactMesh>;
+using Parts = std::span<const collision::ContactMesh>;
 using MakePeer = std::unique_ptr<Peer> (*)(Parts casing, Parts tool);
 
 std::unique_ptr<Peer> make_fcl(Parts casing, Parts tool);
@@ -29,10 +29,10 @@ std::unique_ptr<Peer> make_bullet(Parts casing, Parts tool);
 struct PeerEntry {
     std::string name;
     MakePeer make;
-    std::size_t every;  // of how many poses one is asked, for it takes long
+    std::size_t every;  // the library is queried for one of this many poses
 };
 
-// Those that were found when this was built.
+// The libraries that were found at build time.
 std::vector<PeerEntry> peers();
 
 }  // namespace bolt::bench

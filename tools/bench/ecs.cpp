@@ -1,5 +1,4 @@
-// The registry against the barest thing that does the same work: two plain arrays. The ratio is the price of
-// having entities.
+// The registry against two plain arrays that do the same work. The ratio is the cost of entities.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -58,14 +57,14 @@ void walk(benchmark::State& state, World& world) {
     state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-// Both pools in the same order, as they are when entities are made once and live long.
+// Both pools in the same order, as after creating long-lived entities once.
 void iterate_two_components(benchmark::State& state) {
     World world = populated(state.range(0));
     walk(state, world);
 }
 BENCHMARK(iterate_two_components)->Arg(million);
 
-// The pools in orders that have nothing to do with each other: the worst case of a sparse set.
+// The pools in unrelated orders: the worst case of a sparse set.
 void iterate_two_components_shuffled(benchmark::State& state) {
     World world = populated(state.range(0));
     std::vector<ecs::Entity> entities(world.pool<Pose>().entities().begin(),
@@ -78,7 +77,7 @@ void iterate_two_components_shuffled(benchmark::State& state) {
 }
 BENCHMARK(iterate_two_components_shuffled)->Arg(million);
 
-// The baseline of making: the same numbers pushed into two arrays, reserved neither here nor there.
+// The baseline of creation: the same numbers appended to two arrays; neither side reserves memory.
 void create_in_plain_arrays(benchmark::State& state) {
     for (auto _ : state) {
         std::vector<Pose> poses;

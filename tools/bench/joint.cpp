@@ -49,8 +49,7 @@ void group_tick(benchmark::State& state) {
 }
 BENCHMARK(group_tick)->Arg(1)->Arg(12)->Arg(100)->Arg(1000)->Complexity(benchmark::oN);
 
-// The baseline: the same closure solved by twenty Newton steps on the implicit equation, as one writes it
-// first.
+// The baseline: a direct solution of the same closure, twenty Newton steps on the implicit equation.
 void seat_by_newton(benchmark::State& state) {
     const SeatSpring seat{5.5e-9, 6.5e-6, 31.4};
     double x = 0.0;
@@ -76,7 +75,7 @@ void seat_closed_form(benchmark::State& state) {
 }
 BENCHMARK(seat_closed_form);
 
-// The dearest tick: a bolt that flows.
+// The most expensive tick: a bolt that yields.
 void yielding_tick(benchmark::State& state) {
     const JointDesign design = m16();
     const GroupParameters group = make_group({&design, 1}, nullptr, 1);
@@ -116,7 +115,7 @@ void servo_tick_12_joints(benchmark::State& state) {
     std::vector<JointDesign> designs(12, m16());
     for (std::size_t i = 0; i < 12; ++i) designs[i].seat = Vec3(0.06 * static_cast<double>(i), 0.0, 0.0);
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
-    servo::Description description;
+    servo::SetupDescription description;
     description.joints = designs;
     description.flange = &plate;
     description.jaw = 0.0242;

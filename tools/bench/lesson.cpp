@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "content/format/load.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/servo_setup.hpp"
-#include "game/play/train.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/trainees/train.hpp"
+#include "game/trainees/trainee.hpp"
 
 namespace {
 
@@ -20,12 +20,12 @@ void headless_lesson(benchmark::State& state) {
         return;
     }
     const auto file = std::filesystem::temp_directory_path() / "bolt-bench.boltwright";
-    play::TrainOptions options;
-    options.trainee = operators::find_profile("expert").value();
+    trainees::TrainOptions options;
+    options.trainee = trainees::find_profile("expert").value();
     double seconds = 0.0;
     for (auto _ : state) {
         const auto result =
-            play::train(loaded.assembly, options, file, [](const play::Progress&) { return true; });
+            trainees::train(loaded.assembly, options, file, [](const trainees::Progress&) { return true; });
         if (!result) {
             state.SkipWithError(result.error().message().c_str());
             break;
@@ -46,12 +46,12 @@ void headless_lesson_unrecorded(benchmark::State& state) {
         state.SkipWithError(loaded.errors.front().message().c_str());
         return;
     }
-    const servo::Setup setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, {}, 1, 1e-3);
+    const servo::Setup setup = session::make_setup(loaded.assembly, joint::Law::mechanistic, {}, 1, 1e-3);
     double seconds = 0.0;
     for (auto _ : state) {
         servo::State servo = servo::initial_state(setup);
         lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
-        operators::Operator trainee(operators::find_profile("expert").value(), 1, setup);
+        trainees::Operator trainee(trainees::find_profile("expert").value(), 1, setup);
         while (lesson.due() != nullptr && servo.tick < 7'200'000) {
             const servo::Input input = trainee.act(setup, servo, lesson);
             const servo::Output output = servo::tick(setup, servo, input);

@@ -1,14 +1,14 @@
-// What a lesson costs the frames of a picture, beside rendering: its servo's ticks, the lesson that watches
-// them and the session that keeps them. A simulated expert plays among obstacles; what counts are the
-// counters, in milliseconds of the thread's own work in a frame of 1/60 s.
+// The cost of a lesson per rendered frame: the servo ticks, the lesson that observes them and the session
+// that records them. A simulated expert works among obstacles. The counters are milliseconds of CPU time in a
+// frame of 1/60 s.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <filesystem>
 
 #include "content/format/load.hpp"
-#include "game/operators/operator.hpp"
-#include "game/play/course.hpp"
+#include "game/session/lesson_session.hpp"
+#include "game/trainees/trainee.hpp"
 #include "tools/bench/need.hpp"
 #include "tools/bench/tick_times.hpp"
 
@@ -20,18 +20,18 @@ using bench::need;
 
 constexpr double frame = 1.0 / 60.0, longest = 3600.0;  // s
 
-void lesson_frames(benchmark::State& state, const char* name, play::Obstacles obstacles) {
+void lesson_frames(benchmark::State& state, const char* name, session::Obstacles obstacles) {
     guarded(state, [&] {
         const content::Loaded loaded = content::load_assembly(name);
         if (!loaded.ok()) throw std::runtime_error(loaded.errors.front().message());
         const auto file = std::filesystem::temp_directory_path() / "bolt-bench-frames.boltwright";
-        play::CourseOptions options;
+        session::CourseOptions options;
         options.obstacles = obstacles;
         std::vector<double> frames, touching;
         for (auto _ : state) {
-            const auto begun = need(play::Course::begin(loaded.assembly, options, file));
-            play::Course& course = *begun;
-            operators::Operator expert(operators::find_profile("expert").value(), 1, course.setup());
+            const auto begun = need(session::Course::begin(loaded.assembly, options, file));
+            session::Course& course = *begun;
+            trainees::Operator expert(trainees::find_profile("expert").value(), 1, course.setup());
             double spent = 0.0;
             bool touches = false;
             for (double shown = 0.0; !course.over() && course.time() < longest;) {
@@ -39,7 +39,7 @@ void lesson_frames(benchmark::State& state, const char* name, play::Obstacles ob
                 const double start = bench::thread_microseconds();
                 const servo::Output output = need(course.step(input, expert.take_noticed()));
                 spent += 1e-3 * (bench::thread_microseconds() - start);
-                touches = touches || output.touched >= 0;
+                touches = touches || !output.touched.is_none();
                 if (course.time() < shown + frame) continue;
                 shown += frame;
                 frames.push_back(spent);
@@ -64,9 +64,9 @@ void lesson_frames(benchmark::State& state, const char* name, play::Obstacles ob
 #define LESSON_FRAMES(name, ...) \
     BENCHMARK_CAPTURE(lesson_frames, name, __VA_ARGS__)->Iterations(1)->Unit(benchmark::kMillisecond)
 
-LESSON_FRAMES(cover_m8, "cover-m8", play::Obstacles::required);
-LESSON_FRAMES(zq350, "zq350", play::Obstacles::required);
-// Baseline: where nothing can be bumped into.
-LESSON_FRAMES(zq350_without_obstacles, "zq350", play::Obstacles::none);
+LESSON_FRAMES(cover_m8, "cover-m8", session::Obstacles::required);
+LESSON_FRAMES(zq350, "zq350", session::Obstacles::required);
+// Baseline: without obstacles.
+LESSON_FRAMES(zq350_without_obstacles, "zq350", session::Obstacles::none);
 
 }  // namespace

@@ -1,6 +1,6 @@
-// A model of a million triangles, from its file to the GPU. Baseline: the file's bytes into memory, which is
-// the least that anybody must do; the two take turns, and `x_bytes` is the ratio. Peer: tinygltf by itself,
-// which leaves numbers in buffers as they stand in the file, unchecked.
+// Loads a model of a million triangles from its file to the GPU. Baseline: reading the file's bytes; the two
+// alternate, and `x_bytes` is the ratio. Peer: tinygltf alone, which leaves the numbers unchecked in the
+// file's buffers.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -36,7 +36,7 @@ assets::Model unshared(assets::Model model) {
     return model;
 }
 
-// The machine in a file, gone when the benchmark is.
+// The machine in a temporary file.
 struct File {
     std::filesystem::path path = std::filesystem::temp_directory_path() / "bolt-bench-million.glb";
     explicit File(bool shares) {
@@ -58,7 +58,7 @@ double read_bytes(const std::filesystem::path& path) {
     return milliseconds_since(start);
 }
 
-// Runs `load` in turns with the baseline.
+// Alternates `load` with the baseline.
 template <class Load>
 void load_file(benchmark::State& state, const Load& load, bool shares = true) {
     const File file(shares);

@@ -1,5 +1,5 @@
-// bolt-bench: what the parts cost, each beside a named baseline in the same run. Ratios carry over between
-// machines; nanoseconds do not. Nothing here is a test.
+// bolt-bench: measures each part beside a named baseline in the same run. Ratios are comparable between
+// machines, nanoseconds are not. No benchmark is a test.
 //   bolt-bench --machine FILE.glb    writes the machine that frames are measured with, for others to draw
 //   (peer/)
 
@@ -14,7 +14,7 @@
 int main(int argc, char** argv) {
     if (argc == 3 && std::string_view(argv[1]) == "--machine") {
         const bolt::Status written = bolt::assets::write_glb(argv[2], bolt::bench::make_machine());
-        return written ? 0 : bolt::complain(written.error());
+        return written ? 0 : bolt::print_error(written.error());
     }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

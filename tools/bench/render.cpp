@@ -1,5 +1,5 @@
-// What a frame costs, pass by pass, beside the least that draws the same triangles (bare.hpp). The two take
-// turns, so that what else the machine does slows both. `x_bare` is the ratio.
+// The cost of a frame, pass by pass, beside the minimal renderer of the same triangles (bare.hpp). The two
+// alternate, so that other load slows both. `x_bare` is the ratio.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using bench::need;
 
 constexpr VkExtent2D extent{1280, 720};
 
-// Everything between the machine and a frame. Made in this order, gone in the other.
+// All objects that a frame needs, destroyed in reverse order.
 struct Studio {
     gpu::Instance instance = need(gpu::Instance::create({}));
     std::unique_ptr<gpu::Device> device = need(gpu::Device::create(instance, {}));
@@ -38,7 +38,7 @@ struct Studio {
     }
 };
 
-// As `boltwright render` sets a scene up: studio light, one lamp with a shadow, ambient occlusion.
+// The scene of `boltwright render`: studio light, one lamp with a shadow, ambient occlusion.
 struct Subject {
     render::GpuModel gpu_model;
     render::EnvironmentLight light;
@@ -49,7 +49,7 @@ struct Subject {
             bool levels = false)
         : gpu_model(need(render::upload_model(device, model, {levels}))),
           light(need(render::upload_environment(device, shading::studio()))) {
-        render::place(scene, model, gpu_model);
+        render::add_model(scene, model, gpu_model);
         render::SceneLight key;
         key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
         key.light.color = {1.6F, 1.55F, 1.5F, 0.0F};
@@ -57,7 +57,7 @@ struct Subject {
         scene.lights.push_back(key);
         scene.environment = &light;
         scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
-        const render::Box box = render::bounds(scene);
+        const render::BoundingBox box = render::bounds(scene);
         scene.occlusion_radius = 0.04F * glm::distance(box.low, box.high);
         render::Perspective lens;
         lens.fov = 0.6108652F;  // 35°
@@ -84,16 +84,18 @@ void draw_frames(benchmark::State& state, const assets::Model& model, const glm:
     const auto timed = [&](const auto& record) {
         const double cpu = cpu_milliseconds();
         const Clock::time_point start = Clock::now();
-        gpu::Frame& frame = *need(studio.frames->begin());
+        gpu::FrameContext& frame = *need(studio.frames->begin());
         need(record(frame));
         need(studio.frames->submit(frame));
         need(studio.frames->finish());
         return Cost{milliseconds_since(start), cpu_milliseconds() - cpu};
     };
-    const auto full = [&](gpu::Frame& frame) {
+    const auto full = [&](gpu::FrameContext& frame) {
         return studio.renderer->render(frame, subject.scene, {&subject.eye, 1}, extent);
     };
-    const auto least = [&](gpu::Frame& frame) { return bare.render(frame, subject.scene, subject.eye); };
+    const auto least = [&](gpu::FrameContext& frame) {
+        return bare.render(frame, subject.scene, subject.eye);
+    };
     timed(full);  // compiles the shaders
     timed(least);
     Cost ours, floor;
@@ -108,7 +110,7 @@ void draw_frames(benchmark::State& state, const assets::Model& model, const glm:
         if (settings.shadow_moves) subject.scene.lights[0].light.direction.x += 1e-5F;
         all.push_back(add(ours, timed(full)));
         state.SetIterationTime(1e-3 * all.back());
-        for (const gpu::Timing& pass : studio.frames->timings()) passes[pass.name] += pass.milliseconds;
+        for (const gpu::PassTiming& pass : studio.frames->timings()) passes[pass.name] += pass.milliseconds;
     }
     const auto count = static_cast<double>(state.iterations());
     std::sort(all.begin(), all.end());
@@ -160,8 +162,7 @@ BENCHMARK_CAPTURE(frame_zq350, levels_within_a_pixel, Settings{false, true, 1.0F
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
-// From nothing to the first picture of the ZQ350, as a program that starts does it. The baseline is the same
-// picture once more.
+// From program start to the first picture of the ZQ350. The baseline is the second picture.
 void first_picture(benchmark::State& state) {
     guarded(state, [&] {
         const std::string file = model_of("zq350");

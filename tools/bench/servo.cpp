@@ -1,8 +1,7 @@
-// The whole tick: contact, nut and joint, guiding, coupling, output stage, of 12 joints on the ZQ350, over
-// ten minutes of a simulated arm in contact. What counts are the counters, in microseconds of the thread's
-// own work. p50 … max: of the ticks as they ran, once; own_*: of each tick the least of five runs, which is
-// its own work without what the machine did besides. step, step_torque: the greatest change in a millisecond,
-// of the device's greatest.
+// The whole tick (contact, nut and joint, guiding, coupling, output stage) of 12 joints on the ZQ350, over
+// ten minutes of a simulated arm in contact. The counters are microseconds of CPU time. p50 … max: of the
+// ticks of one run; own_*: of the least time of each tick in five runs, which excludes interruptions. step,
+// step_torque: the greatest change in a millisecond, as a share of the device's limit.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -27,7 +26,7 @@ struct Felt {
     explicit Felt(double dt) : millisecond_(static_cast<std::size_t>(std::lround(1e-3 / dt))) {}
 
     void add(const servo::Output& now) {
-        touching += now.touched >= 0 ? 1U : 0U;
+        touching += now.touched.is_none() ? 0U : 1U;
         engaged += now.joint >= 0 ? 1U : 0U;
         faults += now.fault != force::Fault::none ? 1U : 0U;
         force::OutputCommand& before = millisecond_[ticks % millisecond_.size()];
@@ -51,8 +50,8 @@ void servo_tick(benchmark::State& state, const bench::Device& device, double sec
             servo::Output last;
             for (int round = 0; round < rounds; ++round) {
                 bench::restart(servo);
-                std::optional<servo::Touch> apart;
-                if (!touches) apart = std::exchange(servo.state.touch, std::nullopt);
+                std::optional<servo::ToolContact> apart;
+                if (!touches) apart = std::exchange(servo.state.tool_contact, std::nullopt);
                 felt = Felt(device.dt);
                 servo::Output before;
                 for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -67,7 +66,7 @@ void servo_tick(benchmark::State& state, const bench::Device& device, double sec
                 if (round > 0 && (before.force != last.force || before.tool.position != last.tool.position))
                     throw std::runtime_error("the same inputs felt otherwise");
                 last = before;
-                if (!touches) servo.state.touch = std::move(apart);
+                if (!touches) servo.state.tool_contact = std::move(apart);
             }
             for (const auto& [name, share] : {std::pair("p50", 0.5), std::pair("p99", 0.99),
                                               std::pair("p99.9", 0.999), std::pair("max", 1.0)}) {
@@ -83,7 +82,7 @@ void servo_tick(benchmark::State& state, const bench::Device& device, double sec
             state.counters["step"] = felt.step / servo.setup.limits.force;
             if (servo.setup.limits.torque > 0.0)
                 state.counters["step_torque"] = felt.torque_step / servo.setup.limits.torque;
-            // The slowest by their own work.
+            // The slowest by CPU time.
             std::vector<std::size_t> order(inputs.size());
             for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
             std::partial_sort(order.begin(), order.begin() + 1, order.end(),
@@ -98,7 +97,7 @@ void servo_tick(benchmark::State& state, const bench::Device& device, double sec
     BENCHMARK_CAPTURE(servo_tick, name, __VA_ARGS__)->Iterations(1)->Unit(benchmark::kMillisecond)
 
 SERVO_TICK(at_1_kHz, bench::Device{}, 600.0, true);
-// Baseline: the same hand where nothing can be bumped into.
+// Baseline: the same hand without obstacles.
 SERVO_TICK(at_1_kHz_without_contact, bench::Device{}, 600.0, false);
 SERVO_TICK(at_4_kHz_encoder_27_um, (bench::Device{.dt = 0.25e-3, .encoder = 27e-6}), 120.0, true);
 SERVO_TICK(at_1_kHz_force_at_the_grip, (bench::Device{.renders_torque = false}), 120.0, true);

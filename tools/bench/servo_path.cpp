@@ -4,11 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/base/minimum_jerk.hpp"
 #include "content/format/load.hpp"
 #include "engine/base/random.hpp"
-#include "game/operators/arm.hpp"
-#include "game/play/servo_setup.hpp"
-#include "game/play/touch_models.hpp"
+#include "game/session/contact_models.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/trainees/arm.hpp"
 
 namespace bolt::bench {
 
@@ -17,7 +18,7 @@ namespace {
 constexpr double mm = 1e-3;
 constexpr double fastest = 0.5, fastest_turn = 3.0;  // m/s, rad/s: of a hand that holds a wrench
 
-// Where a hand means to go next, and how long it takes.
+// The next target of the hand, and the duration.
 struct Leg {
     Pose to;
     double seconds = 0.0;
@@ -37,10 +38,10 @@ class Hand {
   public:
     Hand(const Servo& servo, std::uint64_t seed)
         : servo_(servo),
-          touch_(*servo.state.touch),
-          seen_(contact::make_proximity(touch_.world, touch_.wrench)),
+          touch_(*servo.state.tool_contact),
+          seen_(collision::make_narrow_phase(touch_.world, touch_.wrench)),
           random_(seed) {
-        const contact::Solid& still = touch_.world.shapes[touch_.world.bodies[0].shape].solid;
+        const collision::Solid& still = touch_.world.shapes[touch_.world.bodies[0].shape].solid;
         middle_ = still.middle;
         high_ = still.box.high.y + 0.1;
         half_ = 0.5 * (still.box.high - still.box.low);
@@ -48,7 +49,7 @@ class Hand {
 
     [[nodiscard]] Pose begin() const { return {Vec3(middle_.x, high_, middle_.z), Quat(1, 0, 0, 0)}; }
 
-    // What comes next, from where it is now.
+    // The next segment from the present pose.
     std::vector<Leg> plan(const Pose& now) {
         const double what = random_.uniform();
         std::vector<Leg> legs;
@@ -58,7 +59,7 @@ class Hand {
             along_the_casing(legs);
         else
             through_a_row(legs);
-        // Over everything to where it begins.
+        // Over all obstacles to the start.
         std::vector<Leg> way;
         if (!legs.empty()) {
             const Pose& first = legs.front().to;
@@ -74,7 +75,7 @@ class Hand {
   private:
     void at_a_nut(std::vector<Leg>& legs) {
         const auto joint = static_cast<std::int16_t>(random_.bits() % servo_.setup.nuts.size());
-        const servo::NutPlace& nut = servo_.setup.nuts[static_cast<std::size_t>(joint)];
+        const servo::NutGeometry& nut = servo_.setup.nuts[static_cast<std::size_t>(joint)];
         const double angle = servo_.state.joints[static_cast<std::size_t>(joint)].nut.angle;
         const Vec3 home = servo::nut_centre(nut, angle);
         std::optional<Quat> fits;
@@ -102,10 +103,10 @@ class Hand {
 
     // Against the casing from outside, on along it while pressing, and off.
     void along_the_casing(std::vector<Leg>& legs) {
-        const contact::Solid& casing = touch_.world.shapes[touch_.world.bodies[0].shape].solid;
+        const collision::Solid& casing = touch_.world.shapes[touch_.world.bodies[0].shape].solid;
         for (int tries = 0; tries < 50; ++tries) {
             const std::size_t t = random_.bits() % casing.mesh.triangles.size();
-            const auto [a, b, c] = contact::corners(casing.mesh, t);
+            const auto [a, b, c] = collision::corners(casing.mesh, t);
             const Vec3 at = (a + b + c) / 3.0, out = glm::normalize(Vec3(casing.mesh.face_normals[t]));
             const Vec3 on_tool =
                 touch_.wrench.samples.samples[random_.bits() % touch_.wrench.samples.samples.size()].at;
@@ -126,7 +127,7 @@ class Hand {
 
     // From one side of the machine to the other at the height of its bolts.
     void through_a_row(std::vector<Leg>& legs) {
-        const servo::NutPlace& nut = servo_.setup.nuts[random_.bits() % servo_.setup.nuts.size()];
+        const servo::NutGeometry& nut = servo_.setup.nuts[random_.bits() % servo_.setup.nuts.size()];
         const Vec3 across = random_.chance(0.5) ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
         const double way = 0.12, height = random_.uniform(-10.0, 25.0) * mm;
         const Quat lies = glm::normalize(
@@ -141,13 +142,13 @@ class Hand {
     }
 
     bool free(const Pose& pose) {
-        std::array<contact::Contact, 1> any;
-        return contact::find_contacts(touch_.world, touch_.wrench, pose, 2 * mm, seen_, any).count == 0;
+        std::array<collision::Contact, 1> any;
+        return collision::find_contacts(touch_.world, touch_.wrench, pose, 2 * mm, seen_, any).count == 0;
     }
 
     const Servo& servo_;
-    const servo::Touch& touch_;
-    contact::ProximityState seen_;
+    const servo::ToolContact& touch_;
+    collision::NarrowPhaseState seen_;
     Random random_;
     Vec3 middle_{0.0}, half_{0.0};
     double high_ = 0.0;
@@ -173,33 +174,34 @@ Result<Servo> make_servo(const Device& device) {
     force::OutputLimits limits;
     if (!device.renders_torque) limits.torque = 0.0;
     Servo servo;
-    servo.setup = play::make_setup(loaded.assembly, joint::Law::mechanistic, limits, 1, device.dt);
-    Result<std::optional<servo::Touch>> touch = play::load_touch(loaded.assembly, servo.setup);
+    servo.setup = session::make_setup(loaded.assembly, joint::Law::mechanistic, limits, 1, device.dt);
+    Result<std::optional<servo::ToolContact>> touch =
+        session::load_tool_contact(loaded.assembly, servo.setup);
     if (!touch) return fail(touch.error());
     if (!touch->has_value()) return fail(ErrorCode::bad_content, "zq350 has nothing to bump into");
     servo.state = servo::initial_state(servo.setup);
-    servo.state.touch = std::move(*touch);
+    servo.state.tool_contact = std::move(*touch);
     return servo;
 }
 
 void restart(Servo& servo) {
-    servo::Touch touch = std::move(*servo.state.touch);
-    touch.proximity = contact::make_proximity(touch.world, touch.wrench);
+    servo::ToolContact touch = std::move(*servo.state.tool_contact);
+    touch.narrow_phase = collision::make_narrow_phase(touch.world, touch.wrench);
     touch.god_object = {};
-    touch.around = -1;
-    touch.last = {};
+    touch.seated_joint = -1;
+    touch.last_step = {};
     touch.in_hand = false;
-    touch.touched = -1;
+    touch.touched = {};
     servo.state = servo::initial_state(servo.setup);
-    servo.state.touch = std::move(touch);
+    servo.state.tool_contact = std::move(touch);
 }
 
 std::vector<servo::Input> make_path(Servo& servo, const Device& device, double seconds, std::uint64_t seed) {
     const double dt = servo.setup.dt;
     const auto ticks = static_cast<std::size_t>(seconds / dt);
-    // A hand that leans on it, not one that only reaches.
-    const operators::Impedance impedance{.force = 15.0, .torque = 1.5};
-    operators::Arm arm;
+    // A hand that leans on the tool.
+    const trainees::Impedance impedance{.force = 15.0, .torque = 1.5};
+    trainees::Arm arm;
     Hand hand(servo, seed);
     std::vector<servo::Input> inputs;
     inputs.reserve(ticks);
@@ -215,7 +217,7 @@ std::vector<servo::Input> make_path(Servo& servo, const Device& device, double s
             const int steps = std::max(1, static_cast<int>(std::max(leg.seconds, least) / dt));
             for (int i = 1; i <= steps && inputs.size() < ticks; ++i) {
                 const double t = static_cast<double>(i) / steps;
-                const double s = t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+                const double s = minimum_jerk(t);
                 meant = {glm::mix(from.position, leg.to.position, s),
                          glm::slerp(from.orientation, leg.to.orientation, s)};
                 servo::Input input;
@@ -223,7 +225,7 @@ std::vector<servo::Input> make_path(Servo& servo, const Device& device, double s
                 input.grip = servo::Grip::wrench;
                 input.guide = leg.guide;
                 input.device = sample_of(
-                    operators::follow(impedance, arm, meant, {felt.force, felt.torque}, felt.joint >= 0, dt),
+                    trainees::follow(impedance, arm, meant, {felt.force, felt.torque}, felt.joint >= 0, dt),
                     device.encoder);
                 inputs.push_back(input);
                 felt = servo::tick(servo.setup, servo.state, input);

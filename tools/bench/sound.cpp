@@ -5,9 +5,10 @@
 #include <cstdlib>
 
 #include "content/format/load.hpp"
-#include "game/play/servo_setup.hpp"
-#include "game/sound/ear.hpp"
+#include "game/session/servo_setup.hpp"
+#include "game/sound/event_detection.hpp"
 #include "game/sound/synth.hpp"
+#include "game/world/haptics.hpp"
 
 namespace {
 
@@ -25,12 +26,11 @@ void count(benchmark::State& state) {
 
 servo::Setup workplace() {
     const content::Loaded loaded = content::load_assembly("cover-m8");
-    return loaded.ok() ? play::make_setup(loaded.assembly, joint::Law::mechanistic, {}, 1, 1e-3)
+    return loaded.ok() ? session::make_setup(loaded.assembly, joint::Law::mechanistic, {}, 1, 1e-3)
                        : servo::Setup{};
 }
 
-// Everything at once, as it never is: a wrench that slides and knocks, a nut that runs and groans, every
-// chime.
+// The worst case: all sounds at once.
 void sound_all(benchmark::State& state) {
     sound::Synth synth = sound::make_synth(workplace(), rate);
     sound::Heard heard;
@@ -52,7 +52,7 @@ void sound_all(benchmark::State& state) {
 }
 BENCHMARK(sound_all)->Unit(benchmark::kMicrosecond);
 
-// Nothing to be heard, as mostly.
+// The usual case: silence.
 void sound_silence(benchmark::State& state) {
     sound::Synth synth = sound::make_synth(workplace(), rate);
     Piece samples{};
@@ -64,7 +64,7 @@ void sound_silence(benchmark::State& state) {
 }
 BENCHMARK(sound_silence)->Unit(benchmark::kMicrosecond);
 
-// What the picture's thread does for 20 ms of ticks.
+// The work of the frame's thread for 20 ms of ticks.
 void sound_ear(benchmark::State& state) {
     const servo::Setup setup = workplace();
     if (setup.nuts.empty()) {
@@ -72,14 +72,17 @@ void sound_ear(benchmark::State& state) {
         return;
     }
     sound::Ear ear;
+    world::World world;
+    world::add_haptics(world, servo::initial_state(setup));
     servo::Output output;
     output.joint = 0;
-    output.touched = 3;
+    output.touched = collision::ObstacleId::fixed(3);
     for (auto _ : state)
         for (int i = 0; i < 20; ++i) {
             output.tool.position.x += 1e-4;
             output.nut_angle += 1e-3;
-            benchmark::DoNotOptimize(sound::hear(ear, setup, output));
+            world::write_output(world, output);
+            benchmark::DoNotOptimize(sound::hear(ear, setup, world));
         }
     count(state);
 }

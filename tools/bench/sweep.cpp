@@ -6,15 +6,16 @@
 #include <map>
 #include <optional>
 
+#include "engine/base/minimum_jerk.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/topology.hpp"
 #include "engine/base/random.hpp"
-#include "haptics/contact/proximity.hpp"
+#include "haptics/collision/narrow_phase.hpp"
 
 namespace bolt::bench {
 namespace {
 
-using contact::ContactMesh;
+using collision::ContactMesh;
 
 Quat random_turn(Random& random) {
     return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
@@ -44,27 +45,25 @@ std::vector<double> area_sums(const ContactMesh& mesh) {
 
 Result<std::vector<ContactMesh>> load_contact(const std::filesystem::path& path,
                                               const std::vector<std::string>& prefixes) {
-    const Result<assets::Model> model = assets::read_gltf(path);
-    if (!model) return fail(model.error());
-    const std::vector<glm::mat4> world = assets::world_transforms(*model);
+    BOLT_TRY_ASSIGN(const auto model, assets::read_gltf(path));
+    const std::vector<glm::mat4> world = assets::world_transforms(model);
     std::vector<ContactMesh> parts;
-    for (std::size_t n = 0; n < model->nodes.size(); ++n) {
-        const assets::Node& node = model->nodes[n];
+    for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+        const assets::Node& node = model.nodes[n];
         const auto named = [&](const std::string& prefix) { return node.name.starts_with(prefix); };
         if (node.mesh < 0 || (!prefixes.empty() && std::none_of(prefixes.begin(), prefixes.end(), named)))
             continue;
         std::vector<glm::vec3> vertices;
         std::vector<std::uint32_t> indices;
         for (const assets::Primitive& primitive :
-             model->meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+             model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
             const auto first = static_cast<std::uint32_t>(vertices.size());
             for (const glm::vec3& v : primitive.positions)
                 vertices.emplace_back(glm::dmat4(world[n]) * glm::dvec4(v, 1.0));
             for (const std::uint32_t i : assets::triangle_indices(primitive)) indices.push_back(first + i);
         }
-        Result<ContactMesh> mesh = contact::make_contact_mesh(vertices, indices);
-        if (!mesh) return fail(mesh.error());
-        parts.push_back(std::move(*mesh));
+        BOLT_TRY_ASSIGN(auto mesh, collision::make_contact_mesh(vertices, indices));
+        parts.push_back(std::move(mesh));
     }
     return parts;
 }
@@ -128,24 +127,23 @@ ContactMesh refined(const ContactMesh& mesh, double longest) {
     }
     std::vector<std::uint32_t> indices;
     for (const auto& t : triangles) indices.insert(indices.end(), t.begin(), t.end());
-    return contact::make_contact_mesh(vertices, indices).value();
+    return collision::make_contact_mesh(vertices, indices).value();
 }
 
-std::vector<Pose> make_sweep(const contact::World& world, const contact::Solid& casing,
-                             const contact::ToolShape& tool, double deepest, double seconds) {
+std::vector<Pose> make_sweep(const collision::World& world, const collision::Solid& casing,
+                             const collision::ToolShape& tool, double deepest, double seconds) {
     Random random(7);
     const std::vector<double> casing_sums = area_sums(casing.mesh);
     const std::vector<double> tool_sums = area_sums(tool.solid.mesh);
-    contact::ProximityState state = contact::make_proximity(world, tool);
-    // Pushed out along the deepest contact, again and again, and let back slowly: nearly what a god-object
-    // does.
+    collision::NarrowPhaseState state = collision::make_narrow_phase(world, tool);
+    // Pushes out along the deepest contact repeatedly and returns slowly: nearly the motion of a god-object.
     Vec3 shift(0.0);
     const auto put = [&](Pose pose) -> std::optional<Pose> {
         shift *= 0.98;
         pose.position += shift;
         for (int i = 0; i < 60; ++i) {
-            std::array<contact::Contact, 32> contacts;
-            const contact::Found found = find_contacts(world, tool, pose, 1e-4, state, contacts);
+            std::array<collision::Contact, 32> contacts;
+            const collision::ContactQueryResult found = find_contacts(world, tool, pose, 1e-4, state, contacts);
             if (found.count == 0 || contacts[0].distance >= -deepest) return pose;
             const Vec3 out = (-contacts[0].distance - 0.5 * deepest) * contacts[0].normal;
             shift += out;
@@ -162,7 +160,7 @@ std::vector<Pose> make_sweep(const contact::World& world, const contact::Solid& 
         const int steps = 1 + static_cast<int>(1e3 * std::max(0.2, 1.875 * length / 0.3));
         for (int i = 0; i < steps; ++i) {
             const double t = static_cast<double>(i) / steps;
-            const double s = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
+            const double s = minimum_jerk(t);
             const std::optional<Pose> placed = put(
                 {glm::mix(from.position, to.position, s), glm::slerp(from.orientation, to.orientation, s)});
             if (!placed) return std::vector<Pose>{};

@@ -7,25 +7,24 @@
 
 #include "engine/base/pose.hpp"
 #include "engine/base/result.hpp"
-#include "haptics/contact/tool.hpp"
-#include "haptics/contact/world.hpp"
+#include "haptics/collision/world.hpp"
 
 namespace bolt::bench {
 
 // The meshes of a glTF file where their nodes are, one a node; of those nodes only whose name begins with one
 // of `prefixes`, if there are any.
-Result<std::vector<contact::ContactMesh>> load_contact(const std::filesystem::path& path,
-                                                       const std::vector<std::string>& prefixes = {});
+Result<std::vector<collision::ContactMesh>> load_contact(const std::filesystem::path& path,
+                                                         const std::vector<std::string>& prefixes = {});
 
 // Every edge longer than `longest` halved until there is none; new vertices lie on waves of 20 µm, so that
 // nothing stays flat.
-contact::ContactMesh refined(const contact::ContactMesh& mesh, double longest);
+collision::ContactMesh refined(const collision::ContactMesh& mesh, double longest);
 
 // A pose a millisecond: the tool comes to a place on the casing with a point of its own, goes 4 mm before it
 // to 8 mm behind it, moves on along it, and goes on to the next, turned anyhow; minimum jerk, no point of it
 // faster than 0.3 m/s. Where that leads into the casing it is pushed out again but for `deepest`, as a
 // god-object would.
-std::vector<Pose> make_sweep(const contact::World& world, const contact::Solid& casing,
-                             const contact::ToolShape& tool, double deepest, double seconds);
+std::vector<Pose> make_sweep(const collision::World& world, const collision::Solid& casing,
+                             const collision::ToolShape& tool, double deepest, double seconds);
 
 }  // namespace bolt::bench

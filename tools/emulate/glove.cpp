@@ -16,25 +16,25 @@ void add_value(std::vector<std::uint8_t>& out, char letter, std::size_t value) {
     out.insert(out.end(), {'?', static_cast<std::uint8_t>(letter), static_cast<std::uint8_t>(value), 0});
 }
 
-std::uint8_t raw_value(double angle, const glove::Line& line) {
+std::uint8_t raw_value(double angle, const hand::LinearFit& line) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(angle / line.gain + line.offset), 1L, 255L));
 }
 
 }  // namespace
 
-glove::BySensor<std::uint8_t> raw_in(glove::Posture posture) {
-    glove::BySensor<std::uint8_t> raw{};
+hand::PerSensor<std::uint8_t> raw_values(hand::Posture posture) {
+    hand::PerSensor<std::uint8_t> raw{};
     for (std::size_t i = 0; i < raw.size(); ++i) {
-        const double angle = glove::angle_in(posture, static_cast<glove::Sensor>(i)).value_or(0.0);
-        raw[i] = raw_value(angle, sensor_line);
+        const double angle = hand::posture_angle(posture, static_cast<hand::Sensor>(i)).value_or(0.0);
+        raw[i] = raw_value(angle, sensor_fit);
     }
     return raw;
 }
 
-glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::BySensor<glove::Line>& lines) {
-    using glove::Sensor;
-    glove::BySensor<double> angle{};
-    const auto set = [&](Sensor sensor, double value) { angle[glove::index(sensor)] = value; };
+hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::PerSensor<hand::LinearFit>& lines) {
+    using hand::Sensor;
+    hand::PerSensor<double> angle{};
+    const auto set = [&](Sensor sensor, double value) { angle[hand::index(sensor)] = value; };
     set(Sensor::thumb_roll, hand.thumb.roll);
     set(Sensor::thumb_abduction, hand.thumb.abduction);
     set(Sensor::thumb_mpj, hand.thumb.mcp);
@@ -42,23 +42,23 @@ glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::BySe
     constexpr std::array<Sensor, 4> first{Sensor::index_mpj, Sensor::middle_mpj, Sensor::ring_mpj,
                                           Sensor::little_mpj};
     for (std::size_t i = 0; i < first.size(); ++i) {
-        angle[glove::index(first[i])] = hand.fingers[i].mcp;
-        angle[glove::index(first[i]) + 1] = hand.fingers[i].pip;
-        angle[glove::index(first[i]) + 2] = hand.fingers[i].dip;
+        angle[hand::index(first[i])] = hand.fingers[i].mcp;
+        angle[hand::index(first[i]) + 1] = hand.fingers[i].pip;
+        angle[hand::index(first[i]) + 2] = hand.fingers[i].dip;
     }
     set(Sensor::palm_arch, hand.arch);
-    glove::BySensor<std::uint8_t> raw{};
+    hand::PerSensor<std::uint8_t> raw{};
     for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = raw_value(angle[i], lines[i]);
     return raw;
 }
 
-glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::Line& all) {
-    glove::BySensor<glove::Line> lines;
+hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::LinearFit& all) {
+    hand::PerSensor<hand::LinearFit> lines;
     lines.fill(all);
-    return raw_at(hand, lines);
+    return raw_values(hand, lines);
 }
 
-Glove::Glove(const GloveDesign& design)
+Glove::Glove(const GloveOptions& design)
     : design_(design),
       random_(design.seed, 0x610e),
       streaming_(design.streaming),
@@ -68,7 +68,7 @@ Glove::Glove(const GloveDesign& design)
     raw.fill(120);
 }
 
-std::vector<std::uint8_t> Glove::go_on(std::span<const std::uint8_t> received, double now) {
+std::vector<std::uint8_t> Glove::advance(std::span<const std::uint8_t> received, double now) {
     Bytes out;
     if (stalled) {
         next_ = now;
@@ -81,7 +81,7 @@ std::vector<std::uint8_t> Glove::go_on(std::span<const std::uint8_t> received, d
         ++sent_;
     }
     if (!streaming_) next_ = now;
-    return spoiled(out);
+    return with_faults(out);
 }
 
 void Glove::hear(std::uint8_t byte, Bytes& out) {
@@ -145,7 +145,7 @@ bool Glove::answer(Bytes& out) {
                     add_value(out, 'N', samples_);
                     return true;
                 case 'R':
-                    add_value(out, 'R', design_.hand == glove::Hand::right ? 1 : 0);
+                    add_value(out, 'R', design_.hand == hand::Side::right ? 1 : 0);
                     return true;
                 case 'G':
                     if (!modern) return unknown();
@@ -166,9 +166,9 @@ bool Glove::answer(Bytes& out) {
 
 void Glove::frame(std::uint8_t letter, Bytes& out) const {
     out.push_back(letter);
-    const auto sensors = glove::sensors_of(design_.sensors);
+    const auto sensors = hand::sensors_of(design_.sensors);
     for (std::size_t i = 0; i < std::min(samples_, sensors.size()); ++i) {
-        const std::uint8_t value = raw[glove::index(sensors[i])];
+        const std::uint8_t value = raw[hand::index(sensors[i])];
         out.push_back(std::max<std::uint8_t>(value, 1));
     }
     if (time_) out.insert(out.end(), {12, 0, 34, 0, 5});
@@ -177,8 +177,8 @@ void Glove::frame(std::uint8_t letter, Bytes& out) const {
     out.push_back(0);
 }
 
-std::vector<std::uint8_t> Glove::spoiled(const Bytes& bytes) {
-    const LineFaults& f = design_.faults;
+std::vector<std::uint8_t> Glove::with_faults(const Bytes& bytes) {
+    const ByteFaults& f = design_.faults;
     if (f.dropped + f.changed + f.added <= 0.0) return bytes;
     Bytes out;
     for (const std::uint8_t byte : bytes) {

@@ -5,47 +5,47 @@
 #include <vector>
 
 #include "engine/base/random.hpp"
-#include "haptics/glove/calibration.hpp"
-#include "haptics/glove/greeting.hpp"
 #include "haptics/hand/angles.hpp"
+#include "haptics/hand/glove_calibration.hpp"
+#include "haptics/hand/glove_handshake.hpp"
 
 namespace bolt::emulate {
 
 // Shares of the bytes sent that something happens to.
-struct LineFaults {
+struct ByteFaults {
     double dropped = 0.0, changed = 0.0, added = 0.0;
 };
 
-struct GloveDesign {
+struct GloveOptions {
     std::size_t sensors = 18;
-    glove::Hand hand = glove::Hand::right;
+    hand::Side hand = hand::Side::right;
     std::string version = "1.2";
     bool plugged = true;
     bool status = false, time = false;  // as it was left by who used it last
     bool streaming = false;             // the same
     bool old_firmware = false;          // answers only to what it must
-    LineFaults faults{};
+    ByteFaults faults{};
     std::uint64_t seed = 1;
 };
 
 // What its sensors give while the hand in it holds a posture: 50 counts flat, and 0.013 rad a count.
-glove::BySensor<std::uint8_t> raw_in(glove::Posture posture);
-constexpr glove::Line sensor_line{0.013, 50.0};
+hand::PerSensor<std::uint8_t> raw_values(hand::Posture posture);
+constexpr hand::LinearFit sensor_fit{0.013, 50.0};
 
 // What sensors give while the hand is bent like this: 1 … 255 each.
-glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::BySensor<glove::Line>& lines);
-glove::BySensor<std::uint8_t> raw_at(const hand::Angles& hand, const glove::Line& all = sensor_line);
+hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::PerSensor<hand::LinearFit>& lines);
+hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::LinearFit& all = sensor_fit);
 
 class Glove {
   public:
-    explicit Glove(const GloveDesign& design);
+    explicit Glove(const GloveOptions& design);
 
     // What the hand in it does; 1 … 255 each.
-    glove::BySensor<std::uint8_t> raw{};
+    hand::PerSensor<std::uint8_t> raw{};
     bool stalled = false;  // sends nothing and hears nothing
 
     // What came in since the last call, and the time now, s. What goes out.
-    std::vector<std::uint8_t> go_on(std::span<const std::uint8_t> received, double now);
+    std::vector<std::uint8_t> advance(std::span<const std::uint8_t> received, double now);
 
     [[nodiscard]] bool streaming() const { return streaming_; }
     [[nodiscard]] double rate() const { return rate_; }
@@ -56,9 +56,9 @@ class Glove {
     void hear(std::uint8_t byte, Bytes& out);
     bool answer(Bytes& out);
     void frame(std::uint8_t letter, Bytes& out) const;
-    [[nodiscard]] Bytes spoiled(const Bytes& bytes);
+    [[nodiscard]] Bytes with_faults(const Bytes& bytes);
 
-    GloveDesign design_;
+    GloveOptions design_;
     Random random_;
     Bytes heard_;
     bool streaming_, status_, time_;

@@ -2,7 +2,7 @@
 
 namespace bolt::emulate {
 
-std::vector<Bytes> spoiled(std::vector<Bytes> reports, const HidFaults& faults, Random& random) {
+std::vector<Bytes> with_faults(std::vector<Bytes> reports, const HidFaults& faults, Random& random) {
     for (Bytes& report : reports) {
         if (report.size() > 1 && random.chance(faults.cut))
             report.resize(1 + random.bits() % (report.size() - 1));

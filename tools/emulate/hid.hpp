@@ -13,7 +13,7 @@ namespace bolt::emulate {
 
 using Bytes = std::vector<std::uint8_t>;
 
-struct HidDesign {
+struct HidDescription {
     std::uint16_t vendor = 0, product = 0;
     std::string name, serial;
     Bytes descriptor;
@@ -34,15 +34,15 @@ class HidDevice {
     HidDevice& operator=(const HidDevice&) = delete;
     virtual ~HidDevice() = default;
 
-    [[nodiscard]] virtual const HidDesign& design() const = 0;
+    [[nodiscard]] virtual const HidDescription& design() const = 0;
     // Input reports since the last call, their ids in front. The time now, s; it only goes on.
-    virtual std::vector<Bytes> go_on(double now) = 0;
+    virtual std::vector<Bytes> advance(double now) = 0;
     virtual void output(std::span<const std::uint8_t> report) = 0;
     virtual void set_feature(std::span<const std::uint8_t> report) = 0;
     virtual Bytes get_feature(std::uint8_t report) = 0;  // with its id in front; empty: refused
 };
 
 // What becomes of reports on the way.
-std::vector<Bytes> spoiled(std::vector<Bytes> reports, const HidFaults& faults, Random& random);
+std::vector<Bytes> with_faults(std::vector<Bytes> reports, const HidFaults& faults, Random& random);
 
 }  // namespace bolt::emulate

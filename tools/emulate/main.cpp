@@ -12,10 +12,10 @@
 #include <thread>
 
 #include "engine/base/console.hpp"
-#include "game/cli/program.hpp"
-#include "haptics/hand/closing.hpp"
-#include "tools/emulate/glove_line.hpp"
-#include "tools/emulate/plugged.hpp"
+#include "engine/base/program.hpp"
+#include "haptics/hand/closed_hand.hpp"
+#include "tools/emulate/serial_glove.hpp"
+#include "tools/emulate/play_hid.hpp"
 
 using namespace bolt;
 
@@ -23,13 +23,13 @@ namespace {
 
 volatile std::sig_atomic_t ended = 0;
 
-// As glove::Posture has them, and a hand around a handle.
-constexpr std::array<const char*, glove::poses + 1> postures{"flat", "fist", "spread", "across", "grip"};
+// As hand::Posture has them, and a hand around a handle.
+constexpr std::array<const char*, hand::posture_count + 1> postures{"flat", "fist", "spread", "across", "grip"};
 constexpr double gripping = 0.9;  // hand::closing's share
 
-glove::BySensor<std::uint8_t> raw_in(std::size_t posture) {
-    return posture < glove::poses ? emulate::raw_in(static_cast<glove::Posture>(posture))
-                                  : emulate::raw_at(hand::closing(gripping));
+hand::PerSensor<std::uint8_t> raw_in(std::size_t posture) {
+    return posture < hand::posture_count ? emulate::raw_values(static_cast<hand::Posture>(posture))
+                                 : emulate::raw_values(hand::closed_hand_angles(gripping));
 }
 
 // Takes the postures that are named on the standard input, a line each, until it ends.
@@ -37,7 +37,7 @@ struct Asked {
     std::string line;
     bool over = false;
 
-    Status go_on(emulate::GloveLine& glove) {
+    Status advance(emulate::SerialGlove& glove) {
         pollfd wait{STDIN_FILENO, POLLIN, 0};
         if (over || poll(&wait, 1, 50) <= 0) return {};
         std::array<char, 256> heard{};
@@ -60,26 +60,26 @@ struct Asked {
     }
 };
 
-int play(const emulate::GloveDesign& design, double period, bool by_name, const std::string& link) {
-    Result<emulate::GloveLine> line = emulate::GloveLine::start(design, period);
-    if (!line) return complain(line.error());
+int play(const emulate::GloveOptions& design, double period, bool by_name, const std::string& link) {
+    Result<emulate::SerialGlove> line = emulate::SerialGlove::start(design, period);
+    if (!line) return print_error(line.error());
     std::error_code failed;
     if (!link.empty()) {
         std::filesystem::create_symlink(line->port(), link, failed);
         if (failed) {
             Error error;
             error.what = fmt::format("no link {}: {}", link, failed.message());
-            return complain(error);
+            return print_error(error);
         }
     }
-    Status said = say(fmt::format("{}\n", link.empty() ? line->port().string() : link));
+    Status said = print(fmt::format("{}\n", link.empty() ? line->port().string() : link));
     Asked asked{{}, !by_name};
     while (ended == 0 && said) {
         if (asked.over) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        said = asked.go_on(*line);
+        said = asked.advance(*line);
     }
     if (!link.empty()) std::filesystem::remove(link, failed);
-    return said ? 0 : complain(said.error());
+    return said ? 0 : print_error(said.error());
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ int play(const emulate::GloveDesign& design, double period, bool by_name, const 
 int main(int argc, char** argv) {
     CLI::App app("Plays devices that are not there, until it is ended.", "bolt-emulate");
     app.require_subcommand(1);
-    emulate::GloveDesign design;
+    emulate::GloveOptions design;
     bool left = false, by_name = false;
     double period = 4.0;
     std::string link;
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
     const auto plugged = [&](const char* name, const char* help, const auto& play_it) {
         app.add_subcommand(name, help)->callback([&exit_code, play_it] {
             const Status played = play_it([] { return ended != 0; });
-            if (!played) exit_code = complain(played.error());
+            if (!played) exit_code = print_error(played.error());
         });
     };
     plugged("puck", "A SpaceMouse, plugged into the kernel (root, module uhid)", emulate::play_puck);
@@ -120,8 +120,8 @@ int main(int argc, char** argv) {
     plugged("wheel", "Another wheel with force feedback, plugged into the kernel",
             [](const auto& over) { return emulate::play_wheel(false, over); });
     worn->callback([&] {
-        design.hand = left ? glove::Hand::left : glove::Hand::right;
+        design.hand = left ? hand::Side::left : hand::Side::right;
         exit_code = play(design, by_name ? 0.0 : period, by_name, link);
     });
-    return cli::run_program(app, argc, argv, exit_code);
+    return run_command_line(app, argc, argv, exit_code);
 }

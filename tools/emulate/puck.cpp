@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/emulate/hid_items.hpp"
+#include "tools/emulate/descriptor_writer.hpp"
 
 namespace bolt::emulate {
 
@@ -28,14 +28,14 @@ Bytes descriptor(bool in_one) {
 
 }  // namespace
 
-Puck::Puck(const PuckDesign& design)
+Puck::Puck(const PuckOptions& design)
     : in_one_(design.in_one), faults_(design.faults), random_(design.faults.seed) {
     design_ = in_one_
-                  ? HidDesign{0x256f, 0xc62e, "Emulated SpaceMouse", design.serial, descriptor(true)}
-                  : HidDesign{0x046d, 0xc626, "Emulated SpaceNavigator", design.serial, descriptor(false)};
+                  ? HidDescription{0x256f, 0xc62e, "Emulated SpaceMouse", design.serial, descriptor(true)}
+                  : HidDescription{0x046d, 0xc626, "Emulated SpaceNavigator", design.serial, descriptor(false)};
 }
 
-std::vector<Bytes> Puck::go_on(double now) {
+std::vector<Bytes> Puck::advance(double now) {
     std::vector<Bytes> out;
     for (; next_ <= now; next_ += period) {
         if (next_ < now - 1.0) next_ = now - 1.0;  // it was not asked for long: nobody wants all of it
@@ -59,7 +59,7 @@ std::vector<Bytes> Puck::go_on(double now) {
         if (buttons != told_buttons_) out.push_back({3, static_cast<std::uint8_t>(buttons & 3U), 0});
         told_buttons_ = buttons;
     }
-    return spoiled(std::move(out), faults_, random_);
+    return with_faults(std::move(out), faults_, random_);
 }
 
 }  // namespace bolt::emulate

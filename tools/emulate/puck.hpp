@@ -8,7 +8,7 @@
 
 namespace bolt::emulate {
 
-struct PuckDesign {
+struct PuckOptions {
     bool in_one = true;  // all axes in one report (256f:c62e), or pushes and turns in two (046d:c626)
     std::string serial{};
     HidFaults faults{};
@@ -16,21 +16,21 @@ struct PuckDesign {
 
 class Puck : public HidDevice {
   public:
-    explicit Puck(const PuckDesign& design = {});
+    explicit Puck(const PuckOptions& design = {});
 
     // What the hand does: −1 … 1 each, in 3Dconnexion's frame (x right, y towards the user, z down).
     std::array<double, 6> share{};
     std::uint32_t buttons = 0;
     bool stalled = false;  // sends nothing
 
-    [[nodiscard]] const HidDesign& design() const override { return design_; }
-    std::vector<Bytes> go_on(double now) override;
+    [[nodiscard]] const HidDescription& design() const override { return design_; }
+    std::vector<Bytes> advance(double now) override;
     void output(std::span<const std::uint8_t>) override {}
     void set_feature(std::span<const std::uint8_t>) override {}
     Bytes get_feature(std::uint8_t) override { return {}; }
 
   private:
-    HidDesign design_;
+    HidDescription design_;
     bool in_one_;
     HidFaults faults_;
     Random random_;

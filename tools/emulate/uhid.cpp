@@ -14,7 +14,7 @@
 #include <mutex>
 #include <thread>
 
-#include "haptics/device/hid_line.hpp"
+#include "haptics/device/hid_transport.hpp"
 
 namespace bolt::emulate {
 
@@ -54,7 +54,7 @@ struct Uhid::Shared {
                 hear(event);
                 event = {};
             }
-            for (const Bytes& report : device->go_on(device::steady_seconds())) {
+            for (const Bytes& report : device->advance(device::steady_seconds())) {
                 uhid_event in{};
                 in.type = UHID_INPUT2;
                 in.u.input2.size = static_cast<std::uint16_t>(report.size());
@@ -113,7 +113,7 @@ Result<Uhid> Uhid::plug_in(std::unique_ptr<HidDevice> device) {
     if (shared->file < 0)
         return fail(ErrorCode::no_device, fmt::format("cannot open /dev/uhid: {}", std::strerror(errno)),
                     "root, and the kernel's module uhid");
-    const HidDesign& design = shared->device->design();
+    const HidDescription& design = shared->device->design();
     uhid_event create{};
     create.type = UHID_CREATE2;
     auto& c = create.u.create2;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/math.hpp"
-#include "tools/emulate/wheel_reports.hpp"
+#include "tools/emulate/wheel_descriptors.hpp"
 
 namespace bolt::emulate {
 
@@ -21,10 +21,10 @@ unsigned word(std::span<const std::uint8_t> report, std::size_t at) {
 
 }  // namespace
 
-Wheel::Wheel(const WheelDesign& design) : design_(design), random_(design.faults.seed) {
+Wheel::Wheel(const WheelOptions& design) : design_(design), random_(design.faults.seed) {
     shown_ = design.board
-                 ? HidDesign{0x1209, 0xffb0, "Emulated OpenFFBoard", design.serial, board_descriptor()}
-                 : HidDesign{0x1234, 0x5678, "Emulated wheel", design.serial, other_wheel_descriptor()};
+                 ? HidDescription{0x1209, 0xffb0, "Emulated OpenFFBoard", design.serial, board_descriptor()}
+                 : HidDescription{0x1234, 0x5678, "Emulated wheel", design.serial, other_wheel_descriptor()};
     if (!design.board) design_.power = 1.0;
 }
 
@@ -37,7 +37,7 @@ double Wheel::torque() const {
     return -magnitude_ * effect_gain_ * gain_ * design_.power * design_.full_torque;
 }
 
-std::vector<Bytes> Wheel::go_on(double now) {
+std::vector<Bytes> Wheel::advance(double now) {
     std::vector<Bytes> out;
     if (now - time_ > 1.0) time_ = next_ = now - 1.0;
     for (; time_ + step <= now; time_ += step) {
@@ -59,7 +59,7 @@ std::vector<Bytes> Wheel::go_on(double now) {
             answers_.erase(answers_.begin());
         }
     }
-    return spoiled(std::move(out), design_.faults, random_);
+    return with_faults(std::move(out), design_.faults, random_);
 }
 
 Bytes Wheel::axis_report() const {

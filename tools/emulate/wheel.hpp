@@ -8,7 +8,7 @@
 
 namespace bolt::emulate {
 
-struct WheelDesign {
+struct WheelOptions {
     bool board = true;  // an OpenFFBoard. Else: another's numbers, no start delay, controls as a list, no
                         // places of effects, an axis without a sign
     std::string serial{};
@@ -26,7 +26,7 @@ struct WheelDesign {
 
 class Wheel : public HidDevice {
   public:
-    explicit Wheel(const WheelDesign& design = {});
+    explicit Wheel(const WheelOptions& design = {});
 
     // The hand: a spring to an angle. rad, to the right; N·m/rad.
     double hand = 0.0, hand_stiffness = 0.0;
@@ -36,10 +36,10 @@ class Wheel : public HidDevice {
     [[nodiscard]] double angle() const { return angle_; }  // rad, to the right
     [[nodiscard]] double torque() const;                   // N·m of the motor, to the right
     [[nodiscard]] bool has_effect() const { return loaded_; }
-    [[nodiscard]] std::uint64_t heard() const { return heard_; }  // reports
+    [[nodiscard]] std::uint64_t reports_received() const { return heard_; }  // reports
 
-    [[nodiscard]] const HidDesign& design() const override { return shown_; }
-    std::vector<Bytes> go_on(double now) override;
+    [[nodiscard]] const HidDescription& design() const override { return shown_; }
+    std::vector<Bytes> advance(double now) override;
     void output(std::span<const std::uint8_t> report) override;
     void set_feature(std::span<const std::uint8_t> report) override;
     Bytes get_feature(std::uint8_t report) override;
@@ -49,8 +49,8 @@ class Wheel : public HidDevice {
     void answer(std::span<const std::uint8_t> question);
     [[nodiscard]] Bytes axis_report() const;
 
-    WheelDesign design_;
-    HidDesign shown_;
+    WheelOptions design_;
+    HidDescription shown_;
     Random random_;
     double angle_ = 0.0, speed_ = 0.0, time_ = 0.0, next_ = 0.0, told_at_ = -1.0, started_ = 0.0;
     bool springs_ = true, enabled_ = false, loaded_ = false, set_ = false, playing_ = false;

@@ -23,7 +23,7 @@ std::size_t component_size(int component) {
         case TINYGLTF_COMPONENT_TYPE_FLOAT:
             return 4;
         default:
-            return 0;  // none that a file may use
+            return 0;  // not allowed in a file
     }
 }
 
@@ -31,7 +31,7 @@ std::size_t component_count(int type) {
     return static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
 }
 
-// Columns of matrices start on multiples of four bytes (section 3.6.2.4).
+// Matrix columns start at multiples of four bytes (section 3.6.2.4).
 std::size_t element_size(const Accessor& accessor) {
     const std::size_t size = component_size(accessor.componentType);
     const auto padded = [&](std::size_t rows) { return rows * ((rows * size + 3U) & ~std::size_t{3U}); };
@@ -40,9 +40,9 @@ std::size_t element_size(const Accessor& accessor) {
     return size * component_count(accessor.type);
 }
 
-std::string place(std::size_t accessor) { return "/accessors/" + std::to_string(accessor); }
+std::string accessor_pointer(std::size_t accessor) { return "/accessors/" + std::to_string(accessor); }
 
-// Where `count` elements of `size` bytes begin, `stride` bytes apart.
+// The location of `count` elements of `size` bytes, `stride` bytes apart.
 struct Range {
     const std::uint8_t* first = nullptr;
     std::size_t stride = 0;
@@ -54,7 +54,7 @@ Range range(const Document& document, int view_index, std::size_t offset, std::s
     return {buffer.data() + view.byteOffset + offset, view.byteStride > 0 ? view.byteStride : size};
 }
 
-// Whether elements lie within a view; in 64 bits, where no product of three ints overflows.
+// Checks that the elements lie within a view, in 64 bits, so that products of three ints cannot overflow.
 bool fits(const Document& document, int view_index, std::size_t offset, std::size_t size, std::size_t count) {
     const tinygltf::BufferView& view = document.gltf.bufferViews[static_cast<std::size_t>(view_index)];
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : size;
@@ -69,18 +69,18 @@ Status check_sparse(const Document& document, const Accessor& accessor, const st
                        sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                        sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     if (!whole)
-        return bad(document, pointer + "/sparse/indices/componentType",
-                   std::to_string(sparse.indices.componentType) + " is no type of indices",
-                   "5121, 5123 or 5125");
+        return error_at(document, pointer + "/sparse/indices/componentType",
+                        std::to_string(sparse.indices.componentType) + " is no type of indices",
+                        "5121, 5123 or 5125");
     if (count > accessor.count)
-        return bad(document, pointer + "/sparse/count", "is larger than the accessor's count",
-                   "at most " + std::to_string(accessor.count));
+        return error_at(document, pointer + "/sparse/count", "is larger than the accessor's count",
+                        "at most " + std::to_string(accessor.count));
     if (!fits(document, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
               index_size, count))
-        return bad(document, pointer + "/sparse/indices", "reaches past the end of its buffer view");
+        return error_at(document, pointer + "/sparse/indices", "reaches past the end of its buffer view");
     if (!fits(document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
               element_size(accessor), count))
-        return bad(document, pointer + "/sparse/values", "reaches past the end of its buffer view");
+        return error_at(document, pointer + "/sparse/values", "reaches past the end of its buffer view");
     return {};
 }
 
@@ -91,7 +91,7 @@ T load(const std::uint8_t* bytes) {
     return value;
 }
 
-// A component as a float (section 3.6.2.2 for normalised integers).
+// Converts a component to float (section 3.6.2.2 for normalised integers).
 float as_float(const std::uint8_t* bytes, int component, bool normalized) {
     const auto scaled = [normalized](auto value, float range) {
         const auto number = static_cast<float>(value);
@@ -124,7 +124,8 @@ std::uint32_t as_integer(const std::uint8_t* bytes, int component) {
     }
 }
 
-// Unpacks `count` elements with `convert(bytes of a component)`; `put(element)` is where the i-th goes.
+// Unpacks `count` elements. `convert(bytes)` decodes a component; `put(i)` returns the destination of element
+// i.
 template <class T, class Convert, class Put>
 void unpack_elements(const Range& from, std::size_t count, std::size_t components, std::size_t size,
                      Convert convert, Put put) {
@@ -142,7 +143,8 @@ Result<std::vector<T>> unpack(Document& document, std::size_t index, Convert con
     const std::size_t size = component_size(accessor.componentType);
     const std::size_t bytes = accessor.count * components * sizeof(T);
     if (bytes > document.budget)
-        return bad(document, place(index) + "/count", "asks for more memory than a file of this size may");
+        return error_at(document, accessor_pointer(index) + "/count",
+                        "needs more memory than a file of this size may use");
     document.budget -= bytes;
     std::vector<T> values(accessor.count * components);
     if (accessor.bufferView >= 0) {
@@ -166,9 +168,9 @@ Result<std::vector<T>> unpack(Document& document, std::size_t index, Convert con
     for (std::size_t i = 0; i < count; ++i) {
         targets[i] = as_integer(indices.first + i * indices.stride, sparse.indices.componentType);
         if (targets[i] >= accessor.count || (i > 0 && targets[i] <= targets[i - 1]))
-            return bad(document, place(index) + "/sparse/indices",
-                       fmt::format("has {} as its index {}", targets[i], i),
-                       "rising indices below the accessor's count");
+            return error_at(document, accessor_pointer(index) + "/sparse/indices",
+                            fmt::format("has {} as its index {}", targets[i], i),
+                            "rising indices below the accessor's count");
     }
     const Range from = range(document, sparse.values.bufferView,
                              static_cast<std::size_t>(sparse.values.byteOffset), element_size(accessor));
@@ -177,11 +179,11 @@ Result<std::vector<T>> unpack(Document& document, std::size_t index, Convert con
     return values;
 }
 
-bool admits(Numbers numbers, const Accessor& accessor) {
+bool admits(NumberFormats numbers, const Accessor& accessor) {
     if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return true;
     const bool small = accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (numbers == Numbers::unit) return small && accessor.normalized;
-    return numbers == Numbers::quantized && small;
+    if (numbers == NumberFormats::unit) return small && accessor.normalized;
+    return numbers == NumberFormats::quantized && small;
 }
 
 Status check_type(const Document& document, const Accessor& accessor, int type, const std::string& pointer) {
@@ -189,7 +191,7 @@ Status check_type(const Document& document, const Accessor& accessor, int type, 
     if (accessor.type == type) return {};
     std::string expected = type == TINYGLTF_TYPE_SCALAR ? "SCALAR" : "MAT4";
     if (type >= 2 && type <= 4) expected = names[type];
-    return bad(document, pointer, "names an accessor of another type", expected);
+    return error_at(document, pointer, "names an accessor of another type", expected);
 }
 
 }  // namespace
@@ -200,13 +202,13 @@ Status check_views(const Document& document) {
     for (std::size_t i = 0; i < views->size(); ++i) {
         const nlohmann::json& view = (*views)[i];
         if (view.value("byteStride", 0) % 4 != 0)
-            return bad(document, fmt::format("/bufferViews/{}/byteStride", i), "is no multiple of 4");
+            return error_at(document, fmt::format("/bufferViews/{}/byteStride", i), "is no multiple of 4");
         const std::size_t end =
             view.value("byteOffset", std::size_t{0}) + view["byteLength"].get<std::size_t>();
         const std::size_t length = document.buffers[view["buffer"].get<std::size_t>()].size();
         if (end > length)
-            return bad(document, fmt::format("/bufferViews/{}", i), fmt::format("ends at byte {}", end),
-                       fmt::format("an end within the {} bytes of its buffer", length));
+            return error_at(document, fmt::format("/bufferViews/{}", i), fmt::format("ends at byte {}", end),
+                            fmt::format("an end within the {} bytes of its buffer", length));
     }
     return {};
 }
@@ -215,58 +217,59 @@ Status check_accessors(const Document& document) {
     for (std::size_t i = 0; i < document.gltf.accessors.size(); ++i) {
         const Accessor& accessor = document.gltf.accessors[i];
         if (component_size(accessor.componentType) == 0)
-            return bad(document, place(i) + "/componentType",
-                       std::to_string(accessor.componentType) + " is no component type",
-                       "5120, 5121, 5122, 5123, 5125 or 5126");
+            return error_at(document, accessor_pointer(i) + "/componentType",
+                            std::to_string(accessor.componentType) + " is no component type",
+                            "5120, 5121, 5122, 5123, 5125 or 5126");
         const std::size_t size = element_size(accessor);
         if (accessor.bufferView >= 0) {
             const auto& view = document.gltf.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
             if (view.byteStride > 0 && view.byteStride < size)
-                return bad(document, fmt::format("/bufferViews/{}/byteStride", accessor.bufferView),
-                           fmt::format("is less than the {} bytes of an element of accessor {}", size, i));
+                return error_at(
+                    document, fmt::format("/bufferViews/{}/byteStride", accessor.bufferView),
+                    fmt::format("is less than the {} bytes of an element of accessor {}", size, i));
             if (!fits(document, accessor.bufferView, accessor.byteOffset, size, accessor.count))
-                return bad(document, place(i), "reaches past the end of its buffer view");
+                return error_at(document, accessor_pointer(i), "reaches past the end of its buffer view");
         }
         if (!accessor.sparse.isSparse) continue;
-        if (Status sound = check_sparse(document, accessor, place(i)); !sound) return sound;
+        BOLT_TRY(check_sparse(document, accessor, accessor_pointer(i)));
     }
     return {};
 }
 
-Result<std::vector<float>> unpack_floats(Document& document, int index, int type, Numbers numbers,
+Result<std::vector<float>> unpack_floats(Document& document, int index, int type, NumberFormats numbers,
                                          const std::string& pointer) {
-    const auto place_of = static_cast<std::size_t>(index);
-    const Accessor& accessor = document.gltf.accessors[place_of];
-    if (Status sound = check_type(document, accessor, type, pointer); !sound) return fail(sound.error());
+    const auto accessor_index = static_cast<std::size_t>(index);
+    const Accessor& accessor = document.gltf.accessors[accessor_index];
+    BOLT_TRY(check_type(document, accessor, type, pointer));
     if (!admits(numbers, accessor))
-        return bad(document, pointer,
-                   fmt::format("names an accessor of component type {}{}, which cannot stand here",
-                               accessor.componentType, accessor.normalized ? " (normalised)" : ""),
-                   numbers == Numbers::real ? "5126 (float)" : "5126 (float) or normalised integers");
-    auto values = unpack<float>(document, place_of, [&](const std::uint8_t* bytes) {
-        return as_float(bytes, accessor.componentType, accessor.normalized);
-    });
-    if (!values) return values;
-    for (std::size_t i = 0; i < values->size(); ++i)
-        if (!std::isfinite((*values)[i]))
-            return bad(document, place(place_of),
-                       fmt::format("component {} of element {} is not finite", i % component_count(type),
-                                   i / component_count(type)));
+        return error_at(
+            document, pointer,
+            fmt::format("names an accessor of component type {}{}, which cannot stand here",
+                        accessor.componentType, accessor.normalized ? " (normalised)" : ""),
+            numbers == NumberFormats::real ? "5126 (float)" : "5126 (float) or normalised integers");
+    BOLT_TRY_ASSIGN(auto values, unpack<float>(document, accessor_index, [&](const std::uint8_t* bytes) {
+                        return as_float(bytes, accessor.componentType, accessor.normalized);
+                    }));
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isfinite(values[i]))
+            return error_at(document, accessor_pointer(accessor_index),
+                            fmt::format("component {} of element {} is not finite", i % component_count(type),
+                                        i / component_count(type)));
     return values;
 }
 
 Result<std::vector<std::uint32_t>> unpack_integers(Document& document, int index, int type,
                                                    const std::string& pointer) {
-    const auto place_of = static_cast<std::size_t>(index);
-    const Accessor& accessor = document.gltf.accessors[place_of];
-    if (Status sound = check_type(document, accessor, type, pointer); !sound) return fail(sound.error());
+    const auto accessor_index = static_cast<std::size_t>(index);
+    const Accessor& accessor = document.gltf.accessors[accessor_index];
+    BOLT_TRY(check_type(document, accessor, type, pointer));
     const bool whole = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                        accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                        accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     if (!whole || accessor.normalized)
-        return bad(document, pointer, "names an accessor of numbers that are no indices",
-                   "5121, 5123 or 5125, not normalised");
-    return unpack<std::uint32_t>(document, place_of, [&](const std::uint8_t* bytes) {
+        return error_at(document, pointer, "names an accessor of numbers that are no indices",
+                        "5121, 5123 or 5125, not normalised");
+    return unpack<std::uint32_t>(document, accessor_index, [&](const std::uint8_t* bytes) {
         return as_integer(bytes, accessor.componentType);
     });
 }

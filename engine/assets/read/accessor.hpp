@@ -1,5 +1,5 @@
-// Accessors unpacked: any component type, stride and offset, normalised or not, sparse or not, into floats or
-// unsigned integers. Every byte that is read was checked to be there.
+// Unpacks accessors of any component type, stride and offset, normalised or sparse, into floats or unsigned
+// integers. Every byte is bounds-checked before it is read.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace bolt::assets {
 
-// Every buffer view lies in its buffer, every accessor in its view; types and counts make sense.
+// Checks that every buffer view lies in its buffer, every accessor in its view, and that types and counts are
+// valid.
 Status check_views(const Document& document);
 Status check_accessors(const Document& document);
 
-// Which component types a use of an accessor admits as numbers.
-enum class Numbers : std::uint8_t {
+// The component types that are allowed where an accessor is used.
+enum class NumberFormats : std::uint8_t {
     real,       // float
-    unit,       // float, or integers normalised to [0, 1] or [−1, 1]
-    quantized,  // any that KHR_mesh_quantization admits
+    unit,       // float, or integers normalised to [0, 1] or [-1, 1]
+    quantized,  // every type that KHR_mesh_quantization allows
 };
 
-// The elements of an accessor as floats, one component after the other, all finite; `type` as tinygltf
-// numbers it (TINYGLTF_TYPE_VEC3), `pointer` is where the accessor is used.
-Result<std::vector<float>> unpack_floats(Document& document, int accessor, int type, Numbers numbers,
+// Returns the elements of an accessor as floats, one component after the other, all finite. `type` is
+// tinygltf's number (TINYGLTF_TYPE_VEC3), `pointer` the place where the accessor is used.
+Result<std::vector<float>> unpack_floats(Document& document, int accessor, int type, NumberFormats numbers,
                                          const std::string& pointer);
 
-// The same as unsigned integers.
+// The same for unsigned integers.
 Result<std::vector<std::uint32_t>> unpack_integers(Document& document, int accessor, int type,
                                                    const std::string& pointer);
 

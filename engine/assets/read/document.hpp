@@ -1,6 +1,6 @@
-// A glTF file on its way to a Model: its JSON, checked in its shape (check_shape), the bytes of its buffers
-// and images, and the typed form of it that tinygltf makes. tinygltf itself trusts files, so it never sees a
-// document that was not checked, nor any file but this one: buffers and images are loaded here.
+// A glTF file while it is converted to a Model: its JSON (validated by check_schema), the bytes of its
+// buffers and images, and tinygltf's typed form. tinygltf trusts its input, so it sees only validated
+// documents and opens no files: buffers and images are loaded here.
 #pragma once
 
 #include <cstdint>
@@ -16,29 +16,29 @@
 namespace bolt::assets {
 
 struct Document {
-    std::string file;              // as named in errors
-    std::filesystem::path folder;  // external files lie in it or below
+    std::string file;              // the name used in errors
+    std::filesystem::path folder;  // external files must lie in it or below
     std::string bytes;             // the whole file
     nlohmann::json json;
     std::span<const std::uint8_t> chunk;                 // the binary chunk of a .glb
     std::vector<std::span<const std::uint8_t>> buffers;  // each of its byteLength
     std::vector<std::vector<std::uint8_t>> images;       // encoded
-    std::vector<std::vector<std::uint8_t>> loaded;       // owns what `buffers` shows of other files
+    std::vector<std::vector<std::uint8_t>> loaded;       // owns the external files that `buffers` refers to
     tinygltf::Model gltf;
     std::size_t budget = std::size_t{64} << 20U;  // bytes that may still be unpacked; grows with the buffers
 };
 
-// The error about a value of the document.
-tl::unexpected<Error> bad(const Document& document, std::string pointer, std::string what,
-                          std::string expected = {});
+// Returns an error about the value at a JSON pointer.
+tl::unexpected<Error> error_at(const Document& document, std::string pointer, std::string what,
+                               std::string expected = {});
 
-// Finds JSON and binary chunk in `bytes` and parses the JSON, no deeper than 64 levels.
+// Finds the JSON and binary chunks in `bytes` and parses the JSON, at most 64 levels deep.
 Status parse_document(Document& document);
 
-// Types, ranges and indices of every value that the reader uses; extensions that it needs and lacks.
-Status check_shape(Document& document);
+// Checks the type, range and index of every value that the reader uses, and the required extensions.
+Status check_schema(Document& document);
 
-// The bytes of the buffers, and those of images once buffers are there.
+// Loads the bytes of the buffers, and those of images, which need the buffers.
 Status load_buffers(Document& document);
 Status load_images(Document& document);
 

@@ -28,7 +28,7 @@ void set_transform(TextureRef& ref, const Value& transform) {
     set(ref.rotation, transform, "rotation");
 }
 
-// The core's texture references, which tinygltf has as three alike structures.
+// The texture references of the core material, which tinygltf stores in three similar structures.
 template <class Info>
 TextureRef reference(const Info& info) {
     TextureRef ref;
@@ -39,7 +39,7 @@ TextureRef reference(const Info& info) {
     return ref;
 }
 
-// Those within extensions, which it leaves as values.
+// Texture references in extensions, which tinygltf keeps as values.
 void set(TextureRef& ref, const Value& owner, const char* key) {
     if (!owner.Has(key)) return;
     const Value& info = owner.Get(key);
@@ -104,13 +104,13 @@ Status read_materials(const Document& document, Model& model) {
         } else if (from.alphaMode == "BLEND") {
             m.alpha_mode = AlphaMode::blend;
         } else if (from.alphaMode != "OPAQUE") {
-            return bad(document, fmt::format("/materials/{}/alphaMode", i), "is '" + from.alphaMode + "'",
-                       "OPAQUE, MASK or BLEND");
+            return error_at(document, fmt::format("/materials/{}/alphaMode", i),
+                            "is '" + from.alphaMode + "'", "OPAQUE, MASK or BLEND");
         }
         read_extensions(from.extensions, m);
         if (m.ior != 0.0F && m.ior < 1.0F)
-            return bad(document, fmt::format("/materials/{}/extensions/KHR_materials_ior/ior", i),
-                       "is less than that of a vacuum", "0 or at least 1");
+            return error_at(document, fmt::format("/materials/{}/extensions/KHR_materials_ior/ior", i),
+                            "is less than that of a vacuum", "0 or at least 1");
         model.materials.push_back(std::move(m));
     }
     return {};

@@ -13,54 +13,55 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
-struct Use {
+struct AttributeSource {
     const Attributes& attributes;
-    std::string pointer;  // of the attributes
-    std::size_t count;    // elements that each of them must have; 0: any
+    std::string pointer;  // of the attributes object
+    std::size_t count;    // required number of elements; 0: any
     bool quantized;       // KHR_mesh_quantization is required
 };
 
 template <class Vector>
-Status take(Document& document, const Use& use, const char* name, Numbers numbers, std::vector<Vector>& to) {
+Status take(Document& document, const AttributeSource& use, const char* name, NumberFormats numbers,
+            std::vector<Vector>& to) {
     const auto attribute = use.attributes.find(name);
     if (attribute == use.attributes.end()) return {};
     const std::string pointer = use.pointer + '/' + name;
     constexpr auto width = static_cast<std::size_t>(Vector::length());
-    const auto values = unpack_floats(document, attribute->second, static_cast<int>(width), numbers, pointer);
-    if (!values) return fail(values.error());
-    if (use.count > 0 && values->size() / width != use.count)
-        return bad(document, pointer,
-                   fmt::format("has {} elements for {} vertices", values->size() / width, use.count));
-    to.resize(values->size() / width);
-    std::memcpy(to.data(), values->data(), values->size() * sizeof(float));
+    BOLT_TRY_ASSIGN(const auto values,
+                    unpack_floats(document, attribute->second, static_cast<int>(width), numbers, pointer));
+    if (use.count > 0 && values.size() / width != use.count)
+        return error_at(document, pointer,
+                        fmt::format("has {} elements for {} vertices", values.size() / width, use.count));
+    to.resize(values.size() / width);
+    std::memcpy(to.data(), values.data(), values.size() * sizeof(float));
     return {};
 }
 
-// RGB gets an alpha of one.
-Status take_colors(Document& document, const Use& use, std::vector<glm::vec4>& to) {
+// RGB colours get an alpha of one.
+Status take_colors(Document& document, const AttributeSource& use, std::vector<glm::vec4>& to) {
     const auto attribute = use.attributes.find("COLOR_0");
     if (attribute == use.attributes.end()) return {};
     const auto& accessor = document.gltf.accessors[static_cast<std::size_t>(attribute->second)];
-    if (accessor.type != TINYGLTF_TYPE_VEC3) return take(document, use, "COLOR_0", Numbers::unit, to);
+    if (accessor.type != TINYGLTF_TYPE_VEC3) return take(document, use, "COLOR_0", NumberFormats::unit, to);
     std::vector<glm::vec3> colors;
-    const Status taken = take(document, use, "COLOR_0", Numbers::unit, colors);
+    const Status taken = take(document, use, "COLOR_0", NumberFormats::unit, colors);
     for (const glm::vec3& color : colors) to.emplace_back(color, 1.0F);
     return taken;
 }
 
-Status take_joints(Document& document, const Use& use, const std::string& name,
+Status take_joints(Document& document, const AttributeSource& use, const std::string& name,
                    std::vector<glm::u16vec4>& to) {
     const std::string pointer = use.pointer + '/' + name;
-    const auto values = unpack_integers(document, use.attributes.at(name), TINYGLTF_TYPE_VEC4, pointer);
-    if (!values) return fail(values.error());
-    if (values->size() != use.count * 4)
-        return bad(document, pointer,
-                   fmt::format("has {} elements for {} vertices", values->size() / 4, use.count));
-    for (std::size_t i = 0; i < values->size(); i += 4) {
+    BOLT_TRY_ASSIGN(const auto values,
+                    unpack_integers(document, use.attributes.at(name), TINYGLTF_TYPE_VEC4, pointer));
+    if (values.size() != use.count * 4)
+        return error_at(document, pointer,
+                        fmt::format("has {} elements for {} vertices", values.size() / 4, use.count));
+    for (std::size_t i = 0; i < values.size(); i += 4) {
         glm::u16vec4 joints;
         for (int c = 0; c < 4; ++c) {
-            const std::uint32_t joint = (*values)[i + static_cast<std::size_t>(c)];
-            if (joint > 0xFFFFU) return bad(document, pointer, fmt::format("names joint {}", joint));
+            const std::uint32_t joint = values[i + static_cast<std::size_t>(c)];
+            if (joint > 0xFFFFU) return error_at(document, pointer, fmt::format("names joint {}", joint));
             joints[c] = static_cast<std::uint16_t>(joint);
         }
         to.push_back(joints);
@@ -68,7 +69,7 @@ Status take_joints(Document& document, const Use& use, const std::string& name,
     return {};
 }
 
-// The four strongest of eight influences, with their sum kept.
+// Keeps the four strongest of eight influences and rescales them to the same sum.
 void keep_strongest(glm::u16vec4& joints, glm::vec4& weights, const glm::u16vec4& more_joints,
                     const glm::vec4& more_weights) {
     std::array<std::pair<float, std::uint16_t>, 8> all;
@@ -88,20 +89,20 @@ void keep_strongest(glm::u16vec4& joints, glm::vec4& weights, const glm::u16vec4
     }
 }
 
-// Any number of sets of four influences each; a Primitive holds four.
-Status take_influences(Document& document, const Use& use, Primitive& to) {
+// Reads any number of sets of four influences; a Primitive holds four.
+Status take_influences(Document& document, const AttributeSource& use, Primitive& to) {
     for (int set = 0;; ++set) {
         const std::string joints_name = fmt::format("JOINTS_{}", set);
         const std::string weights_name = fmt::format("WEIGHTS_{}", set);
         const bool has_joints = use.attributes.contains(joints_name);
         if (has_joints != use.attributes.contains(weights_name))
-            return bad(document, use.pointer,
-                       fmt::format("has not both {} and {}", joints_name, weights_name));
+            return error_at(document, use.pointer,
+                            fmt::format("has not both {} and {}", joints_name, weights_name));
         if (!has_joints) return {};
         std::vector<glm::u16vec4> joints;
         std::vector<glm::vec4> weights;
         Status taken = take_joints(document, use, joints_name, joints);
-        if (taken) taken = take(document, use, weights_name.c_str(), Numbers::unit, weights);
+        if (taken) taken = take(document, use, weights_name.c_str(), NumberFormats::unit, weights);
         if (!taken) return taken;
         if (set == 0) {
             to.joints = std::move(joints);
@@ -113,12 +114,13 @@ Status take_influences(Document& document, const Use& use, Primitive& to) {
     }
 }
 
-Status read_targets(Document& document, const tinygltf::Primitive& from, const Use& base,
+Status read_targets(Document& document, const tinygltf::Primitive& from, const AttributeSource& base,
                     const std::string& pointer, Primitive& to) {
     for (std::size_t i = 0; i < from.targets.size(); ++i) {
-        const Use use{from.targets[i], fmt::format("{}/targets/{}", pointer, i), base.count, base.quantized};
+        const AttributeSource use{from.targets[i], fmt::format("{}/targets/{}", pointer, i), base.count,
+                                  base.quantized};
         MorphTarget target;
-        const Numbers numbers = use.quantized ? Numbers::quantized : Numbers::real;
+        const NumberFormats numbers = use.quantized ? NumberFormats::quantized : NumberFormats::real;
         Status taken = take(document, use, "POSITION", numbers, target.positions);
         if (taken) taken = take(document, use, "NORMAL", numbers, target.normals);
         if (taken) taken = take(document, use, "TANGENT", numbers, target.tangents);
@@ -132,13 +134,13 @@ Status read_indices(Document& document, const nlohmann::json& from, const std::s
                     Primitive& to) {
     const auto entry = from.find("indices");
     if (entry == from.end()) return {};
-    auto indices = unpack_integers(document, entry->get<int>(), TINYGLTF_TYPE_SCALAR, pointer + "/indices");
-    if (!indices) return fail(indices.error());
-    for (std::size_t i = 0; i < indices->size(); ++i)
-        if ((*indices)[i] >= to.positions.size())
-            return bad(document, pointer + "/indices", fmt::format("index {} is {}", i, (*indices)[i]),
-                       fmt::format("one of the {} vertices", to.positions.size()));
-    to.indices = std::move(*indices);
+    BOLT_TRY_ASSIGN(auto indices,
+                    unpack_integers(document, entry->get<int>(), TINYGLTF_TYPE_SCALAR, pointer + "/indices"));
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        if (indices[i] >= to.positions.size())
+            return error_at(document, pointer + "/indices", fmt::format("index {} is {}", i, indices[i]),
+                            fmt::format("one of the {} vertices", to.positions.size()));
+    to.indices = std::move(indices);
     return {};
 }
 
@@ -148,7 +150,7 @@ Status check_corners(const Document& document, const std::string& pointer, const
     const bool whole = (primitive.topology != Topology::triangles || corners % 3 == 0) &&
                        (primitive.topology != Topology::lines || corners % 2 == 0);
     if (whole) return {};
-    return bad(document, pointer, fmt::format("has {} corners, which leaves a part over", corners));
+    return error_at(document, pointer, fmt::format("has {} corners, which leaves a part over", corners));
 }
 
 Status read_primitive(Document& document, const tinygltf::Primitive& from, const nlohmann::json& json,
@@ -156,10 +158,10 @@ Status read_primitive(Document& document, const tinygltf::Primitive& from, const
     const auto& required = document.gltf.extensionsRequired;
     const bool quantized =
         std::find(required.begin(), required.end(), "KHR_mesh_quantization") != required.end();
-    Use use{from.attributes, pointer + "/attributes", 0, quantized};
-    if (!from.attributes.contains("POSITION")) return bad(document, use.pointer, "has no POSITION");
-    const Numbers numbers = quantized ? Numbers::quantized : Numbers::real;
-    const Numbers unit = quantized ? Numbers::quantized : Numbers::unit;
+    AttributeSource use{from.attributes, pointer + "/attributes", 0, quantized};
+    if (!from.attributes.contains("POSITION")) return error_at(document, use.pointer, "has no POSITION");
+    const NumberFormats numbers = quantized ? NumberFormats::quantized : NumberFormats::real;
+    const NumberFormats unit = quantized ? NumberFormats::quantized : NumberFormats::unit;
     Status taken = take(document, use, "POSITION", numbers, to.positions);
     use.count = to.positions.size();
     if (taken) taken = take(document, use, "NORMAL", numbers, to.normals);
@@ -186,18 +188,18 @@ Status read_meshes(Document& document, Model& model) {
         for (std::size_t k = 0; k < from.primitives.size(); ++k) {
             const std::string pointer = fmt::format("/meshes/{}/primitives/{}", i, k);
             Primitive primitive;
-            Status read = read_primitive(document, from.primitives[k],
-                                         document.json["meshes"][i]["primitives"][k], pointer, primitive);
-            if (!read) return read;
+            BOLT_TRY(read_primitive(document, from.primitives[k], document.json["meshes"][i]["primitives"][k],
+                                    pointer, primitive));
             if (k > 0 && primitive.targets.size() != mesh.primitives[0].targets.size())
-                return bad(document, pointer, "has not as many morph targets as the first primitive");
+                return error_at(document, pointer, "has not as many morph targets as the first primitive");
             mesh.primitives.push_back(std::move(primitive));
         }
         for (const double weight : from.weights) mesh.weights.push_back(static_cast<float>(weight));
         if (mesh.primitives.empty())
-            return bad(document, fmt::format("/meshes/{}/primitives", i), "is empty");
+            return error_at(document, fmt::format("/meshes/{}/primitives", i), "is empty");
         if (!mesh.weights.empty() && mesh.weights.size() != mesh.primitives[0].targets.size())
-            return bad(document, fmt::format("/meshes/{}/weights", i), "has not one weight a morph target");
+            return error_at(document, fmt::format("/meshes/{}/weights", i),
+                            "has not one weight a morph target");
         model.meshes.push_back(std::move(mesh));
     }
     return {};

@@ -32,7 +32,7 @@ std::string percent_decoded(const std::string& uri) {
     return text;
 }
 
-// The file that a URI names: a relative path that stays in the folder, symbolic links followed.
+// Returns the file that a URI names: a relative path that stays in the folder after following symbolic links.
 Result<std::filesystem::path> inside(const Document& document, const std::string& uri,
                                      const std::string& pointer) {
     const std::string decoded = percent_decoded(uri);
@@ -46,8 +46,8 @@ Result<std::filesystem::path> inside(const Document& document, const std::string
     const auto path = std::filesystem::weakly_canonical(document.folder / relative, none);
     if (outside || none ||
         std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())
-        return bad(document, pointer, "names a file outside the folder of this one",
-                   "a relative path below it");
+        return error_at(document, pointer, "names a file outside the folder of this one",
+                        "a relative path below it");
     return path;
 }
 
@@ -57,13 +57,13 @@ Result<std::vector<std::uint8_t>> load_uri(const Document& document, const std::
         std::vector<std::uint8_t> bytes;
         std::string mime_type;
         if (!tinygltf::IsDataURI(uri) || !tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false))
-            return bad(document, pointer, "is no data that can be decoded", "base64 of a known media type");
+            return error_at(document, pointer, "is no data that can be decoded",
+                            "base64 of a known media type");
         return bytes;
     }
-    const auto path = inside(document, uri, pointer);
-    if (!path) return fail(path.error());
-    const auto text = read_file(*path, file_limit, ErrorCode::bad_content);
-    if (!text) return bad(document, pointer, "'" + uri + "' " + text.error().what);
+    BOLT_TRY_ASSIGN(const auto path, inside(document, uri, pointer));
+    const auto text = read_file(path, file_limit, ErrorCode::bad_content);
+    if (!text) return error_at(document, pointer, "'" + uri + "' " + text.error().what);
     return std::vector<std::uint8_t>(text->begin(), text->end());
 }
 
@@ -79,18 +79,17 @@ Status load_buffers(Document& document) {
         const std::size_t length = buffer["byteLength"];
         std::span<const std::uint8_t> bytes;
         if (buffer.contains("uri")) {
-            auto loaded = load_uri(document, buffer["uri"], pointer + "/uri");
-            if (!loaded) return fail(loaded.error());
-            document.loaded[i] = std::move(*loaded);
+            BOLT_TRY_ASSIGN(auto loaded, load_uri(document, buffer["uri"], pointer + "/uri"));
+            document.loaded[i] = std::move(loaded);
             bytes = document.loaded[i];
         } else if (i == 0 && !document.chunk.empty()) {
             bytes = document.chunk;
         } else {
-            return bad(document, pointer, "has neither a 'uri' nor the binary chunk of the file");
+            return error_at(document, pointer, "has neither a 'uri' nor the binary chunk of the file");
         }
         if (bytes.size() < length)
-            return bad(document, pointer + "/byteLength", "is " + std::to_string(length),
-                       "at most the " + std::to_string(bytes.size()) + " bytes that are there");
+            return error_at(document, pointer + "/byteLength", "is " + std::to_string(length),
+                            "at most the " + std::to_string(bytes.size()) + " bytes that are there");
         document.buffers.push_back(bytes.first(length));
     }
     return {};
@@ -103,14 +102,13 @@ Status load_images(Document& document) {
         const nlohmann::json& image = (*images)[i];
         const std::string pointer = "/images/" + std::to_string(i);
         if (image.contains("bufferView") == image.contains("uri"))
-            return bad(document, pointer, "has not one of 'uri' and 'bufferView'");
+            return error_at(document, pointer, "has not one of 'uri' and 'bufferView'");
         if (image.contains("uri")) {
-            auto loaded = load_uri(document, image["uri"], pointer + "/uri");
-            if (!loaded) return fail(loaded.error());
-            document.images.push_back(std::move(*loaded));
+            BOLT_TRY_ASSIGN(auto loaded, load_uri(document, image["uri"], pointer + "/uri"));
+            document.images.push_back(std::move(loaded));
             continue;
         }
-        // The views are checked: check_views comes first.
+        // check_views has validated the views before.
         const nlohmann::json& view = document.json["bufferViews"][image["bufferView"].get<std::size_t>()];
         const auto bytes = document.buffers[view["buffer"].get<std::size_t>()].subspan(
             view.value("byteOffset", std::size_t{0}), view["byteLength"].get<std::size_t>());

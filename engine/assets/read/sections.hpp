@@ -1,4 +1,4 @@
-// The sections of a checked document, turned into those of a Model.
+// Converts the sections of a validated document to a Model.
 #pragma once
 
 #include "engine/assets/model.hpp"

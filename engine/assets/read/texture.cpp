@@ -23,14 +23,15 @@ Status set_wrap(const Document& document, std::size_t sampler, const char* key, 
         default:
             break;
     }
-    return bad(document, fmt::format("/samplers/{}/{}", sampler, key),
-               fmt::format("{} is no wrapping mode", value), "10497, 33071 or 33648");
+    return error_at(document, fmt::format("/samplers/{}/{}", sampler, key),
+                    fmt::format("{} is no wrapping mode", value), "10497, 33071 or 33648");
 }
 
 Status set_filters(const Document& document, std::size_t sampler, int mag, int min, Texture& texture) {
     const std::string pointer = fmt::format("/samplers/{}", sampler);
     if (mag != -1 && mag != TINYGLTF_TEXTURE_FILTER_NEAREST && mag != TINYGLTF_TEXTURE_FILTER_LINEAR)
-        return bad(document, pointer + "/magFilter", fmt::format("{} is no filter", mag), "9728 or 9729");
+        return error_at(document, pointer + "/magFilter", fmt::format("{} is no filter", mag),
+                        "9728 or 9729");
     texture.mag = mag == TINYGLTF_TEXTURE_FILTER_NEAREST ? Filter::nearest : Filter::linear;
     switch (min) {
         case TINYGLTF_TEXTURE_FILTER_NEAREST:
@@ -44,8 +45,8 @@ Status set_filters(const Document& document, std::size_t sampler, int mag, int m
         case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
             break;
         default:
-            return bad(document, pointer + "/minFilter", fmt::format("{} is no filter", min),
-                       "9728, 9729 or 9984 to 9987");
+            return error_at(document, pointer + "/minFilter", fmt::format("{} is no filter", min),
+                            "9728, 9729 or 9984 to 9987");
     }
     if (min == TINYGLTF_TEXTURE_FILTER_NEAREST || min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
         min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR)
@@ -56,7 +57,7 @@ Status set_filters(const Document& document, std::size_t sampler, int mag, int m
     return {};
 }
 
-// By their first bytes: what a file says of itself may be wrong.
+// Detects the type from the first bytes, because a file's declared type may be wrong.
 const char* media_type(const std::vector<std::uint8_t>& bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("\x89PNG\r\n\x1A\n")) return "image/png";
@@ -71,11 +72,11 @@ Status read_textures(Document& document, Model& model) {
         Image image;
         image.name = document.json["images"][i].value("name", "");
         const char* type = media_type(document.images[i]);
-        // Optional extensions bring images of other kinds, which no texture of the core format names.
+        // Optional extensions add images of other types, which no core texture refers to.
         const bool used = std::any_of(document.gltf.textures.begin(), document.gltf.textures.end(),
                                       [i](const auto& t) { return t.source == static_cast<int>(i); });
         if (type == nullptr && used)
-            return bad(document, fmt::format("/images/{}", i), "is neither a PNG nor a JPEG file");
+            return error_at(document, fmt::format("/images/{}", i), "is neither a PNG nor a JPEG file");
         image.mime_type = type != nullptr ? type : "application/octet-stream";
         image.encoded = std::move(document.images[i]);
         model.images.push_back(std::move(image));

@@ -1,4 +1,4 @@
-// tiny_gltf.h as a library header: its own warnings are not ours.
+// Includes tiny_gltf.h with its warnings disabled.
 #pragma once
 
 #if defined(__GNUC__)

@@ -22,12 +22,12 @@ Status read_cameras(const Document& document, Model& model) {
             camera.znear = static_cast<float>(from.orthographic.znear);
             camera.zfar = static_cast<float>(from.orthographic.zfar);
             if (camera.xmag == 0.0F || camera.ymag == 0.0F)
-                return bad(document, fmt::format("/cameras/{}/orthographic", i), "sees nothing",
-                           "xmag and ymag other than zero");
+                return error_at(document, fmt::format("/cameras/{}/orthographic", i), "sees nothing",
+                                "xmag and ymag other than zero");
         }
         if (camera.zfar != 0.0F && camera.zfar <= camera.znear)
-            return bad(document, fmt::format("/cameras/{}/{}/zfar", i, from.type),
-                       "is not larger than znear");
+            return error_at(document, fmt::format("/cameras/{}/{}/zfar", i, from.type),
+                            "is not larger than znear");
         model.cameras.push_back(std::move(camera));
     }
     return {};
@@ -47,7 +47,8 @@ Status read_lights(const Document& document, Model& model) {
         light.inner_cone = static_cast<float>(from.spot.innerConeAngle);
         light.outer_cone = static_cast<float>(from.spot.outerConeAngle);
         if (light.type == LightType::spot && light.inner_cone >= light.outer_cone)
-            return bad(document, pointer + "/spot", "has an inner cone that is not within the outer one");
+            return error_at(document, pointer + "/spot",
+                            "has an inner cone that is not within the outer one");
         model.lights.push_back(std::move(light));
     }
     return {};

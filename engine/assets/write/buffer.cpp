@@ -8,7 +8,7 @@ Json BufferBuilder::min_max(std::span<const float> floats, std::size_t width) {
     std::vector<double> low;
     std::vector<double> high;
     for (std::size_t i = 0; i < floats.size(); ++i) {
-        const double value = static_cast<double>(floats[i]);  // exact: validators compare bit for bit
+        const double value = static_cast<double>(floats[i]);  // exact: validators compare bits
         const std::size_t component = i % width;
         if (i < width) {
             low.push_back(value);
@@ -21,8 +21,8 @@ Json BufferBuilder::min_max(std::span<const float> floats, std::size_t width) {
     return {{"min", low}, {"max", high}};
 }
 
-int BufferBuilder::add_bytes(std::span<const std::byte> bytes, std::size_t stride, std::size_t count, Use use,
-                             const Layout& layout, const Json& bounds) {
+int BufferBuilder::add_bytes(std::span<const std::byte> bytes, std::size_t stride, std::size_t count,
+                             BufferTarget use, const AccessorLayout& layout, const Json& bounds) {
     const auto [place, fresh] = shared_.try_emplace({use, stride}, views_.size());
     if (fresh) views_.push_back({use, stride, {}});
     std::string& target = views_[place->second].bytes;
@@ -39,7 +39,7 @@ int BufferBuilder::add_bytes(std::span<const std::byte> bytes, std::size_t strid
 }
 
 int BufferBuilder::add_file(std::span<const std::uint8_t> bytes) {
-    views_.push_back({Use::other, 0, std::string(bytes.begin(), bytes.end())});
+    views_.push_back({BufferTarget::other, 0, std::string(bytes.begin(), bytes.end())});
     return static_cast<int>(views_.size()) - 1;
 }
 
@@ -48,15 +48,15 @@ std::string BufferBuilder::finish(Json& root) {
     constexpr int element_array_buffer = 34963;
     std::string chunk;
     Json views = Json::array();
-    for (const View& view : views_) {
+    for (const BufferView& view : views_) {
         Json entry = {{"buffer", 0}};
         if (!chunk.empty()) entry["byteOffset"] = chunk.size();
         entry["byteLength"] = view.bytes.size();
-        if (view.use == Use::vertices) {
+        if (view.use == BufferTarget::vertices) {
             entry["byteStride"] = view.stride;
             entry["target"] = array_buffer;
         }
-        if (view.use == Use::indices) entry["target"] = element_array_buffer;
+        if (view.use == BufferTarget::indices) entry["target"] = element_array_buffer;
         views.push_back(std::move(entry));
         chunk += view.bytes;
         chunk.resize((chunk.size() + 3U) & ~std::size_t{3U}, '\0');

@@ -1,5 +1,4 @@
-// JSON on its way out: keys in the order in which they are set, floats as the shortest text that reads back
-// as the same float.
+// JSON output: keys in insertion order, floats as the shortest text that reads back as the same float.
 #pragma once
 
 #include <charconv>
@@ -14,7 +13,7 @@ namespace bolt::assets {
 
 using Json = nlohmann::ordered_json;
 
-// The double whose shortest text is the float's shortest text: 0.1F becomes 0.1, not 0.10000000149.
+// Returns the double whose shortest text is that of the float: 0.1F becomes 0.1, not 0.10000000149.
 inline double number(float value) {
     char text[32];
     const auto [end, status] = std::to_chars(text, text + sizeof text - 1, value);

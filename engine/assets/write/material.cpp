@@ -27,7 +27,7 @@ void set(Json& owner, const char* key, float value, float standard) {
     if (value != standard) owner[key] = number(value);
 }
 
-// A factor that multiplies a texture: written whenever it differs from what a reader assumes.
+// Writes a factor of a texture if it differs from the reader's default.
 Json clearcoat(Writer& writer, const Material& m) {
     Json json = Json::object();
     set(json, "clearcoatFactor", m.clearcoat, 0.0F);

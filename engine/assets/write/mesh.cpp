@@ -26,7 +26,7 @@ std::uint16_t unorm16(float value) {
 
 glm::u16vec4 unorm16(const glm::vec4& v) { return {unorm16(v.x), unorm16(v.y), unorm16(v.z), unorm16(v.w)}; }
 
-// Rounded weights whose sum is exactly one again: the largest takes what rounding left over.
+// Rounds the weights so that they sum to exactly one: the largest takes the rounding remainder.
 glm::u16vec4 unorm16_weights(const glm::vec4& v) {
     glm::u16vec4 rounded = unorm16(v);
     int largest = 0;
@@ -48,11 +48,11 @@ std::vector<To> map(const std::vector<From>& from, Function function) {
 }
 
 template <class T>
-int add_vertices(Writer& writer, const std::vector<T>& elements, const Layout& layout) {
-    return writer.buffer.add(std::span<const T>(elements), Use::vertices, layout);
+int add_vertices(Writer& writer, const std::vector<T>& elements, const AccessorLayout& layout) {
+    return writer.buffer.add(std::span<const T>(elements), BufferTarget::vertices, layout);
 }
 
-// SHORT VEC3 takes 6 bytes, and vertex elements must start on multiples of 4: the fourth is padding.
+// SHORT VEC3 has 6 bytes, but vertex elements must start at multiples of 4: the fourth value is padding.
 int add_normals(Writer& writer, const std::vector<glm::vec3>& normals) {
     if (!writer.options.quantize) return add_vertices(writer, normals, {.type = "VEC3"});
     writer.required.insert("KHR_mesh_quantization");
@@ -102,15 +102,15 @@ int add_weights(Writer& writer, const std::vector<glm::vec4>& weights) {
     return add_vertices(writer, rounded, {.type = "VEC4", .component = unsigned_short, .normalized = true});
 }
 
-// The largest value of each index type restarts a strip and names no vertex.
+// The largest value of each index type is the primitive restart value and cannot be an index.
 int add_indices(Writer& writer, const std::vector<std::uint32_t>& indices) {
     const std::uint32_t highest = *std::max_element(indices.begin(), indices.end());
     if (highest >= 65535U)
-        return writer.buffer.add(std::span<const std::uint32_t>(indices), Use::indices,
+        return writer.buffer.add(std::span<const std::uint32_t>(indices), BufferTarget::indices,
                                  {.component = unsigned_int});
     const auto small =
         map<std::uint16_t>(indices, [](std::uint32_t i) { return static_cast<std::uint16_t>(i); });
-    return writer.buffer.add(std::span<const std::uint16_t>(small), Use::indices,
+    return writer.buffer.add(std::span<const std::uint16_t>(small), BufferTarget::indices,
                              {.component = unsigned_short});
 }
 
@@ -123,7 +123,7 @@ bool finite(const std::vector<T>& elements) {
     });
 }
 
-// Why the primitive is none, or an empty string.
+// Returns why the primitive is invalid, or an empty string.
 std::string fault(const Primitive& p) {
     const std::size_t count = p.positions.size();
     if (count == 0) return "has no positions";
@@ -181,18 +181,18 @@ Json write_primitive(Writer& writer, const Primitive& p) {
 Result<Json> write_mesh(Writer& writer, std::size_t index) {
     const Mesh& mesh = writer.model.meshes[index];
     const std::string pointer = "/meshes/" + std::to_string(index);
-    if (mesh.primitives.empty()) return fail(broken(pointer, "mesh '" + mesh.name + "' has no primitives"));
+    if (mesh.primitives.empty()) return fail(error_at(pointer, "mesh '" + mesh.name + "' has no primitives"));
     Json json = Json::object();
     if (!mesh.name.empty()) json["name"] = mesh.name;
     json["primitives"] = Json::array();
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& primitive = mesh.primitives[i];
         if (const std::string why = fault(primitive); !why.empty())
-            return fail(broken(pointer + "/primitives/" + std::to_string(i),
-                               "a primitive of mesh '" + mesh.name + "' " + why));
+            return fail(error_at(pointer + "/primitives/" + std::to_string(i),
+                                 "a primitive of mesh '" + mesh.name + "' " + why));
         if (primitive.material >= static_cast<int>(writer.model.materials.size()))
-            return fail(broken(pointer + "/primitives/" + std::to_string(i) + "/material",
-                               "there is no material " + std::to_string(primitive.material)));
+            return fail(error_at(pointer + "/primitives/" + std::to_string(i) + "/material",
+                                 "there is no material " + std::to_string(primitive.material)));
         json["primitives"].push_back(write_primitive(writer, primitive));
     }
     if (!mesh.weights.empty()) {

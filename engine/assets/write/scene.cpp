@@ -46,8 +46,8 @@ int add_floats(Writer& writer, const std::vector<float>& values, Path path) {
         using Element = decltype(element);
         const auto* first = reinterpret_cast<const Element*>(values.data());
         return writer.buffer.add(
-            std::span<const Element>(first, values.size() * sizeof(float) / sizeof(Element)), Use::other,
-            {.type = type});
+            std::span<const Element>(first, values.size() * sizeof(float) / sizeof(Element)),
+            BufferTarget::other, {.type = type});
     };
     if (path == Path::weights) return add(float{}, "SCALAR");
     if (path == Path::rotation) return add(std::array<float, 4>{}, "VEC4");
@@ -56,7 +56,7 @@ int add_floats(Writer& writer, const std::vector<float>& values, Path path) {
 
 }  // namespace
 
-Error broken(std::string pointer, std::string what, std::string expected) {
+Error error_at(std::string pointer, std::string what, std::string expected) {
     Error error;
     error.code = ErrorCode::failed;
     error.pointer = std::move(pointer);
@@ -71,14 +71,15 @@ Result<Json> write_node(Writer& writer, std::size_t index) {
     const std::string pointer = "/nodes/" + std::to_string(index);
     if (!in_range(node.mesh, model.meshes.size()) || !in_range(node.skin, model.skins.size()) ||
         !in_range(node.camera, model.cameras.size()) || !in_range(node.light, model.lights.size()))
-        return fail(broken(pointer, "node '" + node.name + "' refers to what is not there"));
+        return fail(error_at(pointer, "node '" + node.name + "' has an index that is out of range"));
     if (std::abs(glm::length(node.rotation) - 1.0F) > 1e-3F)
-        return fail(broken(pointer + "/rotation", "the rotation of '" + node.name + "' has no unit length"));
+        return fail(
+            error_at(pointer + "/rotation", "the rotation of '" + node.name + "' has no unit length"));
     Json json = Json::object();
     if (!node.name.empty()) json["name"] = node.name;
     for (const int child : node.children) {
         if (child < 0 || !in_range(child, model.nodes.size()))
-            return fail(broken(pointer + "/children", "there is no node " + std::to_string(child)));
+            return fail(error_at(pointer + "/children", "there is no node " + std::to_string(child)));
         json["children"].push_back(child);
     }
     if (node.translation != glm::vec3(0.0F)) json["translation"] = array(node.translation);
@@ -92,7 +93,7 @@ Result<Json> write_node(Writer& writer, std::size_t index) {
     if (!node.extras.empty()) {
         Json extras = Json::parse(node.extras, nullptr, false);
         if (extras.is_discarded())
-            return fail(broken(pointer + "/extras", "the extras of '" + node.name + "' are no JSON"));
+            return fail(error_at(pointer + "/extras", "the extras of '" + node.name + "' are no JSON"));
         json["extras"] = std::move(extras);
     }
     return json;
@@ -101,18 +102,19 @@ Result<Json> write_node(Writer& writer, std::size_t index) {
 Result<Json> write_skin(Writer& writer, std::size_t index) {
     const Skin& skin = writer.model.skins[index];
     const std::string pointer = "/skins/" + std::to_string(index);
-    if (skin.joints.empty()) return fail(broken(pointer, "skin '" + skin.name + "' has no joints"));
+    if (skin.joints.empty()) return fail(error_at(pointer, "skin '" + skin.name + "' has no joints"));
     if (!skin.inverse_bind.empty() && skin.inverse_bind.size() != skin.joints.size())
-        return fail(broken(pointer, "skin '" + skin.name + "' has not one inverse bind matrix a joint"));
+        return fail(error_at(
+            pointer, "skin '" + skin.name + "' has another number of inverse bind matrices than joints"));
     Json json = Json::object();
     if (!skin.name.empty()) json["name"] = skin.name;
     if (!skin.inverse_bind.empty())
-        json["inverseBindMatrices"] =
-            writer.buffer.add(std::span<const glm::mat4>(skin.inverse_bind), Use::other, {.type = "MAT4"});
+        json["inverseBindMatrices"] = writer.buffer.add(std::span<const glm::mat4>(skin.inverse_bind),
+                                                        BufferTarget::other, {.type = "MAT4"});
     if (skin.skeleton >= 0) json["skeleton"] = skin.skeleton;
     for (const int joint : skin.joints)
         if (joint < 0 || !in_range(joint, writer.model.nodes.size()))
-            return fail(broken(pointer + "/joints", "there is no node " + std::to_string(joint)));
+            return fail(error_at(pointer + "/joints", "there is no node " + std::to_string(joint)));
     json["joints"] = skin.joints;
     return json;
 }
@@ -121,22 +123,25 @@ Result<Json> write_animation(Writer& writer, std::size_t index) {
     const Animation& animation = writer.model.animations[index];
     const std::string pointer = "/animations/" + std::to_string(index);
     if (animation.channels.empty())
-        return fail(broken(pointer, "animation '" + animation.name + "' has no channels"));
+        return fail(error_at(pointer, "animation '" + animation.name + "' has no channels"));
     Json json = Json::object();
     if (!animation.name.empty()) json["name"] = animation.name;
     json["channels"] = Json::array();
     json["samplers"] = Json::array();
-    std::vector<std::pair<const std::vector<float>*, int>> inputs;  // keys that channels have in common
+    std::vector<std::pair<const std::vector<float>*, int>> inputs;  // key times that channels share
     for (const Channel& channel : animation.channels) {
         if (channel.times.empty() || channel.values.size() % channel.times.size() != 0)
-            return fail(broken(pointer, "a channel of '" + animation.name + "' has not a value a key"));
+            return fail(error_at(
+                pointer, "a channel of '" + animation.name + "' has another number of values than keys"));
         if (channel.interpolation == Interpolation::cubic && channel.times.size() < 2)
-            return fail(broken(pointer, "a cubic channel of '" + animation.name + "' has one key", "two"));
+            return fail(
+                error_at(pointer, "a cubic channel of '" + animation.name + "' has one key", "at least two"));
         int input = -1;
         for (const auto& [times, accessor] : inputs)
             if (*times == channel.times) input = accessor;
         if (input < 0) {
-            input = writer.buffer.add(std::span<const float>(channel.times), Use::other, {.bounded = true});
+            input = writer.buffer.add(std::span<const float>(channel.times), BufferTarget::other,
+                                      {.bounded = true});
             inputs.emplace_back(&channel.times, input);
         }
         json["channels"].push_back(
@@ -193,14 +198,14 @@ Result<Json> write_image(Writer& writer, std::size_t index) {
         return json;
     }
     const auto png = encode_png(image.width, image.height, image.channels, image.pixels);
-    if (!png) return fail(broken(pointer, png.error().what));
+    if (!png) return fail(error_at(pointer, png.error().what));
     json["mimeType"] = "image/png";
     json["bufferView"] =
         writer.buffer.add_file(std::span(reinterpret_cast<const std::uint8_t*>(png->data()), png->size()));
     return json;
 }
 
-// Textures that are sampled the same way share a sampler.
+// Textures with the same sampling share a sampler.
 Json write_texture(const Texture& texture, Json& samplers) {
     constexpr int nearest = 9728;
     constexpr int linear = 9729;

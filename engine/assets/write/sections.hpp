@@ -1,4 +1,4 @@
-// The sections of a glTF file, each as JSON; what they need of the buffer they put there.
+// Converts the sections of a Model to JSON and adds their data to the buffer.
 #pragma once
 
 #include <set>
@@ -13,11 +13,11 @@ struct Writer {
     WriteOptions options;
     BufferBuilder buffer;
     std::set<std::string> used;      // extensions
-    std::set<std::string> required;  // those of them that a reader must know
+    std::set<std::string> required;  // extensions that a reader must support
 };
 
-// An error about the value at `pointer` of the file to be.
-Error broken(std::string pointer, std::string what, std::string expected = {});
+// Returns an error about the value at `pointer` of the resulting file.
+Error error_at(std::string pointer, std::string what, std::string expected = {});
 
 Result<Json> write_mesh(Writer& writer, std::size_t index);
 Json write_material(Writer& writer, const Material& material);

@@ -8,14 +8,14 @@ namespace bolt::render {
 
 namespace {
 
-using gpu::Use;
+using gpu::ResourceUse;
 
-constexpr std::uint32_t group_size = 64;  // deform.comp
+constexpr std::uint32_t group_size = 64;  // see deform.comp
 constexpr std::uint32_t position_words = sizeof(glm::vec3) / 4;
 constexpr std::uint32_t attribute_words = sizeof(VertexAttributes) / 4;
 static_assert(attribute_words == 7, "deform.comp counts on it");
 
-shared::DeformPart numbers_of(const Part& part, const Deformation& deformation) {
+shared::DeformPart numbers_of(const MeshPart& part, const Deformation& deformation) {
     const Deformable& bends = part.bends;
     shared::DeformPart numbers{};
     numbers.vertices = bends.vertices;
@@ -33,28 +33,28 @@ shared::DeformPart numbers_of(const Part& part, const Deformation& deformation) 
 
 Result<DeformPass> DeformPass::create(const PassMaker& maker) {
     DeformPass pass;
-    if (Status s = take(pass.pipeline_, gpu::make_compute_pipeline(maker.device, maker.cache,
-                                                                   maker.shaders.at("deform.comp")));
+    if (Status s = assign(pass.pipeline_, gpu::make_compute_pipeline(maker.device, maker.cache,
+                                                                     maker.shaders.at("deform.comp")));
         !s)
         return fail(s.error());
     return pass;
 }
 
-// Where everything goes, and that there is room for it.
+// Lists the jobs, assigns their output ranges and grows the buffer.
 Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
     std::uint32_t words = 0;
-    std::set<std::pair<const Deformation*, const Part*>> planned;
+    std::set<std::pair<const Deformation*, const MeshPart*>> planned;
     for (const Object& object : context.scene.objects) {
         const Deformation* deformation = object.deformation.get();
         if (deformation == nullptr) continue;
         const MeshRange range = object.model->meshes[object.mesh];
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-            const Part& part = object.model->parts[i];
+            const MeshPart& part = object.model->parts[i];
             if (part.bends.vertices == 0 || !planned.insert({deformation, &part}).second) continue;
             Job job{&object, &part, numbers_of(part, *deformation)};
             if (job.numbers.skinned != 0 && part.bends.joints.size() > deformation->joints.size())
                 return fail(ErrorCode::failed,
-                            fmt::format("a deformation has {} joints for a part that hangs on joint {}",
+                            fmt::format("a deformation has {} joints, but a part uses joint {}",
                                         deformation->joints.size(), part.bends.joints.size() - 1));
             job.numbers.positions = words;
             job.numbers.attributes = words + position_words * part.bends.vertices;
@@ -64,13 +64,13 @@ Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
     }
     const VkDeviceSize bytes = VkDeviceSize{4} * words;
     if (bytes > vertices_.size()) {
-        Result<gpu::Buffer> larger =
+        BOLT_TRY_ASSIGN(
+            auto larger,
             gpu::Buffer::create(context.device, std::max(bytes, 2 * vertices_.size()),
                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                gpu::MemoryUse::device);
-        if (!larger) return fail(larger.error());
-        context.frame.retire(std::exchange(vertices_, std::move(*larger)));
+                                gpu::MemoryUse::device));
+        context.frame.retire(std::exchange(vertices_, std::move(larger)));
     }
     for (const Job& job : jobs)
         parts_.insert_or_assign({job.object->deformation.get(), job.part},
@@ -80,48 +80,44 @@ Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
 }
 
 Result<VkDescriptorSet> DeformPass::set_for(PassContext& context, const Object& object) {
-    Result<gpu::Piece> joints = put<glm::mat4>(context.frame, object.deformation->joints);
-    if (!joints) return fail(joints.error());
-    Result<gpu::Piece> weights = put<float>(context.frame, object.deformation->weights);
-    if (!weights) return fail(weights.error());
-    Result<gpu::SetWriter> writer = gpu::SetWriter::create(context.device, context.frame, pipeline_, 0);
-    if (!writer) return fail(writer.error());
+    BOLT_TRY_ASSIGN(auto joints, upload_transient<glm::mat4>(context.frame, object.deformation->joints));
+    BOLT_TRY_ASSIGN(auto weights, upload_transient<float>(context.frame, object.deformation->weights));
+    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline_, 0));
     const GpuModel& model = *object.model;
-    // What a model has not is not read, but something must be bound.
+    // Buffers that a model lacks are not read, but something must be bound.
     const auto bind_whole = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
         const gpu::Buffer& there = buffer.get() != VK_NULL_HANDLE ? buffer : model.positions;
-        writer->buffer(binding, there.get(), 0, there.size());
+        writer.buffer(binding, there.get(), 0, there.size());
     };
     bind_whole(0, model.positions);
     bind_whole(1, model.attributes);
     bind_whole(2, model.influences);
     bind_whole(3, model.deltas);
     bind_whole(6, vertices_);
-    return writer->piece(4, *joints).piece(5, *weights).finish();
+    return writer.range(4, joints).range(5, weights).finish();
 }
 
 Status DeformPass::draw(PassContext& context) {
     parts_.clear();
     std::vector<Job> jobs;
-    if (Status planned = plan(context, jobs); !planned) return planned;
+    BOLT_TRY(plan(context, jobs));
     if (jobs.empty()) return {};
     const VkCommandBuffer commands = context.frame.commands();
     context.frame.begin_timing("deform");
-    gpu::memory_barrier(commands, Use::vertex_read, Use::storage_write);  // of the frame before
+    gpu::memory_barrier(commands, ResourceUse::vertex_read, ResourceUse::storage_write);  // previous frame
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.handle.get());
     const Object* object = nullptr;
     for (const Job& job : jobs) {
         if (std::exchange(object, job.object) != job.object) {
-            Result<VkDescriptorSet> set = set_for(context, *job.object);
-            if (!set) return fail(set.error());
+            BOLT_TRY_ASSIGN(auto set, set_for(context, *job.object));
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout.get(), 0, 1,
-                                    &*set, 0, nullptr);
+                                    &set, 0, nullptr);
         }
         vkCmdPushConstants(commands, pipeline_.layout.get(), pipeline_.push_stages, 0, sizeof job.numbers,
                            &job.numbers);
         vkCmdDispatch(commands, (job.numbers.vertices + group_size - 1) / group_size, 1, 1);
     }
-    gpu::memory_barrier(commands, Use::storage_write, Use::vertex_read);
+    gpu::memory_barrier(commands, ResourceUse::storage_write, ResourceUse::vertex_read);
     context.frame.end_timing();
     return {};
 }

@@ -1,5 +1,5 @@
-// Vertices of what bends, where joints and morph targets move them: a compute shader writes them once, and
-// all other passes draw them as they draw any others.
+// Skinning and morphing: a compute shader writes the deformed vertices once, and all other passes draw them
+// like static ones.
 #pragma once
 
 #include "engine/render/passes/pass.hpp"
@@ -11,23 +11,23 @@ class DeformPass {
     DeformPass() = default;
     static Result<DeformPass> create(const PassMaker& maker);
 
-    // Everything of the scene that bends, into `parts()`. Vertex buffers may be drawn from it afterwards.
+    // Deforms all deformable parts of the scene; the results are in parts(), ready as vertex buffers.
     Status draw(PassContext& context);
     [[nodiscard]] const DeformedParts& parts() const { return parts_; }
-    // What the parts lie in; may be copied from.
+    // The buffer of the deformed vertices, which may be copied from.
     [[nodiscard]] const gpu::Buffer& vertices() const { return vertices_; }
 
   private:
     struct Job {
         const Object* object = nullptr;
-        const Part* part = nullptr;
+        const MeshPart* part = nullptr;
         shared::DeformPart numbers{};
     };
     Status plan(PassContext& context, std::vector<Job>& jobs);
     Result<VkDescriptorSet> set_for(PassContext& context, const Object& object);
 
     gpu::Pipeline pipeline_;
-    gpu::Buffer vertices_;  // of all frames in flight: the GPU works on one after the other
+    gpu::Buffer vertices_;  // shared by frames in flight: the GPU executes them one after the other
     DeformedParts parts_;
 };
 

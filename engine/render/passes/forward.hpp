@@ -1,5 +1,5 @@
-// What is lit as it is drawn, because it blends or has more than the geometry buffer keeps: four samples a
-// pixel of their own, resolved, then laid over the picture.
+// Draws and shades parts that blend or that the geometry buffer cannot store: into a multisampled layer,
+// which is resolved and blended over the picture.
 #pragma once
 
 #include "engine/render/passes/light.hpp"
@@ -11,20 +11,20 @@ class ForwardPass {
     ForwardPass() = default;
     static Result<ForwardPass> create(const PassMaker& maker, std::uint32_t views);
 
-    // After light; `targets.picture` is and stays a colour target.
-    Status draw(PassContext& context, Targets& targets, const DrawList& list, const LightPass& light,
+    // Call it after the light pass; `targets.picture` is a colour target before and after.
+    Status draw(PassContext& context, RenderTargets& targets, const DrawList& list, const LightPass& light,
                 const LightInputs& inputs);
 
   private:
-    Result<const gpu::Pipeline*> forward_pipeline(gpu::Device& device, const Kind& kind);
-    Result<const gpu::Pipeline*> ghost_pipeline(gpu::Device& device, const Kind& kind);
+    Result<const gpu::Pipeline*> forward_pipeline(gpu::Device& device, const PipelineKind& kind);
+    Result<const gpu::Pipeline*> ghost_pipeline(gpu::Device& device, const PipelineKind& kind);
     Status draw_all_parts(PassContext& context, const DrawList& list, const LightPass& light,
                           const LightInputs& inputs);
 
     const gpu::PipelineCache* cache_ = nullptr;
     const Shaders* shaders_ = nullptr;
     std::uint32_t views_ = 1;
-    std::map<Kind, gpu::Pipeline> forwards_, ghosts_;
+    std::map<PipelineKind, gpu::Pipeline> forwards_, ghosts_;
     gpu::Pipeline over_;
     gpu::Sampler nearest_;
 };

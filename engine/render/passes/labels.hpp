@@ -1,4 +1,4 @@
-// Labels over the finished picture, blended; where parts are in front of them is read from the scene's depth.
+// Blends labels over the finished picture. The scene's depth determines where parts hide them.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@ class LabelPass {
   public:
     static Result<LabelPass> create(const PassMaker& maker);
 
-    // Once a frame, before any view is drawn. Fonts are loaded when there is the first label.
+    // Call it once per frame, before any view is drawn. Fonts are loaded for the first label.
     Status prepare(PassContext& context, std::span<const Eye> eyes);
 
-    // Onto `targets.picture`, which is and stays a colour target; `targets.depth` is `depth_read`.
-    Status draw(PassContext& context, const Targets& targets);
+    // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in use `depth_read`.
+    Status draw(PassContext& context, const RenderTargets& targets);
 
   private:
     Status load(gpu::Device& device);
@@ -27,14 +27,14 @@ class LabelPass {
 
     const gpu::PipelineCache* cache_ = nullptr;
     const Shaders* shaders_ = nullptr;
-    std::map<std::uint32_t, gpu::Pipeline> pipelines_;  // by views
+    std::map<std::uint32_t, gpu::Pipeline> pipelines_;  // by number of views
     gpu::Sampler smooth_, nearest_;
     text::Fonts fonts_;
     std::unique_ptr<text::Atlas> atlas_;
-    gpu::Image image_;   // of the atlas
-    bool fresh_ = true;  // nothing is in it yet
-    gpu::Piece labels_, quads_;
-    std::uint32_t count_ = 0;  // quads of this frame
+    gpu::Image image_;   // the glyph atlas
+    bool fresh_ = true;  // the image has no contents yet
+    gpu::TransientRange labels_, quads_;
+    std::uint32_t count_ = 0;  // quads in this frame
 };
 
 }  // namespace bolt::render

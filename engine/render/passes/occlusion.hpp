@@ -1,5 +1,5 @@
-// How much light neighbours keep away: depth shrunk to half the size, slices of the horizon around every
-// pixel, smoothed. Where nothing was drawn nothing is computed.
+// Ambient occlusion: halves the depth buffer, integrates horizon slices around every pixel, and smooths the
+// result. Pixels without geometry are skipped.
 #pragma once
 
 #include "engine/render/passes/pass.hpp"
@@ -11,13 +11,13 @@ class OcclusionPass {
   public:
     static Result<OcclusionPass> create(const PassMaker& maker, std::uint32_t views);
 
-    // From `targets.depth`, `depth_read`. Leaves its result in `targets.occlusion`, sampled.
-    Status draw(PassContext& context, Targets& targets);
+    // Reads `targets.depth` in use `depth_read`. Leaves its result in `targets.occlusion`, in use `sampled`.
+    Status draw(PassContext& context, RenderTargets& targets);
 
   private:
-    Status shrink(PassContext& context, const Targets& targets);
-    // A triangle over what was drawn, into `target`.
-    void fill(PassContext& context, const Targets& targets, const gpu::Pipeline& pipeline,
+    Status shrink(PassContext& context, const RenderTargets& targets);
+    // Draws a triangle over the drawn area into `target`.
+    void fill(PassContext& context, const RenderTargets& targets, const gpu::Pipeline& pipeline,
               VkDescriptorSet set, const gpu::Image& target);
 
     gpu::Pipeline shrink_, slices_, smooth_;

@@ -1,5 +1,5 @@
-// A line around the objects that a scene marks, seen through whatever stands before them: their shapes as
-// flat marks, then a ring around every pixel. Only where the marks are on the picture.
+// Outlines of marked objects, visible through occluders: draws their shapes as flat marks, then searches a
+// ring around every pixel. Works only in the area that the marks cover.
 #pragma once
 
 #include "engine/render/passes/parts.hpp"
@@ -12,10 +12,10 @@ class OutlinePass {
     static Result<OutlinePass> create(const PassMaker& maker, std::uint32_t views);
 
     // Blends the lines into `targets.picture`, a colour target before and after.
-    Status draw(PassContext& context, Targets& targets, const DrawList& list);
+    Status draw(PassContext& context, RenderTargets& targets, const DrawList& list);
 
   private:
-    Status draw_marks(PassContext& context, const Targets& targets, const DrawList& list);
+    Status draw_marks(PassContext& context, const RenderTargets& targets, const DrawList& list);
 
     gpu::Pipeline marks_, lines_;
     gpu::Sampler clamped_;

@@ -7,15 +7,15 @@ namespace bolt::render {
 
 namespace {
 
-using gpu::Use;
+using gpu::ResourceUse;
 
-// As shaders/overlay.vert has it.
+// Must match shaders/overlay.vert.
 struct Push {
     glm::vec2 size{0.0F};
     float layer = 0.0F, kind = 0.0F;
 };
 
-// The part of a scissor that lies on the picture.
+// Returns the part of a scissor rectangle inside the picture.
 VkRect2D on_picture(const VkRect2D& wanted, VkExtent2D extent) {
     const auto clip = [](std::int64_t at, std::uint32_t size) {
         return static_cast<std::uint32_t>(std::clamp<std::int64_t>(at, 0, size));
@@ -27,16 +27,17 @@ VkRect2D on_picture(const VkRect2D& wanted, VkExtent2D extent) {
     return {{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)}, {right - left, bottom - top}};
 }
 
-// Every image once, to be read or back to what it was used for.
+// Transitions every image once, to be sampled or back to its previous use.
 void move_textures(VkCommandBuffer commands, const Overlay& overlay, bool to_sampled) {
     std::vector<VkImage> moved;
     for (const OverlayTexture& texture : overlay.textures) {
         const VkImage image = texture.picture.image->get();
-        if (texture.use == Use::sampled || std::find(moved.begin(), moved.end(), image) != moved.end())
+        if (texture.use == ResourceUse::sampled ||
+            std::find(moved.begin(), moved.end(), image) != moved.end())
             continue;
         moved.push_back(image);
-        gpu::image_barrier(commands, image, to_sampled ? texture.use : Use::sampled,
-                           to_sampled ? Use::sampled : texture.use);
+        gpu::image_barrier(commands, image, to_sampled ? texture.use : ResourceUse::sampled,
+                           to_sampled ? ResourceUse::sampled : texture.use);
     }
 }
 
@@ -55,59 +56,52 @@ Result<OverlayPass> OverlayPass::create(const PassMaker& maker) {
     info.cull = VK_CULL_MODE_NONE;
     info.depth_test = info.depth_write = false;
     info.blend = true;
-    if (Status s = take(pass.pipeline_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)); !s)
-        return fail(s.error());
+    BOLT_TRY(assign(pass.pipeline_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)));
     gpu::SamplerInfo clamped;
     clamped.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    if (Status s = take(pass.sampler_, gpu::make_sampler(maker.device, clamped)); !s) return fail(s.error());
+    BOLT_TRY(assign(pass.sampler_, gpu::make_sampler(maker.device, clamped)));
     return pass;
 }
 
-// One a texture, and last the one of what has none.
-Result<std::vector<VkDescriptorSet>> OverlayPass::sets_of(gpu::Device& device, gpu::Frame& frame,
+// Returns one set per texture, and a last one for draws without a texture.
+Result<std::vector<VkDescriptorSet>> OverlayPass::sets_of(gpu::Device& device, gpu::FrameContext& frame,
                                                           const Overlay& overlay, VkImageView white) {
     std::vector<VkDescriptorSet> sets;
     for (std::size_t i = 0; i <= overlay.textures.size(); ++i) {
         const VkImageView view =
             i < overlay.textures.size() ? overlay.textures[i].picture.image->view() : white;
-        Result<gpu::SetWriter> writer = gpu::SetWriter::create(device, frame, pipeline_, 0);
-        if (!writer) return fail(writer.error());
-        Result<VkDescriptorSet> set = writer->image(0, view, sampler_.get()).finish();
-        if (!set) return fail(set.error());
-        sets.push_back(*set);
+        BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(device, frame, pipeline_, 0));
+        BOLT_TRY_ASSIGN(auto set, writer.image(0, view, sampler_.get()).finish());
+        sets.push_back(set);
     }
     return sets;
 }
 
-Status OverlayPass::draw(gpu::Device& device, gpu::Frame& frame, const Overlay& overlay, const Layer& picture,
-                         VkImageView white) {
+Status OverlayPass::draw(gpu::Device& device, gpu::FrameContext& frame, const Overlay& overlay,
+                         const ImageLayer& picture, VkImageView white) {
     if (overlay.draws.empty()) return {};
     for (const OverlayTexture& texture : overlay.textures)
         if (texture.picture.image == picture.image)
-            return fail(ErrorCode::failed, "a picture cannot be shown on itself",
-                        "views of another group in an inset");
-    Result<gpu::Piece> vertices = put<OverlayVertex>(frame, overlay.vertices);
-    if (!vertices) return fail(vertices.error());
-    Result<gpu::Piece> indices = put<std::uint32_t>(frame, overlay.indices);
-    if (!indices) return fail(indices.error());
-    Result<std::vector<VkDescriptorSet>> sets = sets_of(device, frame, overlay, white);
-    if (!sets) return fail(sets.error());
-    Result<gpu::ImageView> target = picture.image->view(VK_IMAGE_VIEW_TYPE_2D, 0, 1, picture.layer, 1);
-    if (!target) return fail(target.error());
+            return fail(ErrorCode::failed, "an inset shows the picture that it is drawn on",
+                        "expected a picture of another group");
+    BOLT_TRY_ASSIGN(auto vertices, upload_transient<OverlayVertex>(frame, overlay.vertices));
+    BOLT_TRY_ASSIGN(auto indices, upload_transient<std::uint32_t>(frame, overlay.indices));
+    BOLT_TRY_ASSIGN(auto sets, sets_of(device, frame, overlay, white));
+    BOLT_TRY_ASSIGN(auto target, picture.image->view(VK_IMAGE_VIEW_TYPE_2D, 0, 1, picture.layer, 1));
 
     const VkCommandBuffer commands = frame.commands();
     frame.begin_timing("overlay");
     move_textures(commands, overlay, true);
-    gpu::image_barrier(commands, picture.image->get(), Use::transfer_from, Use::color_target);
+    gpu::image_barrier(commands, picture.image->get(), ResourceUse::transfer_from, ResourceUse::color_target);
     const VkExtent2D extent = picture.image->info().extent;
     const VkRenderingAttachmentInfo color =
-        attachment(target->get(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_LOAD,
+        attachment(target.get(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_LOAD,
                    VK_ATTACHMENT_STORE_OP_STORE);
     const VkRenderingInfo rendering = rendering_info(extent, 1, {&color, 1});
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, extent);
-    vkCmdBindVertexBuffers(commands, 0, 1, &vertices->buffer, &vertices->offset);
-    vkCmdBindIndexBuffer(commands, indices->buffer, indices->offset, VK_INDEX_TYPE_UINT32);
+    vkCmdBindVertexBuffers(commands, 0, 1, &vertices.buffer, &vertices.offset);
+    vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
     int bound = -2;
     for (const OverlayDraw& d : overlay.draws) {
         const VkRect2D scissor = on_picture(d.scissor, extent);
@@ -115,7 +109,7 @@ Status OverlayPass::draw(gpu::Device& device, gpu::Frame& frame, const Overlay& 
         if (std::exchange(bound, d.texture) != d.texture) {
             const bool has = d.texture >= 0;
             const auto index = has ? static_cast<std::size_t>(d.texture) : overlay.textures.size();
-            bind(commands, pipeline_, sets->at(index));
+            bind(commands, pipeline_, sets.at(index));
             Push push;
             push.size = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
             push.layer = has ? static_cast<float>(overlay.textures[index].picture.layer) : 0.0F;
@@ -127,10 +121,10 @@ Status OverlayPass::draw(gpu::Device& device, gpu::Frame& frame, const Overlay& 
         vkCmdDrawIndexed(commands, d.count, 1, d.first_index, d.first_vertex, 0);
     }
     vkCmdEndRendering(commands);
-    gpu::image_barrier(commands, picture.image->get(), Use::color_target, Use::transfer_from);
+    gpu::image_barrier(commands, picture.image->get(), ResourceUse::color_target, ResourceUse::transfer_from);
     move_textures(commands, overlay, false);
     frame.end_timing();
-    frame.retire(std::move(*target));
+    frame.retire(std::move(target));
     return {};
 }
 

@@ -1,5 +1,5 @@
-// An overlay over a finished picture, by one pipeline: colours are made linear and blended as light is, onto
-// sRGB.
+// Draws an overlay onto a finished picture with one pipeline. Colours are decoded from sRGB and blended
+// linearly.
 #pragma once
 
 #include "engine/render/overlay.hpp"
@@ -11,12 +11,12 @@ class OverlayPass {
   public:
     static Result<OverlayPass> create(const PassMaker& maker);
 
-    // Onto a picture that is in use `transfer_from`, and is so afterwards. `white` is an array of one texel.
-    Status draw(gpu::Device& device, gpu::Frame& frame, const Overlay& overlay, const Layer& picture,
-                VkImageView white);
+    // The picture is in use `transfer_from` before and after. `white` is an array of one texel.
+    Status draw(gpu::Device& device, gpu::FrameContext& frame, const Overlay& overlay,
+                const ImageLayer& picture, VkImageView white);
 
   private:
-    Result<std::vector<VkDescriptorSet>> sets_of(gpu::Device& device, gpu::Frame& frame,
+    Result<std::vector<VkDescriptorSet>> sets_of(gpu::Device& device, gpu::FrameContext& frame,
                                                  const Overlay& overlay, VkImageView white);
 
     gpu::Pipeline pipeline_;

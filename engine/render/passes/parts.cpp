@@ -6,21 +6,20 @@ namespace {
 
 Result<VkDescriptorSet> maps_set(PassContext& context, const gpu::Pipeline& pipeline, const GpuModel& model,
                                  const MaterialMaps& maps) {
-    Result<gpu::SetWriter> writer = gpu::SetWriter::create(context.device, context.frame, pipeline, 1);
-    if (!writer) return fail(writer.error());
-    for (const gpu::Binding& map : pipeline.bindings) {  // those that this pass looks at
+    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 1));
+    for (const gpu::Binding& map : pipeline.bindings) {  // only those that this pass uses
         if (map.set != 1) continue;
         const int which = maps.textures.at(map.binding);
         const GpuTexture& texture =
             which >= 0 ? model.textures[static_cast<std::size_t>(which)] : context.white;
-        writer->image(map.binding, texture.image.view(), texture.sampler.get());
+        writer.image(map.binding, texture.image.view(), texture.sampler.get());
     }
-    return writer->finish();
+    return writer.finish();
 }
 
 }  // namespace
 
-gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const Kind& kind, std::uint32_t views) {
+gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const PipelineKind& kind, std::uint32_t views) {
     gpu::GraphicsInfo info;
     info.vertex = &shaders.at("scene.vert");
     info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0},
@@ -49,24 +48,21 @@ Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing&
     const MaterialMaps* maps = nullptr;
     for (const Draw& d : list.draws) {
         if (!drawing.wanted(d.kind)) continue;
-        Result<const gpu::Pipeline*> wanted = drawing.pipeline(d.kind);
-        if (!wanted) return fail(wanted.error());
-        if (std::exchange(pipeline, *wanted) != *wanted) {
+        BOLT_TRY_ASSIGN(auto wanted, drawing.pipeline(d.kind));
+        if (std::exchange(pipeline, wanted) != wanted) {
             if (drawing.area) {
                 const VkRect2D area = drawing.area(d.kind);
                 vkCmdSetScissor(commands, 0, 1, &area);
             }
-            Result<VkDescriptorSet> set = drawing.frame_set(**wanted);
-            if (!set) return fail(set.error());
-            bind(commands, **wanted, *set);
+            BOLT_TRY_ASSIGN(auto set, drawing.frame_set(*wanted));
+            bind(commands, *wanted, set);
             maps = nullptr;
         }
         const MaterialMaps& needed = d.model->maps[d.model->parts[d.part].material];
         const bool has_maps = pipeline->sets.size() > 1;
         if (has_maps && (maps == nullptr || bound->model != d.model || maps->textures != needed.textures)) {
-            Result<VkDescriptorSet> set = maps_set(context, **wanted, *d.model, needed);
-            if (!set) return fail(set.error());
-            bind(commands, **wanted, *set, 1);
+            BOLT_TRY_ASSIGN(auto set, maps_set(context, *wanted, *d.model, needed));
+            bind(commands, *wanted, set, 1);
         }
         maps = &needed;
         if (bound == nullptr || !same_geometry(*bound, d)) bind_geometry(commands, d);

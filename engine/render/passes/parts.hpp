@@ -1,4 +1,4 @@
-// Drawing parts with their materials, whatever a pass makes of them.
+// Draws parts with their materials; shared by several passes.
 #pragma once
 
 #include <functional>
@@ -7,19 +7,18 @@
 
 namespace bolt::render {
 
-// The vertex side of every pipeline that draws parts with scene.vert.
-gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const Kind& kind, std::uint32_t views);
+// The vertex stage of every pipeline that draws parts with scene.vert.
+gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const PipelineKind& kind, std::uint32_t views);
 
-// Which pipeline a kind is drawn with; its set 0 is made by `frame_set`.
+// Selects the pipeline of each kind of part. `frame_set` creates descriptor set 0.
 struct PartDrawing {
-    std::function<bool(const Kind&)> wanted;
-    std::function<Result<const gpu::Pipeline*>(const Kind&)> pipeline;
+    std::function<bool(const PipelineKind&)> wanted;
+    std::function<Result<const gpu::Pipeline*>(const PipelineKind&)> pipeline;
     std::function<Result<VkDescriptorSet>(const gpu::Pipeline&)> frame_set;
-    std::function<VkRect2D(const Kind&)>
-        area;  // of the picture, outside of which nothing is drawn; none: all
+    std::function<VkRect2D(const PipelineKind&)> area;  // scissor rectangle; null: the whole picture
 };
 
-// Records them in the list's order. Set 1: a material's maps; push constant: its index.
+// Draws the list in its order. Set 1 holds a material's maps, the push constant its index.
 Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing& drawing);
 
 }  // namespace bolt::render

@@ -32,7 +32,7 @@ void bind_geometry(VkCommandBuffer commands, const Draw& d) {
     VkBuffer buffers[] = {model.positions.get(), model.attributes.get(), model.second_uv.get()};
     VkDeviceSize offsets[] = {0, 0, 0};
     if (d.deformed.buffer != VK_NULL_HANDLE) {
-        // What is bent begins with the part, so the draw begins at vertex 0, and the other stream is moved.
+        // Deformed streams start at the part: draw from vertex 0 and offset the other streams instead.
         buffers[0] = buffers[1] = d.deformed.buffer;
         offsets[0] = d.deformed.positions;
         offsets[1] = d.deformed.attributes;
@@ -43,7 +43,7 @@ void bind_geometry(VkCommandBuffer commands, const Draw& d) {
 }
 
 void draw(VkCommandBuffer commands, const Draw& d) {
-    const Part& part = d.model->parts[d.part];
+    const MeshPart& part = d.model->parts[d.part];
     const LevelRange& level = part.levels[d.level];
     const std::int32_t first = d.deformed.buffer != VK_NULL_HANDLE ? 0 : part.first_vertex;
     vkCmdDrawIndexed(commands, level.index_count, d.instances, level.first_index, first, d.first_instance);
@@ -59,17 +59,17 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkA
     return info;
 }
 
-VkRect2D area_of(const PassContext& context, std::span<const Box> boxes, float margin_px) {
+VkRect2D area_of(const PassContext& context, std::span<const BoundingBox> boxes, float margin_px) {
     const glm::vec2 size(static_cast<float>(context.extent.width), static_cast<float>(context.extent.height));
     glm::vec2 low(1e30F), high(-1e30F);
-    for (const Box& box : boxes)
+    for (const BoundingBox& box : boxes)
         for (std::uint32_t view = 0; view < context.views; ++view)
             for (int corner = 0; corner < 8; ++corner) {
                 const glm::vec4 c = context.shared.views[view].clip_from_world *
                                     glm::vec4((corner & 1) != 0 ? box.high.x : box.low.x,
                                               (corner & 2) != 0 ? box.high.y : box.low.y,
                                               (corner & 4) != 0 ? box.high.z : box.low.z, 1.0F);
-                if (c.w <= 0.0F) return {{0, 0}, context.extent};  // reaches behind the eye
+                if (c.w <= 0.0F) return {{0, 0}, context.extent};  // the box reaches behind the eye
                 const glm::vec2 pixel = (glm::vec2(c) / c.w * 0.5F + 0.5F) * size;
                 low = glm::min(low, pixel);
                 high = glm::max(high, pixel);

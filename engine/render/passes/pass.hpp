@@ -1,4 +1,4 @@
-// What the passes of one frame share, and the few commands that all of them record.
+// State and commands shared by the passes of a frame.
 #pragma once
 
 #include <cstring>
@@ -9,9 +9,9 @@
 
 namespace bolt::render {
 
-// Pictures are 8-bit sRGB, one layer a view.
+// Pictures are 8-bit sRGB, one layer per view.
 inline constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
-// Of layers that are laid over a picture: eight bits of a colour times its opacity would show.
+// For layers that are blended over a picture; with 8 bits, premultiplied colours would show banding.
 inline constexpr VkFormat layer_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat surface_format = VK_FORMAT_R16G16B16A16_UNORM;
@@ -19,14 +19,14 @@ inline constexpr VkFormat wide_color_format = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat wide_rough_format = VK_FORMAT_R8G8_UNORM;
 inline constexpr VkFormat occlusion_format = VK_FORMAT_R8_UNORM;
 inline constexpr VkFormat mark_format = VK_FORMAT_R8G8B8A8_UNORM;
-// light.frag counts on it.
+// light.frag assumes this number.
 inline constexpr VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
 inline constexpr gpu::ImageRange depth_range{VK_IMAGE_ASPECT_DEPTH_BIT};
 
 // Compiled shaders by file name ("scene.frag").
 using Shaders = std::map<std::string, gpu::Shader, std::less<>>;
 
-// What a pass makes its pipelines from. The shaders outlive the pass.
+// The inputs for creating a pass. The shaders outlive the pass.
 struct PassMaker {
     gpu::Device& device;
     const gpu::PipelineCache& cache;
@@ -35,51 +35,52 @@ struct PassMaker {
 
 struct PassContext {
     gpu::Device& device;
-    gpu::Frame& frame;
+    gpu::FrameContext& frame;
     const Scene& scene;
     const EnvironmentLight& environment;
-    shared::Frame& shared;
-    gpu::Piece frame_block;  // shared, where shaders read it
-    std::uint32_t views;     // drawn in one pass
+    shared::FrameData& shared;
+    gpu::TransientRange frame_block;  // the uploaded copy of `shared`
+    std::uint32_t views;              // drawn in one pass
     VkExtent2D extent;
-    gpu::Piece instances, materials;  // of the draw list
-    const GpuTexture& white;          // in place of maps that a material has not
+    gpu::TransientRange instances, materials;  // of the draw list
+    const GpuTexture& white;                   // replaces missing maps of a material
     VkImageView white_array;
     const DeformedParts& deformed;
 };
 
-// Values of this frame for shaders to read; at least room for one, so that nothing is bound empty.
+// Uploads values for this frame's shaders; the range has room for at least one value, because empty ranges
+// cannot be bound.
 template <class T>
-Result<gpu::Piece> put(gpu::Frame& frame, std::span<const T> values) {
-    Result<gpu::Piece> piece = frame.piece(std::max<std::size_t>(values.size_bytes(), sizeof(T)));
+Result<gpu::TransientRange> upload_transient(gpu::FrameContext& frame, std::span<const T> values) {
+    Result<gpu::TransientRange> piece = frame.allocate(std::max<std::size_t>(values.size_bytes(), sizeof(T)));
     if (piece && !values.empty()) std::memcpy(piece->bytes.data(), values.data(), values.size_bytes());
     return piece;
 }
 
-// Moves a result to its place.
+// Moves the value of a result into `to`.
 template <class T>
-Status take(T& to, Result<T> made) {
+Status assign(T& to, Result<T> made) {
     if (!made) return fail(made.error());
     to = std::move(*made);
     return {};
 }
 
-// For VkRenderingInfo: 0 without multiview.
+// The view mask for VkRenderingInfo: 0 without multiview.
 std::uint32_t view_mask(std::uint32_t views);
-// A pipeline that draws that many at once.
+// Configures a pipeline for this number of views.
 void draw_views(gpu::GraphicsInfo& info, std::uint32_t views);
 
-// Viewport and scissor: all of it.
+// Sets viewport and scissor to the whole extent.
 void set_area(VkCommandBuffer commands, VkExtent2D extent);
 
 void bind(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorSet set,
           std::uint32_t index = 0);
-// Where a draw's vertices are; the next may have them in the same place.
+// Whether two draws use the same vertex buffers; then they need to be bound only once.
 bool same_geometry(const Draw& a, const Draw& b);
 void bind_geometry(VkCommandBuffer commands, const Draw& draw);
 void draw(VkCommandBuffer commands, const Draw& draw);
 
-// Draws every part that `wanted` takes with the bound pipeline.
+// Draws every part accepted by `wanted` with the bound pipeline.
 template <class Wanted>
 void draw_all(VkCommandBuffer commands, const DrawList& list, const Wanted& wanted) {
     const Draw* bound = nullptr;
@@ -94,16 +95,17 @@ void draw_all(VkCommandBuffer commands, const DrawList& list, const Wanted& want
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load,
                                      VkAttachmentStoreOp store);
 
-// The pixels that boxes may cover in any of the context's views, widened by a margin; at most the picture.
-VkRect2D area_of(const PassContext& context, std::span<const Box> boxes, float margin_px);
+// The pixels that the boxes may cover in any of the context's views, widened by a margin and clamped to the
+// picture.
+VkRect2D area_of(const PassContext& context, std::span<const BoundingBox> boxes, float margin_px);
 
-// The whole of an attached image or images.
+// Rendering info that covers the whole of the attached images.
 VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
                                std::span<const VkRenderingAttachmentInfo> colors,
                                const VkRenderingAttachmentInfo* depth = nullptr);
 
-// A rectangle as far away as can be, over all of the attached images, drawn with the bound pipeline, which is
-// one of screen.vert.
+// Draws a rectangle at the far plane over the whole image, with the bound pipeline, which must use
+// screen.vert.
 void draw_screen(VkCommandBuffer commands);
 
 }  // namespace bolt::render

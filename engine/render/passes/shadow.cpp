@@ -2,21 +2,21 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "engine/base/hash.hpp"
 #include "engine/gpu/transfer.hpp"
-#include "engine/render/shadow_view.hpp"
+#include "engine/render/camera.hpp"
 
 namespace bolt::render {
 
 namespace {
 
-using gpu::Use;
+using gpu::ResourceUse;
 
-// FNV-1a over everything that the map shows of what stands still.
-std::uint64_t key_of(const Scene& scene, const glm::mat4& shadow_from_world) {
-    std::uint64_t key = 14695981039346656037ULL;
+// Hashes everything that determines the static shadow map; never 0, which stands for "no map yet".
+std::uint64_t static_map_key(const Scene& scene, const glm::mat4& shadow_from_world) {
+    Fnv1a hash;
     const auto add = [&](const void* data, std::size_t size) {
-        const auto* bytes = static_cast<const unsigned char*>(data);
-        for (std::size_t i = 0; i < size; ++i) key = (key ^ bytes[i]) * 1099511628211ULL;
+        hash.add(std::span(static_cast<const std::byte*>(data), size));
     };
     add(glm::value_ptr(shadow_from_world), sizeof shadow_from_world);
     for (const Object& object : scene.objects) {
@@ -29,7 +29,7 @@ std::uint64_t key_of(const Scene& scene, const glm::mat4& shadow_from_world) {
         add(bent.joints.data(), bent.joints.size() * sizeof(glm::mat4));
         add(bent.weights.data(), bent.weights.size() * sizeof(float));
     }
-    return key != 0 ? key : 1;
+    return hash.value() != 0 ? hash.value() : 1;
 }
 
 Scene casters(const Scene& scene, bool moving) {
@@ -49,15 +49,18 @@ Result<gpu::Image> make_map(gpu::Device& device, std::uint32_t size) {
 }
 
 void copy_map(VkCommandBuffer commands, const gpu::Image& from, const gpu::Image& to) {
-    gpu::image_barrier(commands, from.get(), Use::depth_read, Use::transfer_from, depth_range);
-    gpu::image_barrier_discarding(commands, to.get(), Use::depth_read, Use::transfer_to, depth_range);
+    gpu::image_barrier(commands, from.get(), ResourceUse::depth_read, ResourceUse::transfer_from,
+                       depth_range);
+    gpu::image_barrier_discarding(commands, to.get(), ResourceUse::depth_read, ResourceUse::transfer_to,
+                                  depth_range);
     VkImageCopy region{};
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
     region.extent = {from.info().extent.width, from.info().extent.height, 1};
     vkCmdCopyImage(commands, from.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.get(),
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-    gpu::image_barrier(commands, from.get(), Use::transfer_from, Use::depth_read, depth_range);
-    gpu::image_barrier(commands, to.get(), Use::transfer_to, Use::depth_target, depth_range);
+    gpu::image_barrier(commands, from.get(), ResourceUse::transfer_from, ResourceUse::depth_read,
+                       depth_range);
+    gpu::image_barrier(commands, to.get(), ResourceUse::transfer_to, ResourceUse::depth_target, depth_range);
 }
 
 }  // namespace
@@ -73,17 +76,16 @@ Result<ShadowPass> ShadowPass::create(const PassMaker& maker, std::uint32_t size
     info.depth_compare = VK_COMPARE_OP_LESS;
     info.depth_clamp = true;
     info.depth_bias_slope = 1.5F;
-    if (Status s = take(pass.pipeline_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)); !s)
-        return fail(s.error());
-    if (Status s = take(pass.still_, make_map(maker.device, size)); !s) return fail(s.error());
-    const Status readable = gpu::run_now(maker.device, [&](VkCommandBuffer commands) {
-        gpu::image_barrier(commands, pass.still_.get(), Use::undefined, Use::depth_read, depth_range);
-    });
-    if (!readable) return fail(readable.error());
+    BOLT_TRY(assign(pass.pipeline_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)));
+    BOLT_TRY(assign(pass.still_, make_map(maker.device, size)));
+    BOLT_TRY(gpu::submit_and_wait(maker.device, [&](VkCommandBuffer commands) {
+        gpu::image_barrier(commands, pass.still_.get(), ResourceUse::undefined, ResourceUse::depth_read,
+                           depth_range);
+    }));
     return pass;
 }
 
-bool ShadowPass::describe(const Scene& scene, shared::Frame& frame) {
+bool ShadowPass::describe(const Scene& scene, shared::FrameData& frame) {
     if (!casts_shadow(scene)) return false;
     Scene still = casters(scene, false);
     if (still.objects.empty()) still = casters(scene, true);
@@ -94,12 +96,12 @@ bool ShadowPass::describe(const Scene& scene, shared::Frame& frame) {
 Status ShadowPass::draw(PassContext& context) {
     drawn_ = false;
     if (context.shared.shadows == 0) return {};
-    // Steps of a level of detail below the size of a texel do not show.
+    // Level-of-detail errors below the size of a texel are not visible.
     const glm::mat4& m = context.shared.shadow_from_world;
-    Detail detail;
+    DetailLimits detail;
     detail.allowed_m = 1.0F / (glm::length(glm::vec3(m[0].x, m[1].x, m[2].x)) * 0.5F *
                                static_cast<float>(still_.info().extent.width));
-    const std::uint64_t key = key_of(context.scene, m);
+    const std::uint64_t key = static_map_key(context.scene, m);
     const DrawList moving = make_draw_list(casters(context.scene, true), {}, detail, context.deformed);
     moving_ = !moving.draws.empty();
     if (key == still_key_ && !moving_) return {};
@@ -107,20 +109,20 @@ Status ShadowPass::draw(PassContext& context) {
     if (key != still_key_) {
         still_key_ = 0;
         const DrawList list = make_draw_list(casters(context.scene, false), {}, detail, context.deformed);
-        gpu::image_barrier_discarding(context.frame.commands(), still_.get(), Use::depth_read,
-                                      Use::depth_target, depth_range);
-        if (Status done = draw_into(context, still_, list, true); !done) return done;
+        gpu::image_barrier_discarding(context.frame.commands(), still_.get(), ResourceUse::depth_read,
+                                      ResourceUse::depth_target, depth_range);
+        BOLT_TRY(draw_into(context, still_, list, true));
         still_key_ = key;
         drawn_ = true;
     }
     if (moving_) {
         if (all_.get() == VK_NULL_HANDLE) {
-            if (Status s = take(all_, make_map(context.device, still_.info().extent.width)); !s) return s;
-            gpu::image_barrier(context.frame.commands(), all_.get(), Use::undefined, Use::depth_read,
-                               depth_range);
+            BOLT_TRY(assign(all_, make_map(context.device, still_.info().extent.width)));
+            gpu::image_barrier(context.frame.commands(), all_.get(), ResourceUse::undefined,
+                               ResourceUse::depth_read, depth_range);
         }
         copy_map(context.frame.commands(), still_, all_);
-        if (Status done = draw_into(context, all_, moving, false); !done) return done;
+        BOLT_TRY(draw_into(context, all_, moving, false));
     }
     context.frame.end_timing();
     return {};
@@ -128,12 +130,9 @@ Status ShadowPass::draw(PassContext& context) {
 
 Status ShadowPass::draw_into(PassContext& context, const gpu::Image& target, const DrawList& list,
                              bool clear) {
-    Result<gpu::Piece> instances = put<shared::Instance>(context.frame, list.instances);
-    if (!instances) return fail(instances.error());
-    Result<gpu::SetWriter> writer = gpu::SetWriter::create(context.device, context.frame, pipeline_, 0);
-    if (!writer) return fail(writer.error());
-    Result<VkDescriptorSet> set = writer->piece(0, context.frame_block).piece(1, *instances).finish();
-    if (!set) return fail(set.error());
+    BOLT_TRY_ASSIGN(auto instances, upload_transient<shared::Instance>(context.frame, list.instances));
+    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline_, 0));
+    BOLT_TRY_ASSIGN(auto set, writer.range(0, context.frame_block).range(1, instances).finish());
     const VkCommandBuffer commands = context.frame.commands();
     VkRenderingAttachmentInfo depth = attachment(
         target.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
@@ -142,10 +141,11 @@ Status ShadowPass::draw_into(PassContext& context, const gpu::Image& target, con
     const VkRenderingInfo rendering = rendering_info(target.info().extent, 1, {}, &depth);
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, target.info().extent);
-    bind(commands, pipeline_, *set);
+    bind(commands, pipeline_, set);
     draw_all(commands, list, [](const Draw&) { return true; });
     vkCmdEndRendering(commands);
-    gpu::image_barrier(commands, target.get(), Use::depth_target, Use::depth_read, depth_range);
+    gpu::image_barrier(commands, target.get(), ResourceUse::depth_target, ResourceUse::depth_read,
+                       depth_range);
     return {};
 }
 

@@ -12,20 +12,20 @@ namespace bolt::trainer {
 namespace {
 
 // After the lesson with the sign of what became of the joint, as its outline has the colour.
-render::Label clamp_of(const Playing& p, const words::Words& words, std::size_t joint) {
-    const play::Course& course = *p.course;
-    render::Label label = scene::clamp_label(words, course.assembly(), course.setup(), course.state(), joint);
-    if (p.finished && p.verdicts[joint] != lesson::Verdict::none)
+render::Label clamp_of(const ActiveLesson& p, const words::Words& words, std::size_t joint) {
+    const session::Course& course = *p.course;
+    render::Label label = scene::clamp_label(words, course.assembly(), course.setup(), p.place.world, joint);
+    if (p.pace.finished && p.verdicts[joint] != lesson::Verdict::none)
         label.text = fmt::format("{} {}", view::sign_of(p.verdicts[joint]), label.text);
     return label;
 }
 
 // A plate over another joint's nut would name the wrong one.
-void keep_off_nuts(const Playing& p, const Screen& screen, std::vector<render::Rectangle>& taken) {
+void keep_off_nuts(const ActiveLesson& p, const Screen& screen, std::vector<render::Rectangle>& taken) {
     const servo::Setup& setup = p.course->setup();
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
-        const servo::NutPlace& nut = setup.nuts[i];
-        const Vec3 middle = servo::nut_centre(nut, p.course->state().joints[i].nut.angle);
+        const servo::NutGeometry& nut = setup.nuts[i];
+        const Vec3 middle = world::nut_centre(p.place.world, setup, i);
         const auto at = project(screen, middle), edge = project(screen, middle + nut.across_flats * nut.e1),
                    other = project(screen, middle + nut.across_flats * nut.e2);
         if (!at || !edge || !other) continue;
@@ -37,24 +37,22 @@ void keep_off_nuts(const Playing& p, const Screen& screen, std::vector<render::R
 
 }  // namespace
 
-void label_system(scene::World&, Frame& frame) {
-    Playing& p = frame.playing;
-    const play::Course& course = *p.course;
+void label_system(scene::World& world, Frame& frame) {
+    ActiveLesson& p = frame.playing;
+    const session::Course& course = *p.course;
     const servo::Setup& setup = course.setup();
-    const servo::State& state = course.state();
-    const lesson::Step* due = trainer::due(p.back, course.lesson());
+    const lesson::Step* due = trainer::due(p.undo, course.lesson());
     p.scene.labels.clear();
     // What a trainee at a real machine would not see is no part of an assessment.
     const bool helps = course.lesson().mode != lesson::Mode::assessment;
-    if (frame.wanted.wants(Action::flange_map)) p.clamp_map = !p.clamp_map && helps;
-    if (!p.finished)
-        if (auto figure = scene::work_label(frame.words, course.lesson(), setup, state, p.output,
-                                            p.hand.wrench, p.palette))
+    if (frame.wanted.wants(Action::flange_map)) p.view.clamp_map = !p.view.clamp_map && helps;
+    if (!p.pace.finished)
+        if (auto figure = scene::work_label(frame.words, course.lesson(), setup, world, p.palette))
             p.scene.labels.push_back(*figure);
     const auto named = [&](std::size_t joint, bool is_due) {
         const std::string& id = course.assembly().joints[joint].design.id;
         render::Label label = scene::plate(is_due ? fmt::format("{} {}", view::due_sign, id) : id,
-                                           scene::above_nut(setup, state, joint), 16.0F);
+                                           scene::above_nut(setup, world, joint), 16.0F);
         label.color = is_due ? p.palette.due : scene::label_color;
         label.moved_px = {0.0F, 8.0F};
         p.scene.labels.push_back(label);
@@ -62,15 +60,15 @@ void label_system(scene::World&, Frame& frame) {
     const bool guided = course.lesson().mode == lesson::Mode::guided;
     const std::size_t marked = due != nullptr && guided ? due->joint : SIZE_MAX;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
-        if (p.clamp_map || p.finished)
+        if (p.view.clamp_map || p.pace.finished)
             p.scene.labels.push_back(clamp_of(p, frame.words, i));
-        else if (i == marked || p.under == i)
+        else if (i == marked || p.pointing.nut == i)
             named(i, i == marked);
     }
     if (frame.fonts == nullptr) return;
     const Screen screen = screen_of(p, frame.size);
-    std::vector<render::Rectangle> taken = p.plates;
-    if (!p.clamp_map && !p.finished) keep_off_nuts(p, screen, taken);
+    std::vector<render::Rectangle> taken = p.view.occupied;
+    if (!p.view.clamp_map && !p.pace.finished) keep_off_nuts(p, screen, taken);
     view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size), taken);
 }
 

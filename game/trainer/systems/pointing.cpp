@@ -7,80 +7,79 @@ namespace {
 constexpr double spin_reach = 120.0;   // px of drag for the fastest twist
 constexpr double wrench_reach = 22.0;  // px beside a wrench that still count
 
-std::vector<Vec3> centres_of(const play::Course& course) {
+std::vector<Vec3> nut_centres(const scene::World& world, const servo::Setup& setup) {
     std::vector<Vec3> centres;
-    for (std::size_t i = 0; i < course.setup().nuts.size(); ++i)
-        centres.push_back(servo::nut_centre(course.setup().nuts[i], course.state().joints[i].nut.angle));
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) centres.push_back(world::nut_centre(world, setup, i));
     return centres;
 }
 
-bool loosening(const play::Course& course) { return course.lesson().task == lesson::Task::loosen; }
+bool loosening(const session::Course& course) { return course.lesson().task == lesson::Task::loosen; }
 
 // What the press meant: the hand, or the view.
-void press(Playing& p, Wish& wish) {
-    p.hand_drag = p.under.has_value() || p.over_wrench;
-    if (p.under) {
-        wish.nut = p.under;
+void press(ActiveLesson& p, Wish& wish) {
+    p.pointing.drags_hand = p.pointing.nut.has_value() || p.pointing.wrench;
+    if (p.pointing.nut) {
+        wish.nut = p.pointing.nut;
         wish.loosens = loosening(*p.course);
-    } else if (p.over_wrench) {
+    } else if (p.pointing.wrench) {
         wish.wrench = true;
     }
 }
 
-double drag_of(const Playing& p, const Screen& screen, const glm::dvec2& drag) {
-    if (!p.hand.nut || p.hand.doing != Doing::holding || !p.hand.wrench) return 0.0;
+double drag_of(const ActiveLesson& p, const Screen& screen, const glm::dvec2& drag) {
+    if (!hand_of(p).nut || hand_of(p).doing != Doing::holding || !hand_of(p).wrench) return 0.0;
     const servo::Setup& setup = p.course->setup();
-    const glm::dvec2 lever =
-        lever_on_screen(screen, p.output.tool, setup.nuts[*p.hand.nut].axis, setup.wrench.handle_length);
+    const glm::dvec2 lever = lever_on_screen(screen, tool_of(p).pose, setup.nuts[*hand_of(p).nut].axis,
+                                             setup.wrench.handle_length);
     return turn_of_drag(lever, drag);
 }
 
-void move_camera(Playing& p, const Wanted& wanted, double height, double aspect) {
+void move_camera(ActiveLesson& p, const Wanted& wanted, double height, double aspect) {
     const glm::dvec2 turned =
-        wanted.turned + (wanted.left && !p.hand_drag ? wanted.dragged : glm::dvec2(0.0));
-    view::turn(p.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
-    view::pan(p.camera.goal, glm::dvec2(wanted.moved.x, -wanted.moved.y) / height);
+        wanted.turned + (wanted.left && !p.pointing.drags_hand ? wanted.dragged : glm::dvec2(0.0));
+    view::turn(p.view.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
+    view::pan(p.view.camera.goal, glm::dvec2(wanted.moved.x, -wanted.moved.y) / height);
     const glm::dvec2 at(wanted.pointer.x / height - 0.5 * aspect, 0.5 - wanted.pointer.y / height);
-    if (wanted.wheel != 0.0) view::zoom(p.camera.goal, wanted.wheel, at, p.place.machine);
+    if (wanted.wheel != 0.0) view::zoom(p.view.camera.goal, wanted.wheel, at, p.place.machine);
 }
 
 }  // namespace
 
-void pointing_system(scene::World&, Frame& frame) {
-    Playing& p = frame.playing;
+void read_pointer(const scene::World& world, Frame& frame) {
+    ActiveLesson& p = frame.playing;
     const Wanted& wanted = frame.wanted;
     const Screen screen = screen_of(p, frame.size);
     // In a slow frame the pointer comes to a nut, is pressed and is already on its way again.
     const glm::dvec2 pointer = wanted.pressed.value_or(wanted.pointer);
-    if (wanted.pressed || !p.hand_drag || !wanted.left) {
-        p.under = nut_at(screen, pointer, p.course->setup(), centres_of(*p.course));
-        const Vec3 end = p.hand.rest * Vec3(p.course->setup().wrench.handle_length, 0.0, 0.0);
-        const auto off = pixels_to(screen, pointer, p.hand.rest.position, end);
-        p.over_wrench = !p.hand.wrench && !p.under && off && *off < wrench_reach;
+    if (wanted.pressed || !p.pointing.drags_hand || !wanted.left) {
+        p.pointing.nut = nut_at(screen, pointer, p.course->setup(), nut_centres(world, p.course->setup()));
+        const Vec3 end = hand_of(p).rest * Vec3(p.course->setup().wrench.handle_length, 0.0, 0.0);
+        const auto off = pixels_to(screen, pointer, hand_of(p).rest.position, end);
+        p.pointing.wrench = !hand_of(p).wrench && !p.pointing.nut && off && *off < wrench_reach;
     }
-    if (wanted.wants(Action::restart_step)) go_back(p.back, p.course->lesson(), 0);
-    if (wanted.wants(Action::undo)) go_back(p.back, p.course->lesson(), 1);
+    if (wanted.wants(Action::restart_step)) go_back(p.undo, p.course->lesson(), 0);
+    if (wanted.wants(Action::undo)) go_back(p.undo, p.course->lesson(), 1);
     if (p.station) {
-        p.under.reset();
-        p.over_wrench = p.station->near_wrench;
-        p.hand_drag = false;
+        p.pointing.nut.reset();
+        p.pointing.wrench = p.station->near_wrench;
+        p.pointing.drags_hand = false;
         move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
         return;
     }
     Wish wish;
-    wish.held = wanted.left && p.hand_drag;
+    wish.held = wanted.left && p.pointing.drags_hand;
     if (wanted.pressed) {
-        p.press = *wanted.pressed;
+        p.pointing.press = *wanted.pressed;
         press(p, wish);
-        wish.held = wanted.left && p.hand_drag;
+        wish.held = wanted.left && p.pointing.drags_hand;
     }
-    if (wanted.wants(Action::tool)) (p.hand.wrench ? wish.lay_down : wish.wrench) = true;
+    if (wanted.wants(Action::tool)) (hand_of(p).wrench ? wish.lay_down : wish.wrench) = true;
     if (wish.held) {
         wish.turn = drag_of(p, screen, wanted.dragged);
-        wish.spin = (wanted.pointer.x - p.press.x) / spin_reach;
+        wish.spin = (wanted.pointer.x - p.pointing.press.x) / spin_reach;
     }
-    if (p.back.to && p.hand.nut) wish.retreat = true;
-    if (p.finished || p.paused) wish = {};
+    if (p.undo.to && hand_of(p).nut) wish.retreat = true;
+    if (p.pace.finished || p.pace.paused) wish = {};
     trainer::wish(p.mouse, wish, p.course->setup(), p.course->state());
     move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
 }

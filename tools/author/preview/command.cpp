@@ -25,38 +25,35 @@ Status in_a_window(const PreviewOptions& options, Sources& sources) {
         error.expected += "; --png FILE needs none";
         return fail(std::move(error));
     }
-    const auto extensions = desktop->vulkan_extensions();
-    if (!extensions) return fail(extensions.error());
-    Result<platform::Window> window =
-        platform::Window::open(*desktop, {sources.subject().name, options.size.width, options.size.height});
-    if (!window) return fail(window.error());
-    const Result<gpu::Instance> instance = make_instance(options, *extensions);
-    if (!instance) return fail(instance.error());
-    return show_preview(options, sources, *window, *instance);
+    BOLT_TRY_ASSIGN(const auto extensions, desktop->vulkan_extensions());
+    BOLT_TRY_ASSIGN(auto window, platform::Window::open(*desktop, {sources.subject().name, options.size.width,
+                                                                   options.size.height}));
+    BOLT_TRY_ASSIGN(const auto instance, make_instance(options, extensions));
+    return show_preview(options, sources, window, instance);
 }
 
 int run_preview(PreviewOptions options, const std::string& size) {
     const Result<VkExtent2D> extent = view::parse_size(size);
-    if (!extent) return complain(extent.error());
+    if (!extent) return print_error(extent.error());
     options.size = *extent;
     Sources sources(options);
     view::LoadedSubject loaded = sources.read_subject(view::Level::near);
-    if (!loaded.ok()) return complain(loaded.errors);
+    if (!loaded.ok()) return print_error(loaded.errors);
     sources.keep(std::move(loaded.subject), view::Level::near);
     Result<shading::RadianceImage> light = sources.read_light();
-    if (!light) return complain(light.error());
+    if (!light) return print_error(light.error());
     sources.keep(std::move(*light));
     if (!options.view.empty())
         if (const auto known = view::named_view(sources.subject(), options.view); !known)
-            return complain(known.error());
+            return print_error(known.error());
     if (options.png.empty()) {
         const Status shown = in_a_window(options, sources);
-        return shown ? 0 : complain(shown.error());
+        return shown ? 0 : print_error(shown.error());
     }
     const Result<gpu::Instance> instance = make_instance(options, {});
-    if (!instance) return complain(instance.error());
+    if (!instance) return print_error(instance.error());
     const Status drawn = draw_preview(options, sources, *instance);
-    return drawn ? 0 : complain(drawn.error());
+    return drawn ? 0 : print_error(drawn.error());
 }
 
 }  // namespace

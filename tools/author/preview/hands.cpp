@@ -38,7 +38,7 @@ void press(Key key, Wishes& wishes) {
 }  // namespace
 
 Wishes Hands::apply(std::span<const Event> events, double height, double aspect, view::Orbit& camera,
-                    const render::Box& box) {
+                    const render::BoundingBox& box) {
     Wishes wishes;
     for (const Event& event : events) {
         if (const auto* key = std::get_if<KeyEvent>(&event)) {

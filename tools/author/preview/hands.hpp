@@ -19,7 +19,7 @@ class Hands {
   public:
     // `height`: of the window, pixels; `aspect`: width over height.
     Wishes apply(std::span<const platform::Event> events, double height, double aspect, view::Orbit& camera,
-                 const render::Box& box);
+                 const render::BoundingBox& box);
 
   private:
     enum class Drag : std::uint8_t { none, turn, pan };

@@ -5,11 +5,11 @@
 #include <cstdio>
 
 #include "engine/base/console.hpp"
-#include "engine/gpu/restarts.hpp"
+#include "engine/gpu/device_loss_policy.hpp"
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 #include "engine/render/picture.hpp"
-#include "game/view/painter.hpp"
+#include "game/view/gpu_context.hpp"
 #include "game/view/picture_file.hpp"
 #include "tools/author/preview/hands.hpp"
 
@@ -48,16 +48,13 @@ Result<OnGpu> put_on_gpu(const PreviewOptions& options, const Sources& sources, 
     render::RendererOptions renderer;
     renderer.shaders = shaders;
     renderer.level_error_px = level_error;
-    Result<view::Painter> painter = view::make_painter(instance, {options.gpu, surface}, renderer);
-    if (!painter) return fail(painter.error());
-    on.painter = std::move(*painter);
-    Result<render::EnvironmentLight> light =
-        render::upload_environment(*on.painter.device, sources.radiance());
-    if (!light) return fail(light.error());
-    on.light = std::make_unique<render::EnvironmentLight>(std::move(*light));
-    auto stage = view::set_stage(*on.painter.device, sources.subject(), *on.light, {true, true});
-    if (!stage) return fail(stage.error());
-    on.stage = std::move(*stage);
+    BOLT_TRY_ASSIGN(auto painter, view::make_painter(instance, {options.gpu, surface}, renderer));
+    on.painter = std::move(painter);
+    BOLT_TRY_ASSIGN(auto light, render::upload_environment(*on.painter.device, sources.radiance()));
+    on.light = std::make_unique<render::EnvironmentLight>(std::move(light));
+    BOLT_TRY_ASSIGN(auto stage,
+                    view::set_stage(*on.painter.device, sources.subject(), *on.light, {true, true}));
+    on.stage = std::move(stage);
     return on;
 }
 
@@ -119,7 +116,7 @@ class Show {
 
 // What is wrong with a part, on the standard error and, until it is well again, in the title.
 void Show::tell(Part part, std::vector<Error> errors) {
-    (void)complain(errors);
+    (void)print_error(errors);
     wrong_[part] = std::move(errors);
     const std::string& name = sources_.subject().name;
     std::string title = fmt::format("{} - bolt-author preview", name);
@@ -136,14 +133,12 @@ void Show::tell_messages() {
 
 Status Show::start() {
     const gpu::MakeSurface make_surface = [this] { return window_.make_surface(instance_); };
-    Result<gpu::Surface> surface = make_surface();
-    if (!surface) return fail(surface.error());
-    Result<OnGpu> on = put_on_gpu(options_, sources_, instance_, shaders_, surface->get());
-    if (!on) return fail(on.error());
-    on_.emplace(std::move(*on));
-    auto swapchain = gpu::Swapchain::create(*on_->painter.device, std::move(*surface), make_surface);
-    if (!swapchain) return fail(swapchain.error());
-    on_->swapchain = std::move(*swapchain);
+    BOLT_TRY_ASSIGN(auto surface, make_surface());
+    BOLT_TRY_ASSIGN(auto on, put_on_gpu(options_, sources_, instance_, shaders_, surface.get()));
+    on_.emplace(std::move(on));
+    BOLT_TRY_ASSIGN(auto swapchain,
+                    gpu::Swapchain::create(*on_->painter.device, std::move(surface), make_surface));
+    on_->swapchain = std::move(swapchain);
     if (!std::exchange(looked_, true))
         camera_.jump(first_look(options_, sources_, *on_->stage, size_of(window_)));
     stale_ = true;
@@ -162,12 +157,12 @@ Status Show::take_subject(view::Level level) {
         tell(of_subject, {stage.error()});
         return {};
     }
-    if (Status idle = on_->painter.device->idle(); !idle) return idle;
+    BOLT_TRY(on_->painter.device->idle());
     on_->stage = std::move(*stage);
     stale_ = true;
     sources_.keep(std::move(loaded.subject), level);
     tell(of_subject, {});
-    return say(fmt::format("read {} again\n", sources_.subject().name));
+    return print(fmt::format("read {} again\n", sources_.subject().name));
 }
 
 Status Show::take_light() {
@@ -176,10 +171,9 @@ Status Show::take_light() {
         tell(of_light, {read.error()});
         return {};
     }
-    Result<render::EnvironmentLight> light = render::upload_environment(*on_->painter.device, *read);
-    if (!light) return fail(light.error());
-    if (Status idle = on_->painter.device->idle(); !idle) return idle;
-    *on_->light = std::move(*light);
+    BOLT_TRY_ASSIGN(auto light, render::upload_environment(*on_->painter.device, *read));
+    BOLT_TRY(on_->painter.device->idle());
+    *on_->light = std::move(light);
     stale_ = true;
     sources_.keep(std::move(*read));
     tell(of_light, {});
@@ -195,15 +189,14 @@ Status Show::take_shaders(render::ShaderCode code) {
     gpu::Device& device = *on_->painter.device;
     const auto draws = [&](render::Renderer& renderer) -> Status {
         const render::Eye eye = view::eye_of(camera_.shown, on_->stage->box, 1.0F);
-        const auto drawn = render::take_pictures(device, *on_->painter.frames, renderer, on_->stage->scene,
-                                                 std::span(&eye, 1), {32, 32});
-        if (!drawn) return fail(drawn.error());
+        BOLT_TRY(render::take_pictures(device, *on_->painter.frames, renderer, on_->stage->scene,
+                                       std::span(&eye, 1), {32, 32}));
         return {};
     };
     auto renderer = render::Renderer::create(device, options);
     const Status good = renderer ? draws(**renderer) : Status(fail(renderer.error()));
     if (!good && good.error().lost) return good;
-    if (Status idle = device.idle(); !idle) return idle;
+    BOLT_TRY(device.idle());
     if (!good) {
         tell(of_shaders, {good.error()});
         return {};
@@ -220,10 +213,8 @@ Status Show::follow_files(bool all) {
     if (!all && now - files_seen_ < look_every) return {};
     files_seen_ = now;
     const Sources::Changes changes = sources_.changed(now);
-    if (changes.light || all)
-        if (Status taken = take_light(); !taken) return taken;
-    if (changes.subject || all)
-        if (Status taken = take_subject(sources_.level()); !taken) return taken;
+    if (changes.light || all) BOLT_TRY(take_light());
+    if (changes.subject || all) BOLT_TRY(take_subject(sources_.level()));
     if (!hot_shaders_) return {};
     std::optional<Result<render::ShaderCode>> code = hot_shaders_->changed(now);
     if (!code) return {};
@@ -241,24 +232,21 @@ Status Show::do_as_wished(const Wishes& wishes) {
     if (wishes.all) camera_.go(view::framing(camera_.goal, on_->stage->box, aspect_of(size_of(window_))));
     if (wishes.other_level) {
         const bool near = sources_.level() == view::Level::near;
-        if (Status taken = take_subject(near ? view::Level::far : view::Level::near); !taken) return taken;
+        BOLT_TRY(take_subject(near ? view::Level::far : view::Level::near));
     }
     return follow_files(wishes.reload);
 }
 
 // False: there was nothing to show it on.
 Result<bool> Show::draw() {
-    const Result<VkExtent2D> size = on_->swapchain->ready(size_of(window_));
-    if (!size) return fail(size.error());
-    if (size->width == 0 || size->height == 0) return false;
-    const Result<gpu::Frame*> frame = on_->painter.frames->begin();
-    if (!frame) return fail(frame.error());
-    const render::Eye eye = view::eye_of(camera_.shown, on_->stage->box, aspect_of(*size));
+    BOLT_TRY_ASSIGN(const auto size, on_->swapchain->ready(size_of(window_)));
+    if (size.width == 0 || size.height == 0) return false;
+    BOLT_TRY_ASSIGN(const auto frame, on_->painter.frames->begin());
+    const render::Eye eye = view::eye_of(camera_.shown, on_->stage->box, aspect_of(size));
     render::Renderer& renderer = *on_->painter.renderer;
-    if (Status drawn = renderer.render(**frame, on_->stage->scene, std::span(&eye, 1), *size); !drawn)
-        return fail(drawn.error());
-    const render::Layer picture = renderer.picture(0);
-    return on_->swapchain->show(*on_->painter.frames, **frame, *picture.image, picture.layer);
+    BOLT_TRY(renderer.render(*frame, on_->stage->scene, std::span(&eye, 1), size));
+    const render::ImageLayer picture = renderer.picture(0);
+    return on_->swapchain->show(*on_->painter.frames, *frame, *picture.image, picture.layer);
 }
 
 Status Show::until_closed() {
@@ -272,7 +260,7 @@ Status Show::until_closed() {
         const Wishes wishes =
             hands_.apply(events, std::max(size.height, 1U), static_cast<double>(aspect_of(size)),
                          camera_.goal, on_->stage->box);
-        if (Status done = do_as_wished(wishes); !done) return done;
+        BOLT_TRY(do_as_wished(wishes));
         // After a rest, time begins with this frame.
         const double now = seconds(), passed = resting ? pace.period : now - last;
         last = now;
@@ -282,25 +270,23 @@ Status Show::until_closed() {
             continue;
         }
         if (resting) pace = {platform::Clock::now(), platform::period_of(window_.refresh()), 0};
-        const Result<bool> shown = draw();
-        if (!shown) return fail(shown.error());
-        stale_ = !*shown;
+        BOLT_TRY_ASSIGN(const auto shown, draw());
+        stale_ = !shown;
         resting = on_->swapchain->plan().extent.width == 0;
         tell_messages();
-        if (!resting) (void)platform::wait_for_due(pace);
+        if (!resting) (void)platform::wait_for_deadline(pace);
     }
     return {};
 }
 
 Status Show::run() {
     if (!options_.shaders.empty()) {
-        Result<render::HotShaders> hot = render::HotShaders::open(options_.shaders);
-        if (!hot) return fail(hot.error());
-        hot_shaders_.emplace(std::move(*hot));
+        BOLT_TRY_ASSIGN(auto hot, render::HotShaders::open(options_.shaders));
+        hot_shaders_.emplace(std::move(hot));
     }
     tell(of_subject, {});
-    if (Status said = say(help(sources_.subject().views)); !said) return said;
-    gpu::Restarts restarts;
+    BOLT_TRY(print(help(sources_.subject().views)));
+    gpu::DeviceLossPolicy loss_policy;
     for (;;) {
         Status done = start();
         if (done) done = until_closed();
@@ -308,10 +294,10 @@ Status Show::run() {
         tell_messages();
         if (done) return no_messages(instance_);
         if (!done.error().lost) return done;
-        if (!restarts.again(seconds()))
+        if (!loss_policy.should_restart(seconds()))
             return fail(ErrorCode::no_device,
-                        fmt::format("the GPU was lost twice within {:.0f} s: {}", gpu::Restarts::patience,
-                                    done.error().what),
+                        fmt::format("the GPU was lost twice within {:.0f} s: {}",
+                                    gpu::DeviceLossPolicy::min_interval, done.error().what),
                         "another GPU or driver: boltwright doctor lists them, --gpu chooses");
         (void)std::fprintf(stderr, "the GPU was lost (%s) and is started again\n", done.error().what.c_str());
     }
@@ -327,21 +313,18 @@ Status show_preview(const PreviewOptions& options, Sources& sources, platform::W
 Status draw_preview(const PreviewOptions& options, const Sources& sources, const gpu::Instance& instance) {
     render::ShaderCode shaders;
     if (!options.shaders.empty()) {
-        Result<render::HotShaders> hot = render::HotShaders::open(options.shaders);
-        if (!hot) return fail(hot.error());
-        std::optional<Result<render::ShaderCode>> code = hot->changed(seconds());
+        BOLT_TRY_ASSIGN(auto hot, render::HotShaders::open(options.shaders));
+        std::optional<Result<render::ShaderCode>> code = hot.changed(seconds());
         if (code && !*code) return fail(code->error());
         if (code) shaders = std::move(**code);
     }
-    const Result<OnGpu> on = put_on_gpu(options, sources, instance, shaders, VK_NULL_HANDLE);
-    if (!on) return fail(on.error());
-    const view::Orbit look = first_look(options, sources, *on->stage, options.size);
-    const render::Eye eye = view::eye_of(look, on->stage->box, aspect_of(options.size));
-    const auto pictures =
-        render::take_pictures(*on->painter.device, *on->painter.frames, *on->painter.renderer,
-                              on->stage->scene, std::span(&eye, 1), options.size);
-    if (!pictures) return fail(pictures.error());
-    if (Status kept = view::write_picture(pictures->front(), options.png); !kept) return kept;
+    BOLT_TRY_ASSIGN(const auto on, put_on_gpu(options, sources, instance, shaders, VK_NULL_HANDLE));
+    const view::Orbit look = first_look(options, sources, *on.stage, options.size);
+    const render::Eye eye = view::eye_of(look, on.stage->box, aspect_of(options.size));
+    BOLT_TRY_ASSIGN(const auto pictures,
+                    render::take_pictures(*on.painter.device, *on.painter.frames, *on.painter.renderer,
+                                          on.stage->scene, std::span(&eye, 1), options.size));
+    BOLT_TRY(view::write_picture(pictures.front(), options.png));
     return no_messages(instance);
 }
 

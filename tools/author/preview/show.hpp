@@ -6,7 +6,7 @@
 
 namespace bolt::author {
 
-// A GPU that is lost is started again, once in a while (gpu::Restarts).
+// A GPU that is lost is started again, once in a while (gpu::DeviceLossPolicy).
 Status show_preview(const PreviewOptions& options, Sources& sources, platform::Window& window,
                     const gpu::Instance& instance);
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/base/file_watch.hpp"
-#include "game/view/subject.hpp"
+#include "game/view/loaded_model.hpp"
 #include "tools/author/preview/options.hpp"
 
 namespace bolt::author {

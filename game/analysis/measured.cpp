@@ -1,0 +1,219 @@
+#include "game/analysis/measured.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "engine/base/file.hpp"
+#include "engine/base/math.hpp"
+#include "engine/base/nearest.hpp"
+#include "game/analysis/csv_line.hpp"
+
+namespace bolt::analysis {
+
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{64} << 20U;
+constexpr double largest_angle = 1e7, largest_torque = 1e6;  // degrees, N·m: beyond is no measurement
+constexpr int absent = -1;
+
+// The published data sets do not carry their own source line.
+constexpr std::string_view unfastening_source =
+    "Al Assadi et al., J. Manuf. Syst. 65 (2022) 19–32, dataset_unfastening, CC BY 4.0";
+
+struct Columns {
+    int angle = absent, torque = absent, cycle = absent;
+    std::size_t count = 0;
+    std::vector<std::string> names;
+};
+
+// Where we are in the file: all errors come from here.
+struct Place {
+    std::string_view file;
+    int line = 0;
+
+    [[nodiscard]] tl::unexpected<Error> error(int column, std::string what, std::string expected) const {
+        Error e;
+        e.code = ErrorCode::bad_content;
+        e.file = file;
+        e.line = line;
+        e.column = column;
+        e.what = std::move(what);
+        e.expected = std::move(expected);
+        return fail(std::move(e));
+    }
+};
+
+bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
+
+// Text behind "# source:", empty for other comments.
+std::string source_of(std::string_view comment) {
+    constexpr std::string_view key = "source:";
+    comment.remove_prefix(std::min(comment.find_first_not_of("# \t"), comment.size()));
+    if (!comment.starts_with(key)) return {};
+    comment.remove_prefix(key.size());
+    const std::size_t first = comment.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    const std::size_t last = comment.find_last_not_of(" \t\r");
+    return std::string(comment.substr(first, last - first + 1));
+}
+
+Result<Columns> read_header(const std::vector<Field>& fields, const Place& place) {
+    Columns columns;
+    columns.count = fields.size();
+    for (const Field& field : fields) columns.names.push_back(field.text);
+    const std::pair<std::string, int*> wanted[] = {
+        {"angle_deg", &columns.angle}, {"torque_Nm", &columns.torque}, {"cycle", &columns.cycle}};
+    for (const auto& [name, index] : wanted) {
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            if (fields[i].text != name) continue;
+            if (*index != absent)
+                return place.error(fields[i].column, fmt::format("column '{}' is there twice", name),
+                                   "one of them");
+            *index = static_cast<int>(i);
+        }
+        if (*index != absent || name == "cycle") continue;
+        const std::string near = nearest(name, columns.names);
+        const auto at =
+            std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.text == near; });
+        if (!near.empty())
+            return place.error(at->column, fmt::format("there is no column '{}'", name),
+                               fmt::format("'{}' instead of '{}'", name, near));
+        const bool semicolons = fields.size() == 1 && fields[0].text.find(';') != std::string::npos;
+        return place.error(1, fmt::format("there is no column '{}'", name),
+                           semicolons ? "columns separated by commas, with a decimal point"
+                                      : "a first line that names the columns 'angle_deg' and 'torque_Nm'");
+    }
+    return columns;
+}
+
+Result<double> read_number(const Field& field, std::string_view name, double limit, const Place& place) {
+    std::string_view text = field.text;
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool read = problem == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+    if (!read)
+        return place.error(field.column,
+                           fmt::format("'{}' is no number for '{}'", field.text.substr(0, 40), name),
+                           "a decimal number such as -12.5");
+    if (std::abs(value) > limit)
+        return place.error(field.column, fmt::format("{} is no measured '{}'", field.text, name),
+                           fmt::format("a value between -{0:.0f} and {0:.0f}", limit));
+    return value;
+}
+
+struct Parser {
+    Measured measured;
+    Place place;
+    Columns columns;
+    bool has_header = false;
+    std::map<std::string, std::size_t, std::less<>> by_name;
+
+    Cycle& cycle(const std::string& name) {
+        const auto [entry, fresh] = by_name.try_emplace(name, measured.cycles.size());
+        if (fresh) measured.cycles.push_back({name, place.line, {}, {}});
+        return measured.cycles[entry->second];
+    }
+
+    Status row(const std::vector<Field>& fields, std::size_t length) {
+        if (fields.size() != columns.count)
+            return place.error(
+                fields.size() < columns.count ? static_cast<int>(length) + 1 : fields[columns.count].column,
+                fmt::format("this row has {} fields", fields.size()),
+                fmt::format("{}, as the columns named", columns.count));
+        const auto field = [&](int column) -> const Field& {
+            return fields[static_cast<std::size_t>(column)];
+        };
+        BOLT_TRY_ASSIGN(const auto angle,
+                        read_number(field(columns.angle), "angle_deg", largest_angle, place));
+        BOLT_TRY_ASSIGN(const auto torque,
+                        read_number(field(columns.torque), "torque_Nm", largest_torque, place));
+        Cycle& into = cycle(columns.cycle == absent ? std::string() : field(columns.cycle).text);
+        into.angle.push_back(to_radians(angle));
+        into.torque.push_back(torque);
+        return {};
+    }
+
+    Status line(std::string_view text) {
+        if (is_blank(text)) return {};
+        if (text[text.find_first_not_of(" \t")] == '#') {
+            if (measured.source.empty()) measured.source = source_of(text);
+            return {};
+        }
+        if (text.ends_with('\r')) text.remove_suffix(1);
+        Result<std::vector<Field>> fields = split_line(text);
+        if (!fields) return place.error(fields.error().column, fields.error().what, fields.error().expected);
+        if (has_header) return row(*fields, text.size());
+        BOLT_TRY_ASSIGN(auto header, read_header(*fields, place));
+        columns = std::move(header);
+        has_header = true;
+        return {};
+    }
+};
+
+double extreme_of(const Cycle& cycle) {
+    return *std::max_element(cycle.torque.begin(), cycle.torque.end(),
+                             [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
+
+Status check_cycles(Parser& parser) {
+    double extreme = 0.0;
+    for (const Cycle& cycle : parser.measured.cycles) {
+        parser.place.line = cycle.line;
+        const std::string which = cycle.name.empty() ? "this file" : fmt::format("cycle '{}'", cycle.name);
+        if (cycle.angle.size() < least_samples)
+            return parser.place.error(1, fmt::format("{} has only {} samples", which, cycle.angle.size()),
+                                      fmt::format("at least {}", least_samples));
+        const double peak = extreme_of(cycle);
+        if (peak == 0.0) return parser.place.error(1, which + " has no torque at all", "a run with a load");
+        if (extreme * peak < 0.0)
+            return parser.place.error(
+                1, fmt::format("{} turns the other way than those before", which),
+                "all cycles of a file tightening (torque positive) or all loosening (negative)");
+        extreme = peak;
+    }
+    parser.measured.direction = extreme < 0.0 ? joint::Direction::loosen : joint::Direction::tighten;
+    return {};
+}
+
+}  // namespace
+
+std::size_t Measured::samples() const {
+    std::size_t count = 0;
+    for (const Cycle& cycle : cycles) count += cycle.angle.size();
+    return count;
+}
+
+Result<Measured> parse_measured(std::string_view text, std::string_view file) {
+    Parser parser;
+    parser.measured.file = file;
+    parser.place.file = file;
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    while (!text.empty()) {
+        ++parser.place.line;
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        BOLT_TRY(parser.line(text.substr(0, end)));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    parser.place.line = std::max(1, parser.place.line);
+    if (!parser.has_header)
+        return parser.place.error(1, "there is nothing in this file", "columns 'angle_deg' and 'torque_Nm'");
+    if (parser.measured.cycles.empty())
+        return parser.place.error(1, "there are no samples", fmt::format("at least {} rows", least_samples));
+    BOLT_TRY(check_cycles(parser));
+    const std::string name = std::filesystem::path(file).filename().string();
+    const bool unfastening = name == "m6_releasable.csv" || name == "m8_releasable.csv";
+    if (unfastening && parser.measured.source.empty()) parser.measured.source = unfastening_source;
+    return std::move(parser.measured);
+}
+
+Result<Measured> read_measured(const std::filesystem::path& path) {
+    BOLT_TRY_ASSIGN(const auto text, read_file(path, largest_file, ErrorCode::bad_content));
+    return parse_measured(text, path.string());
+}
+
+}  // namespace bolt::analysis

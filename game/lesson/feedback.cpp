@@ -1,0 +1,126 @@
+#include "game/lesson/feedback.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::lesson {
+
+namespace {
+
+using lesson::Fault;
+using lesson::Verdict;
+using words::Key;
+
+constexpr std::size_t most_advice = 3;
+
+struct Judged {
+    Key reason, advice;
+};
+
+Judged judged(const lesson::JointResult& joint) {
+    if (joint.condition == joint::Condition::broken) return {"reason.broken", "advice.broken"};
+    if (joint.condition == joint::Condition::stripped) return {"reason.stripped", "advice.stripped"};
+    if (joint.torque_verdict == Verdict::none) return {"reason.not_loosened", "advice.not_loosened"};
+    if (joint.torque_verdict == Verdict::low) return {"reason.torque_low", "advice.torque_low"};
+    if (joint.torque_verdict == Verdict::high) return {"reason.torque_high", "advice.torque_high"};
+    if (joint.angle_verdict == Verdict::low) return {"reason.angle_low", "advice.angle_low"};
+    if (joint.angle_verdict == Verdict::high) return {"reason.angle_high", "advice.angle_high"};
+    return {"reason.off_seat", "advice.off_seat"};
+}
+
+std::vector<words::Place> joint_places(const content::Specification& spec, const lesson::JointResult& joint) {
+    const bool of_angle = joint.torque_verdict == Verdict::ok;
+    const content::Window& window = of_angle ? spec.angle : spec.torque;
+    const auto shown = [&](double value) {
+        return of_angle ? words::Number{std::round(to_degrees(value)), 0} : words::torque_number(value);
+    };
+    // A tenth below the window is not shown as its edge.
+    words::Number torque = words::torque_number(joint.torque);
+    if (joint.torque < 100.0) torque.decimals = 1;
+    return {{"joint", joint.id},
+            {"torque", torque},
+            {"angle", words::Number{to_degrees(joint.angle), 0}},
+            {"low", shown(window.low)},
+            {"high", shown(window.high)}};
+}
+
+struct Cost {
+    Key advice;
+    double points = 0.0;
+};
+
+void add(std::vector<Cost>& costs, Key advice, double points) {
+    const auto it =
+        std::find_if(costs.begin(), costs.end(), [&](const Cost& c) { return c.advice == advice; });
+    if (it == costs.end())
+        costs.push_back({advice, points});
+    else
+        it->points += points;
+}
+
+}  // namespace
+
+Review review(const content::Assembly& assembly, const lesson::LessonResult& result) {
+    Review review;
+    std::vector<Cost> costs;
+    for (const lesson::ScoreReason& reason : result.reasons) {
+        Remark remark{
+            reason.points, std::nullopt, {{"count", words::Number{1.0 * reason.count, 0}}}, reason.text};
+        const bool once = reason.count == 1;
+        std::optional<Key> advice;
+        switch (reason.fault) {
+            case Fault::none:
+                break;
+            case Fault::damaged:
+            case Fault::not_ok: {
+                const auto joint = static_cast<std::size_t>(reason.joint);
+                const Judged how = judged(result.joints[joint]);
+                remark.key = how.reason;
+                remark.places = joint_places(assembly.joints[joint].spec, result.joints[joint]);
+                advice = how.advice;
+                break;
+            }
+            case Fault::out_of_turn:
+                remark.key = once ? Key("reason.out_of_turn.one") : Key("reason.out_of_turn.many");
+                advice = Key("advice.out_of_turn");
+                break;
+            case Fault::done_already:
+                remark.key = once ? Key("reason.done_already.one") : Key("reason.done_already.many");
+                advice = Key("advice.done_already");
+                break;
+            case Fault::wrong_way:
+                remark.key = once ? Key("reason.wrong_way.one") : Key("reason.wrong_way.many");
+                advice = Key("advice.wrong_way");
+                break;
+            case Fault::overdone:
+                remark.key = once ? Key("reason.overdone.one") : Key("reason.overdone.many");
+                advice = Key("advice.torque_high");
+                break;
+            case Fault::slipped:
+                remark.key = once ? Key("reason.slipped.one") : Key("reason.slipped.many");
+                advice = Key("mistake.slipped.do");
+                break;
+            case Fault::unfinished:
+                remark.key = Key("reason.unfinished");
+                remark.places = {{"step", words::Number{1.0 * reason.count, 0}},
+                                 {"of", words::Number{1.0 * reason.of, 0}}};
+                advice = Key("advice.unfinished");
+                break;
+        }
+        if (advice) add(costs, *advice, -reason.points);
+        review.reasons.push_back(std::move(remark));
+    }
+    // Equal costs stay in the order of the score's reasons.
+    std::stable_sort(costs.begin(), costs.end(),
+                     [](const Cost& a, const Cost& b) { return a.points > b.points; });
+    for (std::size_t i = 0; i < std::min(costs.size(), most_advice); ++i)
+        review.advice.push_back(costs[i].advice);
+    if (result.reasons.empty()) review.advice.push_back(Key("advice.nothing"));
+    return review;
+}
+
+std::string say(const words::Words& words, const Remark& remark) {
+    return remark.key ? words::say(words, *remark.key, remark.places) : remark.text;
+}
+
+}  // namespace bolt::lesson

@@ -1,0 +1,230 @@
+#include "game/report/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/base/math.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/style.hpp"
+#include "game/plot/text.hpp"
+
+namespace bolt::report {
+
+namespace {
+
+using plot::escape;
+using plot::number;
+
+constexpr std::size_t most_small_plots = 40;  // cycles of one joint that get a drawing of their own
+
+struct View {
+    plot::Range angle;   // degrees from the common point
+    plot::Range torque;  // N·m
+};
+
+// Degrees from the common point of the first cycle, in which frame ours does not move.
+double our_zero(const analysis::JointComparison& joint) {
+    return joint.cycles.empty() ? 0.0 : joint.cycles[0].alignment.our_angle;
+}
+
+std::vector<plot::Point> our_points(const analysis::JointComparison& joint) {
+    std::vector<plot::Point> points;
+    for (std::size_t i = 0; i < joint.ours.size(); ++i)
+        points.push_back({to_degrees(joint.ours.angle[i] - our_zero(joint)), joint.ours.torque[i]});
+    return points;
+}
+
+std::vector<plot::Point> cycle_points(const analysis::Comparison& c, const analysis::JointComparison& joint,
+                                      std::size_t cycle) {
+    const analysis::Curve& curve = c.measured[cycle].curve;
+    const double shift = joint.cycles[cycle].alignment.shift - our_zero(joint);
+    std::vector<plot::Point> points;
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        points.push_back({to_degrees(curve.angle[i] + shift), curve.torque[i]});
+    return points;
+}
+
+// Where a curve carries load: from its first to its last sample above a share of its peak that noise does not
+// reach.
+void include_loaded(View& view, const std::vector<plot::Point>& points) {
+    double peak = 0.0;
+    for (const plot::Point& p : points) peak = std::max(peak, std::abs(p.y));
+    for (const plot::Point& p : points) {
+        view.torque = {std::min(view.torque.low, p.y), std::max(view.torque.high, p.y)};
+        if (std::abs(p.y) < 0.08 * peak) continue;
+        view.angle = {std::min(view.angle.low, p.x), std::max(view.angle.high, p.x)};
+    }
+}
+
+plot::Plot framed(View view, std::string title, double width, double height) {
+    const double margin = std::max(2.0, 0.2 * view.angle.span());
+    view.angle = {view.angle.low - margin, view.angle.high + margin};
+    plot::Plot plot;
+    plot.width = width;
+    plot.height = height;
+    plot.title = std::move(title);
+    plot.x = {plot::degree_ticks(view.angle, width > 400.0 ? 8 : 4), "angle from the common point, °"};
+    plot.x.ticks.range = view.angle;
+    plot.y = {plot::covering_ticks(view.torque.low, view.torque.high, width > 400.0 ? 6 : 3), "torque, N·m"};
+    return plot;
+}
+
+void add_stages(plot::Plot& plot, const analysis::JointComparison& joint) {
+    constexpr std::string_view styles[] = {"s0", "s1", "s2", "s3"};
+    const analysis::Curve& ours = joint.ours;
+    for (std::size_t i = 0; i < ours.size();) {
+        std::size_t end = i;
+        while (end + 1 < ours.size() && ours.stage[end + 1] == ours.stage[i]) ++end;
+        const std::size_t to = std::min(end + 1, ours.size() - 1);
+        plot.bands.push_back(
+            {{to_degrees(ours.angle[i] - our_zero(joint)), to_degrees(ours.angle[to] - our_zero(joint))},
+             styles[static_cast<std::size_t>(ours.stage[i])],
+             std::string(joint::name(ours.stage[i]))});
+        i = end + 1;
+    }
+}
+
+// Everything of one joint, in one frame: the small plots share it, so that they can be compared.
+View view_of(const analysis::Comparison& c, const analysis::JointComparison& joint) {
+    View view{{0.0, 0.0}, {0.0, 0.0}};
+    include_loaded(view, our_points(joint));
+    for (std::size_t i = 0; i < joint.cycles.size(); ++i) include_loaded(view, cycle_points(c, joint, i));
+    return view;
+}
+
+plot::Plot cycle_plot(const analysis::Comparison& c, const analysis::JointComparison& joint,
+                      std::size_t cycle, const View& view) {
+    plot::Plot plot = framed(view, fmt::format("cycle {}", c.measured[cycle].name), 220.0, 150.0);
+    plot.x.label.clear();
+    plot.lines.push_back({our_points(joint), "ln p2", false});
+    plot.lines.push_back({cycle_points(c, joint, cycle), "ln me1", false});
+    return plot;
+}
+
+std::string error_value(const analysis::StageError& e, double value) {
+    return e.count > 0 ? number(value, 5) : "–";
+}
+
+std::string error_table(const analysis::Errors& errors) {
+    std::string out =
+        "<div class=\"scroll\"><table><thead><tr><th>stage</th><th class=\"n\">MRE</th><th "
+        "class=\"n\">MAPE</th>"
+        "<th class=\"n\">samples</th><th class=\"n\">below the floor</th></tr></thead><tbody>\n";
+    const auto row = [&](std::string_view name, const analysis::StageError& e, std::string_view style) {
+        fmt::format_to(
+            std::back_inserter(out),
+            "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+            "<td class=\"n\">{}</td></tr>\n",
+            style, name, error_value(e, e.mre), error_value(e, e.mape), e.count, e.below);
+    };
+    for (std::size_t i = 0; i < errors.stage.size(); ++i)
+        row(joint::name(static_cast<joint::Stage>(i)), errors.stage[i], "");
+    row("all stages", errors.all, " class=\"sum\"");
+    return out +
+           fmt::format(
+               "</tbody></table></div>\n<p class=\"note\">{} samples lie outside the virtual curve.</p>\n",
+               errors.outside);
+}
+
+std::string cycle_table(const analysis::Comparison& c, const analysis::JointComparison& joint) {
+    std::string out =
+        "<details><summary>Every cycle</summary><div class=\"scroll\"><table><thead><tr><th>cycle</th>"
+        "<th class=\"n\">shift</th><th class=\"n\">peak, N·m</th><th class=\"n\">floor, N·m</th>";
+    for (int i = 0; i < joint::stage_count; ++i)
+        out +=
+            fmt::format("<th class=\"n\">{}<br/>MRE / MAPE</th>", joint::name(static_cast<joint::Stage>(i)));
+    out +=
+        "<th class=\"n\">all<br/>MRE / MAPE</th><th class=\"n\">samples</th><th class=\"n\">left "
+        "out</th></tr></thead><tbody>\n";
+    for (std::size_t i = 0; i < joint.cycles.size(); ++i) {
+        const analysis::Errors& e = joint.cycles[i].errors;
+        const std::string& name = c.measured[i].name;
+        out += fmt::format(
+            "<tr><td>{}</td><td class=\"n\">{}°</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
+            name.empty() ? fmt::format("{}", i + 1) : escape(name),
+            number(to_degrees(joint.cycles[i].alignment.shift), 1),
+            number(analysis::floor_of(c.measured[i].curve, 1.0), 3), number(e.floor, 3));
+        for (const analysis::StageError& s : e.stage)
+            out += fmt::format("<td class=\"n\">{} / {}</td>", error_value(s, s.mre), error_value(s, s.mape));
+        out +=
+            fmt::format("<td class=\"n\">{} / {}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+                        error_value(e.all, e.all.mre), error_value(e.all, e.all.mape), e.all.count,
+                        e.all.below + e.outside + c.measured[i].curve.passed_over);
+    }
+    return out + "</tbody></table></div></details>\n";
+}
+
+std::string joint_section(const analysis::Comparison& c, std::size_t index) {
+    const analysis::JointComparison& joint = c.joints[index];
+    std::string out = fmt::format("<h2>{}</h2>\n<div class=\"grid\">\n", escape(joint.joint));
+    const std::string caption =
+        fmt::format("Line: virtual. Thin: {} measured cycle{}. Shaded: stages of the virtual curve.",
+                    c.measured.size(), c.measured.size() == 1 ? "" : "s");
+    out += plot::figure("", plot::draw(overlay_plot(c, index)), escape(caption));
+    out += "<div>" + error_table(joint.errors) + "</div></div>\n" + cycle_table(c, joint);
+    if (c.joints.size() > 1 || c.measured.size() < 2) return out;
+    const View view = view_of(c, joint);
+    out += "<h2>Cycle by cycle</h2>\n<div class=\"grid tiny\">\n";
+    for (std::size_t i = 0; i < std::min(c.measured.size(), most_small_plots); ++i) {
+        const analysis::StageError& all = joint.cycles[i].errors.all;
+        out +=
+            plot::figure(fmt::format("<h3>{}</h3><span class=\"note\">MAPE {}</span>",
+                                     escape(c.measured[i].name), all.count > 0 ? number(all.mape, 3) : "–"),
+                         plot::draw(cycle_plot(c, joint, i, view)), "");
+    }
+    out += "</div>\n";
+    if (c.measured.size() > most_small_plots)
+        out += fmt::format("<p class=\"note\">The first {} of {} cycles.</p>\n", most_small_plots,
+                           c.measured.size());
+    return out;
+}
+
+std::string source_line(const analysis::Comparison& c) {
+    return c.source.empty() ? "" : fmt::format("Measured by {}", c.source);
+}
+
+}  // namespace
+
+plot::Plot overlay_plot(const analysis::Comparison& c, std::size_t index) {
+    const analysis::JointComparison& joint = c.joints[index];
+    plot::Plot plot =
+        framed(view_of(c, joint), fmt::format("{}: virtual and measured torque", joint.joint), 480.0, 320.0);
+    add_stages(plot, joint);
+    const std::string_view style = joint.cycles.size() == 1 ? "ln me1" : "ln me";
+    for (std::size_t i = 0; i < joint.cycles.size(); ++i)
+        plot.lines.push_back({cycle_points(c, joint, i), style, false});
+    plot.lines.push_back({our_points(joint), "ln p2", false});
+    return plot;
+}
+
+std::string overlay_svg(const analysis::Comparison& c, std::size_t joint) {
+    plot::Plot plot = overlay_plot(c, joint);
+    const double extra = c.source.empty() ? 0.0 : 16.0;
+    plot::Svg svg(plot.width, plot.height + extra, plot.title);
+    plot::draw_into(svg, plot);
+    if (extra > 0.0) svg.text({8.0, plot.height + 8.0}, "sm", source_line(c));
+    return plot::standalone(svg.finish(), plot::style_sheet());
+}
+
+std::string comparison_page(const analysis::Comparison& c) {
+    std::string body =
+        fmt::format("<p class=\"over\">Virtual against measured torque</p>\n<h1>{}</h1>\n", escape(c.title));
+    if (!c.source.empty()) body += fmt::format("<p>{}</p>\n", escape(source_line(c)));
+    body += "<dl class=\"facts\">\n" +
+            plot::fact("direction", c.direction == joint::Direction::tighten ? "tightening" : "loosening") +
+            plot::fact("law", c.law) + plot::fact("variant", c.variant) +
+            plot::fact("cycles", fmt::format("{}", c.measured.size())) +
+            plot::path_fact("session", c.session) + plot::path_fact("measured", c.measured_file) +
+            "</dl>\n<p class=\"note\">";
+    for (const std::string& text : remarks(c)) body += escape(text) + " ";
+    body += "</p>\n";
+    for (std::size_t j = 0; j < c.joints.size(); ++j) body += joint_section(c, j);
+    if (c.joints.size() > 1) body += "<h2>All joints</h2>\n" + error_table(c.errors);
+    body += fmt::format("<footer>{}</footer>\n", escape(method_text(c)));
+    return plot::page(c.title + " – virtual against measured", body);
+}
+
+}  // namespace bolt::report

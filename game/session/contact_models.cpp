@@ -1,0 +1,227 @@
+#include "game/session/contact_models.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/assets/gltf.hpp"
+#include "engine/base/file.hpp"
+#include "engine/base/hash.hpp"
+#include "game/session/hexagon_lie.hpp"
+
+namespace bolt::session {
+
+namespace {
+
+struct Piece {
+    std::string node;
+    std::vector<glm::dvec3> points;  // three a triangle, in the model's frame
+};
+
+Error bad(const std::filesystem::path& file, std::string what) {
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.what = std::move(what);
+    error.file = file.string();
+    return error;
+}
+
+Result<std::vector<Piece>> read_pieces(const std::filesystem::path& file) {
+    BOLT_TRY_ASSIGN(auto model, assets::read_gltf(file));
+    std::vector<Piece> pieces;
+    const std::function<Status(int, const glm::dmat4&)> visit = [&](int index,
+                                                                    const glm::dmat4& above) -> Status {
+        const assets::Node& node = model.nodes[static_cast<std::size_t>(index)];
+        const glm::dmat4 world = above * glm::translate(glm::dmat4(1.0), Vec3(node.translation)) *
+                                 glm::mat4_cast(Quat(node.rotation)) *
+                                 glm::scale(glm::dmat4(1.0), Vec3(node.scale));
+        if (node.mesh >= 0) {
+            Piece piece{node.name, {}};
+            for (const assets::Primitive& p : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+                if (p.topology != assets::Topology::triangles || p.indices.empty())
+                    return fail(
+                        bad(file, fmt::format("node \"{}\" is not made of indexed triangles", node.name)));
+                for (const std::uint32_t i : p.indices)
+                    piece.points.emplace_back(world * glm::dvec4(Vec3(p.positions[i]), 1.0));
+            }
+            pieces.push_back(std::move(piece));
+        }
+        for (const int child : node.children) {
+            BOLT_TRY(visit(child, world));
+        }
+        return {};
+    };
+    for (const int root : model.roots) {
+        BOLT_TRY(visit(root, glm::dmat4(1.0)));
+    }
+    return pieces;
+}
+
+Result<collision::ContactMesh> mesh_of(const Piece& piece, const std::filesystem::path& file,
+                                       const std::function<Vec3(const Vec3&)>& move) {
+    std::vector<glm::vec3> vertices;
+    std::vector<std::uint32_t> indices;
+    for (const Vec3& p : piece.points) {
+        indices.push_back(static_cast<std::uint32_t>(vertices.size()));
+        vertices.emplace_back(move(p));
+    }
+    Result<collision::ContactMesh> mesh = collision::make_contact_mesh(vertices, indices);
+    if (!mesh) return fail(bad(file, fmt::format("node \"{}\": {}", piece.node, mesh.error().what)));
+    return mesh;
+}
+
+std::function<Vec3(const Vec3&)> to_nut(const servo::NutGeometry& nut, const Piece& piece) {
+    return [nut, lies = lie_of(nut, piece.points)](const Vec3& p) { return to_own_frame(nut, lies, p); };
+}
+
+// The least distance to the wrench along the line from the jaw's middle out of its mouth, m.
+double mouth(const collision::Solid& wrench, double head_angle, double jaw) {
+    double least = jaw;
+    for (int i = 0; i <= 20; ++i) {
+        const double r = jaw * static_cast<double>(i) / 20.0;
+        const Vec3 p(-r * std::cos(head_angle), -r * std::sin(head_angle), 0.0);
+        collision::SeparatingPlane side;
+        least = std::min(least, collision::query_point(wrench, p, jaw, 0.0, {&side, 1}).distance);
+    }
+    return least;
+}
+
+std::filesystem::path wrench_file(const content::WrenchDesign& design) {
+    std::filesystem::path own = design.model;
+    own.replace_extension(".contact.glb");
+    return std::filesystem::exists(own) ? own : std::filesystem::path(design.model);
+}
+
+// Rotates a point of the wrench's model into the tool's frame. `side` = −1 also turns the wrench over, for a
+// head that points to the other side.
+Vec3 turned(const glm::dvec3& low, const glm::dvec3& high, double side, const Vec3& p) {
+    const bool lies = high.y - low.y < high.z - low.z;
+    const Vec3 q = lies ? Vec3(p.x, -p.z, p.y) : p;
+    return {q.x, side * q.y, side * q.z};
+}
+
+struct WrenchModel {
+    std::vector<collision::ContactMesh> meshes;
+    Quat turn;  // from the model's frame to the tool's
+};
+
+// "NAME SIZE bytes, fnv1a SUM" identifies the file's content. (FNV-1a, 64 bits: Fowler, Noll, Vo.)
+Result<std::string> identity_of(const std::filesystem::path& file) {
+    const Result<std::string> bytes = read_file(file, std::size_t{1} << 30U, ErrorCode::bad_content);
+    if (!bytes) return fail(bytes.error());
+    Fnv1a hash;
+    hash.add(*bytes);
+    return fmt::format("{} {} bytes, fnv1a {:016x}", file.filename().string(), bytes->size(), hash.value());
+}
+
+Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
+    const std::filesystem::path file = wrench_file(design);
+    BOLT_TRY_ASSIGN(const auto pieces, read_pieces(file));
+    glm::dvec3 low(1e9), high(-1e9);
+    for (const Piece& piece : pieces)
+        for (const glm::dvec3& p : piece.points) low = glm::min(low, p), high = glm::max(high, p);
+    // A model may lie flat, as import-step turns it, or stand; and its head may point to either side of the
+    // handle.
+    for (const double side : {1.0, -1.0}) {
+        std::vector<collision::ContactMesh> meshes;
+        for (const Piece& piece : pieces) {
+            BOLT_TRY_ASSIGN(auto mesh,
+                            mesh_of(piece, file, [&](const Vec3& p) { return turned(low, high, side, p); }));
+            meshes.push_back(std::move(mesh));
+        }
+        const Result<collision::Solid> solid = collision::make_solid(meshes);
+        if (!solid) return fail(bad(file, solid.error().what));
+        if (side < 0.0 ||
+            mouth(*solid, design.head_angle, design.jaw) >= mouth(*solid, -design.head_angle, design.jaw))
+            return WrenchModel{std::move(meshes),
+                               glm::quat_cast(glm::dmat3(turned(low, high, side, Vec3(1, 0, 0)),
+                                                         turned(low, high, side, Vec3(0, 1, 0)),
+                                                         turned(low, high, side, Vec3(0, 0, 1))))};
+    }
+    return fail(bad(file, "the wrench has no triangles"));
+}
+
+}  // namespace
+
+Result<Quat> wrench_turn(const content::WrenchDesign& design) {
+    BOLT_TRY_ASSIGN(const auto wrench, read_wrench(design));
+    return wrench.turn;
+}
+
+std::optional<Error> missing_contact_model(const content::Assembly& assembly) {
+    Error missing = bad(assembly.file, {});
+    if (assembly.models.contact.empty()) {
+        missing.what = "the assembly names no contact model";
+        missing.expected = "\"contact_model\": the .glb of what the wrench touches, closed meshes";
+        return missing;
+    }
+    if (!assembly.wrench.model.empty()) return std::nullopt;
+    const bool usual = assembly.tools.empty() || assembly.tool == assembly.tools.front().name;
+    missing.pointer = usual ? "/tool" : "/more_tools/" + assembly.tool;
+    missing.what =
+        fmt::format("the tool \"{}\" names no model that could meet the contact model", assembly.tool);
+    missing.expected = "\"model\": the .glb of the wrench";
+    return missing;
+}
+
+Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& assembly,
+                                                     const servo::Setup& setup) {
+    if (missing_contact_model(assembly)) return std::nullopt;
+    const std::filesystem::path file = assembly.models.contact;
+    BOLT_TRY_ASSIGN(const auto pieces, read_pieces(file));
+    const Result<WrenchModel> wrench = read_wrench(assembly.wrench);
+    if (!wrench) return fail(wrench.error());
+    BOLT_TRY_ASSIGN(const auto about_file, identity_of(file));
+    BOLT_TRY_ASSIGN(const auto about_wrench, identity_of(wrench_file(assembly.wrench)));
+
+    TouchModels models;
+    models.files = about_file + "; " + about_wrench;
+    std::vector<collision::ContactMesh> still, nuts(setup.nuts.size());
+    for (const Piece& piece : pieces) {
+        std::size_t joint = 0;
+        while (joint < assembly.joints.size() && piece.node != assembly.joints[joint].design.id + "_nut")
+            ++joint;
+        const bool is_nut = joint < setup.nuts.size() && joint < assembly.joints.size();
+        BOLT_TRY_ASSIGN(auto mesh,
+                        mesh_of(piece, file,
+                                is_nut ? to_nut(setup.nuts[joint], piece)
+                                       : std::function<Vec3(const Vec3&)>([](const Vec3& p) { return p; })));
+        const auto id =
+            is_nut ? collision::ObstacleId::nut(joint) : collision::ObstacleId::fixed(still.size());
+        if (!file_number(id))
+            return fail(bad(
+                file, fmt::format("has more parts than a session can number; expected at most {} parts that "
+                                  "do not move and {} nuts",
+                                  most_fixed, most_nuts)));
+        models.names.push_back({id, piece.node});
+        if (is_nut)
+            nuts[joint] = std::move(mesh);
+        else
+            still.push_back(std::move(mesh));
+    }
+    Result<servo::ToolContact> touch = servo::make_tool_contact(setup, {still, nuts, wrench->meshes});
+    if (!touch) return fail(bad(file, touch.error().what));
+    models.tool_contact = std::move(*touch);
+    return std::optional<TouchModels>(std::move(models));
+}
+
+Result<collision::ToolShape> load_wrench(const content::Assembly& assembly) {
+    if (assembly.wrench.model.empty())
+        return fail(bad(assembly.file, "the assembly's wrench has no model, so no hand can close on it"));
+    BOLT_TRY_ASSIGN(const auto parts, read_wrench(assembly.wrench));
+    Result<collision::ToolShape> tool = collision::make_tool(parts.meshes);
+    if (!tool) return fail(bad(wrench_file(assembly.wrench), tool.error().what));
+    return tool;
+}
+
+Result<std::optional<servo::ToolContact>> load_tool_contact(const content::Assembly& assembly,
+                                                            const servo::Setup& setup) {
+    BOLT_TRY_ASSIGN(auto models, load_touch_models(assembly, setup));
+    if (!models.has_value()) return std::nullopt;
+    return std::optional<servo::ToolContact>(std::move(models->tool_contact));
+}
+
+}  // namespace bolt::session

@@ -1,0 +1,346 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "game/session/database.hpp"
+#include "game/session/format.hpp"
+#include "game/session/session_file.hpp"
+#include "game/session/table_checksum.hpp"
+
+namespace bolt::session {
+
+namespace {
+
+constexpr std::uint64_t max_rows = 4'000'000;  // in any table; a day has 86,400 seconds
+
+using Meta = std::map<std::string, std::string, std::less<>>;
+
+template <class Number>
+std::optional<Number> number(const std::string& text) {
+    Number value{};
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+// The enumeration value whose name() is `text`.
+template <class Enum>
+std::optional<Enum> named(std::string_view text, int count) {
+    for (int i = 0; i < count; ++i)
+        if (name(static_cast<Enum>(i)) == text) return static_cast<Enum>(i);
+    return std::nullopt;
+}
+
+Result<std::int64_t> pragma(Database& database, const char* which) {
+    BOLT_TRY_ASSIGN(auto statement, database.prepare(fmt::format("PRAGMA {}", which)));
+    BOLT_TRY_ASSIGN(auto row, statement.step());
+    return row ? statement.integer(0) : 0;
+}
+
+Result<TableChecksum> read_checksum(Database& database, const std::string& file, std::string_view table) {
+    BOLT_TRY_ASSIGN(auto statement, database.prepare("SELECT rows, sum FROM seal WHERE name = ?"));
+    BOLT_TRY_ASSIGN(auto row, statement.bind(1, table).step());
+    if (!row) return file_error(file, fmt::format("is damaged: table {} has no checksum", table));
+    return TableChecksum{static_cast<std::uint64_t>(statement.integer(0)),
+                         static_cast<std::uint64_t>(statement.integer(1))};
+}
+
+// Visits each row that `sql` selects and verifies the table's checksum. `visit` returns the row's hash, or
+// none if the row's values are out of range.
+template <class Visit>
+Status for_each_row(Database& database, const std::string& file, std::string_view table, std::string_view sql,
+                    Visit visit) {
+    const auto damaged = [&](std::string_view why) {
+        return file_error(file, fmt::format("is damaged: table {} {}", table, why));
+    };
+    BOLT_TRY_ASSIGN(const auto expected, read_checksum(database, file, table));
+    BOLT_TRY_ASSIGN(auto statement, database.prepare(sql));
+    TableChecksum found;
+    for (;;) {
+        BOLT_TRY_ASSIGN(auto row, statement.step());
+        if (!row) break;
+        const std::optional<std::uint64_t> sum = visit(statement);
+        if (!sum) return damaged("has a value out of range");
+        found.add(*sum);
+        if (found.rows > std::min(expected.rows, max_rows)) return damaged("has too many rows");
+    }
+    if (found.rows < expected.rows) return damaged("has lost rows");
+    if (found != expected) return damaged("has altered values");
+    return {};
+}
+
+Result<Meta> read_meta(Database& database, const std::string& file) {
+    Meta meta;
+    BOLT_TRY(for_each_row(database, file, "meta", "SELECT key, value FROM meta", [&](const Statement& row) {
+        const auto [entry, isnew] = meta.emplace(row.text(0), row.text(1));
+        return std::optional(sum_of_meta(entry->first, row.text(1)));
+    }));
+    return meta;
+}
+
+Result<Header> header_of(Meta meta, const std::string& file) {
+    Header header;
+    const std::pair<const char*, std::string*> texts[] = {
+        {key::assembly, &header.assembly},
+        {key::assembly_file, &header.assembly_file},
+        {key::assembly_text, &header.assembly_text},
+        {key::variant, &header.variant},
+        {key::law, &header.law},
+        {key::mode, &header.mode},
+        {key::task, &header.task},
+        {key::operator_name, &header.operator_name},
+        {key::program, &header.program},
+    };
+    for (const auto& [name, text] : texts) {
+        const auto found = meta.find(name);
+        if (found == meta.end()) return file_error(file, fmt::format("is damaged: its {} is missing", name));
+        *text = std::move(found->second);
+    }
+    const std::pair<const char*, std::string*> later[] = {
+        {key::guide, &header.guide}, {key::obstacles, &header.obstacles}, {key::device, &header.device},
+        {key::servo, &header.servo}, {key::tool, &header.tool},           {key::view_help, &header.view_help},
+        {key::hand, &header.hand},
+
+    };
+    for (const auto& [name, text] : later)
+        if (const auto found = meta.find(name); found != meta.end()) *text = std::move(found->second);
+    if (const auto found = meta.find(key::trainee); found != meta.end())
+        header.trainee = std::move(found->second);
+    const auto seed = number<std::uint64_t>(meta[key::seed]);
+    const auto dt = number<double>(meta[key::dt]);
+    if (!seed || !dt || !ticks_per_commit(*dt))
+        return file_error(file, "is damaged: its seed or tick is not a number in range");
+    header.seed = *seed;
+    header.dt = *dt;
+    return header;
+}
+
+Status read_obstacles(Database& database, const std::string& file, std::vector<ObstacleName>& names) {
+    return for_each_row(database, file, "obstacle", "SELECT id, name FROM obstacle ORDER BY id",
+                        [&](const Statement& row) -> std::optional<std::uint64_t> {
+                            const auto number = static_cast<std::int16_t>(row.integer(0));
+                            const collision::ObstacleId id = obstacle_of_number(number);
+                            if (number != row.integer(0) || id.is_none() || !file_number(id))
+                                return std::nullopt;
+                            names.push_back({id, std::string(row.text(1))});
+                            return sum_of(names.back());
+                        });
+}
+
+// The number of ticks; fails if there is a gap between chunks.
+Result<std::uint64_t> count_ticks(Database& database, const std::string& file) {
+    std::uint64_t ticks = 0;
+    BOLT_TRY(for_each_row(database, file, "tick_chunk",
+                          "SELECT first_tick, count FROM tick_chunk ORDER BY first_tick",
+                          [&](const Statement& row) -> std::optional<std::uint64_t> {
+                              const auto first = static_cast<std::uint64_t>(row.integer(0));
+                              const auto count = static_cast<std::uint64_t>(row.integer(1));
+                              if (first != ticks || count == 0 || count > max_chunk_ticks)
+                                  return std::nullopt;
+                              ticks += count;
+                              return sum_of_chunk(first, count);
+                          }));
+    return ticks;
+}
+
+std::optional<lesson::JointResult> joint_of(const Statement& row) {
+    const auto torque_verdict = named<lesson::Verdict>(row.text(6), 4);
+    const auto angle_verdict = named<lesson::Verdict>(row.text(7), 4);
+    const auto overall = named<lesson::Verdict>(row.text(8), 4);
+    const auto condition = named<joint::Condition>(row.text(9), 3);
+    if (!torque_verdict || !angle_verdict || !overall || !condition) return std::nullopt;
+    lesson::JointResult joint;
+    joint.id = row.text(1);
+    joint.torque = row.real(2);
+    joint.angle = row.real(3);
+    joint.clamp = row.real(4);
+    joint.clamp_at_release = row.real(5);
+    joint.torque_verdict = *torque_verdict;
+    joint.angle_verdict = *angle_verdict;
+    joint.overall = *overall;
+    joint.condition = *condition;
+    joint.strokes = static_cast<int>(row.integer(10));
+    joint.rehits = static_cast<int>(row.integer(11));
+    joint.order_errors = static_cast<int>(row.integer(12));
+    return joint;
+}
+
+struct Session {
+    Database database;
+    std::int64_t format = 0;
+};
+
+Result<Session> open_session(const std::filesystem::path& path, const std::string& file) {
+    std::error_code status;
+    const std::filesystem::path real = std::filesystem::canonical(path, status);
+    if (status) return file_error(file, "cannot be opened: " + status.message());
+    if (!std::filesystem::is_regular_file(real, status)) return file_error(file, "is not a session file");
+    if (std::filesystem::file_size(real, status) == 0 && !status)
+        return file_error(file, "is empty, not a session file");
+
+    auto database = Database::open_to_read(real, file);
+    if (!database) return file_error(file, "cannot be read as a session: " + database.error().what);
+    // One snapshot of the file for the reader's lifetime, also while a lesson is still being recorded.
+    BOLT_TRY(database->execute("BEGIN"));
+    BOLT_TRY_ASSIGN(const auto application, pragma(*database, "application_id"));
+    if (application != application_id)
+        return file_error(file, "is a database of another program, not a session file");
+    const auto version = pragma(*database, "user_version");
+    if (!version) return fail(version.error());
+    if (*version > format_version)
+        return file_error(
+            file, fmt::format("was written by a newer version (its format is {}, this program reads {})",
+                              *version, format_version));
+    if (*version < oldest_format) return file_error(file, fmt::format("has the unknown format {}", *version));
+    return Session{std::move(*database), *version};
+}
+
+}  // namespace
+
+struct Reader::State {
+    Database database;
+    std::int64_t format = 0;
+    std::string file;
+    Header header;
+    bool complete = false;
+    std::uint64_t ticks = 0;
+    double duration = 0.0;
+    double score = 0.0;
+    bool finished = false;
+};
+
+Reader::Reader(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Reader::Reader(Reader&& other) noexcept = default;
+Reader& Reader::operator=(Reader&& other) noexcept = default;
+Reader::~Reader() = default;
+
+Result<Reader> Reader::open(const std::filesystem::path& path) {
+    const std::string file = path.string();
+    BOLT_TRY_ASSIGN(auto session, open_session(path, file));
+    Database& database = session.database;
+    BOLT_TRY_ASSIGN(auto meta, read_meta(database, file));
+    BOLT_TRY_ASSIGN(auto ticks, count_ticks(database, file));
+    const bool complete = meta[key::state] == state_complete;
+    const auto duration = number<double>(meta[key::duration]);
+    const auto score = number<double>(meta[key::score]);
+    const bool finished = meta[key::finished] == "1";
+    if (complete && (!duration || !score))
+        return file_error(file, "is damaged: it is marked complete but has no result");
+    BOLT_TRY_ASSIGN(auto header, header_of(std::move(meta), file));
+    if (session.format >= 2) {
+        BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
+    }
+    const double recorded = static_cast<double>(ticks) * header.dt;
+    return Reader(
+        std::make_unique<State>(State{std::move(database), session.format, file, std::move(header), complete,
+                                      ticks, duration.value_or(recorded), score.value_or(0.0), finished}));
+}
+
+const Header& Reader::header() const { return state_->header; }
+bool Reader::complete() const { return state_->complete; }
+std::uint64_t Reader::tick_count() const { return state_->ticks; }
+std::string Reader::file() const { return state_->file; }
+
+Result<lesson::LessonResult> Reader::result() const {
+    lesson::LessonResult result;
+    result.duration = state_->duration;
+    result.score = state_->score;
+    result.finished = state_->finished;
+    BOLT_TRY(
+        for_each_row(state_->database, state_->file, "joint_result",
+                     "SELECT ordinal, id, torque_Nm, angle_rad, clamp_N, clamp_at_release_N, torque_verdict, "
+                     "angle_verdict, overall, condition, strokes, rehits, order_errors "
+                     "FROM joint_result ORDER BY ordinal",
+                     [&](const Statement& row) -> std::optional<std::uint64_t> {
+                         auto joint = joint_of(row);
+                         if (!joint) return std::nullopt;
+                         result.joints.push_back(std::move(*joint));
+                         return sum_of(static_cast<std::uint64_t>(row.integer(0)), result.joints.back());
+                     }));
+    BOLT_TRY(for_each_row(
+        state_->database, state_->file, "score_reason",
+        "SELECT ordinal, points, text FROM score_reason ORDER BY ordinal", [&](const Statement& row) {
+            result.reasons.push_back({row.real(1), std::string(row.text(2))});
+            return std::optional(sum_of(static_cast<std::uint64_t>(row.integer(0)), result.reasons.back()));
+        }));
+    return result;
+}
+
+Result<std::vector<lesson::Event>> Reader::events() const {
+    std::vector<lesson::Event> events;
+    BOLT_TRY(for_each_row(state_->database, state_->file, "event",
+                          "SELECT ordinal, tick, kind, joint, value, text FROM event ORDER BY ordinal",
+                          [&](const Statement& row) {
+                              lesson::Event& event = events.emplace_back();
+                              event.tick = static_cast<std::uint64_t>(row.integer(1));
+                              event.kind = row.text(2);
+                              event.joint = static_cast<int>(row.integer(3));
+                              event.value = row.real(4);
+                              event.text = row.text(5);
+                              return std::optional(sum_of(static_cast<std::uint64_t>(row.integer(0)), event));
+                          }));
+    return events;
+}
+
+Result<std::optional<servo::Timing>> Reader::timing() const {
+    if (state_->format < 2) return std::nullopt;
+    std::optional<servo::Timing> timing;
+    BOLT_TRY(for_each_row(state_->database, state_->file, "servo_time",
+                          "SELECT name, count, least_ns, greatest_ns, sum_ns, bins FROM servo_time",
+                          [&](const Statement& row) -> std::optional<std::uint64_t> {
+                              const auto bins = row.bytes(5);
+                              const TimingRow found{std::string(row.text(0)),
+                                                    static_cast<std::uint64_t>(row.integer(1)),
+                                                    static_cast<std::uint64_t>(row.integer(2)),
+                                                    static_cast<std::uint64_t>(row.integer(3)),
+                                                    row.real(4),
+                                                    {bins.begin(), bins.end()}};
+                              if (!timing) timing.emplace();
+                              if (!take_row(*timing, found)) return std::nullopt;
+                              return sum_of(found);
+                          }));
+    return timing;
+}
+
+Status Reader::for_each_chunk(
+    const std::function<void(std::uint64_t, std::span<const TickRecord>)>& visit) const {
+    BOLT_TRY_ASSIGN(
+        auto statement,
+        state_->database.prepare("SELECT first_tick, count, data FROM tick_chunk ORDER BY first_tick"));
+    ChunkDecoder decoder;
+    std::uint64_t next = 0;
+    while (next < state_->ticks) {
+        BOLT_TRY_ASSIGN(auto row, statement.step());
+        const auto first = row ? static_cast<std::uint64_t>(statement.integer(0)) : 0;
+        if (!row || first != next)
+            return file_error(state_->file, fmt::format("is damaged: there are no ticks from {} on", next));
+        auto ticks =
+            decoder.decode(first, static_cast<std::size_t>(statement.integer(1)), statement.bytes(2));
+        if (!ticks) return file_error(state_->file, ticks.error().what);
+        visit(first, *ticks);
+        next += ticks->size();
+    }
+    return {};
+}
+
+OperatorKind operator_kind(const Header& header) {
+    constexpr std::string_view person = "person";
+    if (header.trainee)
+        return header.operator_name == person ? OperatorKind::person : OperatorKind::simulated;
+    if (!header.view_help.empty()) return OperatorKind::simulated;
+    if (header.operator_name == person || !header.tool.empty()) return OperatorKind::person;
+    return OperatorKind::unrecorded;
+}
+
+std::string trainee_name(const Header& header) {
+    if (header.trainee) return *header.trainee;
+    if (operator_kind(header) == OperatorKind::simulated || header.operator_name == "person") return {};
+    return header.operator_name;
+}
+
+}  // namespace bolt::session

@@ -1,0 +1,35 @@
+// Replays a session: the recorded inputs go through the same servo, and each output is compared with the
+// recorded one.
+#pragma once
+
+#include <functional>
+
+#include "game/session/lesson_session.hpp"
+
+namespace bolt::session {
+
+// The initial state of a recorded lesson: its assembly from the recorded text, its models from the files that
+// exist now. Fails if the session does not hold enough (format 1), or if a contact model is missing or has
+// changed.
+Result<Prepared> prepare_again(const session::Reader& session);
+
+struct Moment {
+    const servo::Setup& setup;
+    const servo::State& state;
+    const lesson::Lesson& lesson;  // with the events of this tick
+    const servo::Input& input;
+    const servo::Output& output;
+    double time = 0.0;  // s, after the tick
+};
+
+struct Replayed {
+    std::uint64_t ticks = 0;
+    std::uint64_t wrong = 0;  // ticks whose output differs from the recorded one
+    std::uint64_t first_wrong = 0;
+};
+
+// Replays each tick from the initial state `at`; `visit` returns whether to continue.
+Result<Replayed> replay(const session::Reader& session, Prepared at,
+                        const std::function<bool(const Moment&)>& visit);
+
+}  // namespace bolt::session

@@ -1,0 +1,136 @@
+// The session file: one SQLite database, written while the lesson runs. It stays readable if the process dies
+// at any moment.
+//
+// Tables: meta(key, value), header and state; obstacle(id, name), what the wrench could collide with;
+// tick_chunk(first_tick, count, data), up to one second of ticks (chunk.hpp); event(...); joint_result(...),
+// by joint index; score_reason(...); servo_time(...), the timing of the servo's thread, if one ran;
+// seal(name, rows, sum), the checksum of each table. Each second is one commit, so a killed process loses at
+// most the last second. meta 'state' is 'recording' until finish() sets 'complete'.
+//
+// While it is recorded, and after a kill, the newest part is in a -wal file beside it; finish() leaves one
+// file. A -shm and a .lock file exist during the recording; if a kill leaves them, they do no harm.
+//
+// The next recording keeps the previous one: "a.session" becomes "a.previous.session", complete or cut short,
+// and replaces an older "a.previous.session".
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.hpp"
+#include "game/lesson/result.hpp"
+#include "game/session/tick.hpp"
+#include "haptics/servo/timing.hpp"
+
+namespace bolt::session {
+
+// An obstacle's name, for TickRecord::touched.
+struct ObstacleName {
+    collision::ObstacleId id;  // one that has a file_number (tick.hpp)
+    std::string name;
+};
+
+// Who held the tool. `unrecorded`: a session of an older program that does not say.
+enum class OperatorKind : std::uint8_t { unrecorded, person, simulated };
+
+struct Header {
+    std::string assembly;       // name
+    std::string assembly_file;  // path as given by the user, for messages
+    std::string assembly_text;  // the file's exact text, so that a session replays without the folder
+    std::string variant;
+    std::string law;            // "published", "mechanistic"
+    std::string mode;           // "guided", "practice", "assessment"
+    std::string task;           // "tighten", "loosen"
+    std::string operator_name;  // "person", or the simulated trainee's profile: "expert", …
+    std::uint64_t seed = 0;
+    double dt = 0.001;    // s
+    std::string program;  // name and version of the writing program
+
+    // Further inputs of the ticks; all empty in format 1, which does not store them.
+    std::string guide;      // "on", "off": the guiding force towards the due joint
+    std::string obstacles;  // "none", or the contact model files, each with its size and checksum
+    std::string device;     // its limits (device_text.hpp)
+    std::string servo;      // "virtual time", or the rate of the thread as text
+    std::vector<ObstacleName> obstacle_names;
+
+    std::string view_help;  // "on", "off" for a simulated trainee; empty for a person or if unknown
+    std::string tool;       // its name in the assembly; empty before format 4: the assembly's first tool
+    std::string hand;       // "left", "right": the working hand; empty if unknown
+
+    // The name given with --trainee, which may be empty. None in sessions of older programs, which put the
+    // typed name of a person into `operator_name`.
+    std::optional<std::string> trainee;
+};
+
+// From what the session records, never from the trainee's name. A session without the key `trainee`:
+// simulated if its view help is recorded, since only simulated trainees record it; a person if its operator
+// is "person", or if it has the tool of format 4, since every simulated trainee recorded the view help by
+// then; otherwise unrecorded.
+OperatorKind operator_kind(const Header& header);
+
+// The trainee's name, empty where none is recorded. A simulated trainee has one only if --trainee gave it.
+std::string trainee_name(const Header& header);
+
+// Move-only. All errors name the file. After an error everything committed before stays readable, and each
+// later call returns the same error. A commit blocks on the file system, so never call this from the servo
+// thread. Joints are numbered in the order of their first update(). Destruction without finish() commits the
+// ticks collected so far.
+class Writer {
+  public:
+    // Creates a missing folder. An existing file at `path` is kept beside it as <stem>.previous<extension>,
+    // merged into one file, and replaces an earlier one of that name. Only a session without any tick is not
+    // kept. Fails, and changes nothing, if another writer in this or another program is recording into `path`
+    // or has it open. If several create it at the same time, one succeeds and holds the file until finish()
+    // or its destruction.
+    static Result<Writer> create(const std::filesystem::path& path, const Header& header);
+    Writer(Writer&& other) noexcept;
+    Writer& operator=(Writer&& other) noexcept;
+    ~Writer();
+
+    Status append(const TickRecord& tick);   // commits after each full second
+    Status add(const lesson::Event& event);  // committed with the current second
+    Status update(
+        const lesson::JointResult& result);    // replaces the joint's state, by id; committed likewise
+    Status keep(const servo::Timing& timing);  // replaces the servo thread's timing; committed likewise
+    Status finish(
+        const lesson::LessonResult& result);  // commits, writes all results, marks the session complete
+
+  private:
+    struct State;
+    explicit Writer(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+class Reader {
+  public:
+    // Opens a complete or cut-short session; fails if the file is not a session.
+    static Result<Reader> open(const std::filesystem::path& path);
+    Reader(Reader&& other) noexcept;
+    Reader& operator=(Reader&& other) noexcept;
+    ~Reader();
+
+    [[nodiscard]] const Header& header() const;
+    [[nodiscard]] bool complete() const;  // false: the session was cut short
+    [[nodiscard]] std::uint64_t tick_count() const;
+    [[nodiscard]] std::string file() const;
+
+    Result<lesson::LessonResult> result() const;  // as far as recorded, if cut short
+    Result<std::vector<lesson::Event>> events() const;
+    Result<std::optional<servo::Timing>> timing() const;  // none if no thread ran or format 1
+
+    // Calls `visit(first_tick, ticks)` for each chunk in order; fails at a damaged chunk and names it.
+    Status for_each_chunk(const std::function<void(std::uint64_t, std::span<const TickRecord>)>& visit) const;
+
+  private:
+    struct State;
+    explicit Reader(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace bolt::session

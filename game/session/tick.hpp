@@ -1,0 +1,54 @@
+// One recorded tick: the input exactly, the output in single precision.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "haptics/servo/io.hpp"
+
+namespace bolt::session {
+
+struct TickRecord {
+    servo::DeviceSample device;
+    std::uint8_t grip = 0;   // servo::Grip
+    std::uint8_t flags = 0;  // see below
+    std::int16_t guide = -1;
+    float force[3] = {0.0F, 0.0F, 0.0F};   // N
+    float torque[3] = {0.0F, 0.0F, 0.0F};  // N·m
+    std::int16_t joint = -1;
+    std::uint8_t stage = 0;      // joint::Stage
+    float wrench_torque = 0.0F;  // N·m
+    float nut_angle = 0.0F;      // rad
+    float clamp = 0.0F;          // N
+
+    // Since format 2; sessions of format 1 have the defaults.
+    std::uint16_t contacts = 0;     // of the wrench
+    collision::ObstacleId touched;  // that it lies against; named in Header::obstacle_names
+    std::uint8_t fault = 0;         // force::Fault of the output stage
+
+    std::uint8_t undo = 0;  // Input::undo; since format 3
+    float setting = 0.0F;   // N·m, Input::setting; since format 4
+};
+
+// How a session file numbers obstacles, in its ticks and in its table of names: none −1, fixed obstacles 0 to
+// 999, nuts from 1000 on. Fixed obstacles from 1000 on have the numbers −2, −3, …: numbers that no older file
+// holds. Empty: an index beyond `most_fixed` or `most_nuts`, for which a tick has no number.
+std::optional<std::int16_t> file_number(collision::ObstacleId obstacle);
+collision::ObstacleId obstacle_of_number(std::int16_t number);
+
+inline constexpr std::size_t most_fixed = 33766, most_nuts = 31768;
+
+// Bits of `flags`; its upper four bits count missed deadlines.
+inline constexpr std::uint8_t flag_enabled = 1, flag_silent = 2, flag_stop = 4, flag_reset = 8;
+
+TickRecord make_record(const servo::Input& input, const servo::Output& output);
+servo::Input input_of(const TickRecord& record);
+
+// Whether the outputs are equal bit by bit; equal NaNs count as equal.
+bool same_output(const TickRecord& a, const TickRecord& b);
+
+// Whether each enumeration and index is in its range. Records that fail this are neither written nor
+// returned, so a reader may use a stage as an index without a check.
+bool is_valid(const TickRecord& record);
+
+}  // namespace bolt::session

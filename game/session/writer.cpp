@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "game/session/chunk.hpp"
+#include "game/session/database.hpp"
+#include "game/session/file_lock.hpp"
+#include "game/session/format.hpp"
+#include "game/session/new_file.hpp"
+#include "game/session/session_file.hpp"
+#include "game/session/tables.hpp"
+
+namespace bolt::session {
+
+struct Writer::State {
+    State(FileLock taken, Database opened, std::string name)
+        : lock(std::move(taken)), database(std::move(opened)), file(std::move(name)) {}
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    // Without finish(): commit what was collected. A failure cannot be reported from here.
+    ~State() {
+        if (!refusal) (void)commit(nullptr);
+    }
+
+    Status commit(const lesson::LessonResult* result);
+    Status put_collected();
+    Status leave_single_file();
+    void update(const lesson::JointResult& result);
+
+    std::optional<FileLock> lock;  // destroyed last; both are empty after finish()
+    std::optional<Database> database;
+    std::string file;
+    double dt = 0.0;
+    std::size_t chunk_ticks = 0;
+    TableChecksums checksums;
+    ChunkEncoder encoder;
+    std::vector<TickRecord> ticks;  // not yet committed, as are the events
+    std::vector<lesson::Event> events;
+    std::optional<servo::Timing> timing;
+    std::vector<JointRow> joints;  // in the order of their first update()
+    std::uint64_t committed_ticks = 0;
+    std::uint64_t committed_events = 0;
+    std::optional<Error> refusal;  // set once recording has stopped
+};
+
+Status Writer::State::put_collected() {
+    if (!ticks.empty()) {
+        BOLT_TRY_ASSIGN(auto data, encoder.encode(committed_ticks, ticks));
+        BOLT_TRY(put_chunk(*database, committed_ticks, ticks.size(), data, checksums));
+    }
+    BOLT_TRY(put_events(*database, committed_events, events, checksums));
+    if (timing) {
+        BOLT_TRY(put_timing(*database, *timing, checksums));
+    }
+    return put_changed(*database, joints, checksums);
+}
+
+// Commits what was collected, and the result if given. There is no retry after a failure, so that the
+// recorded ticks have no gap if a full disk gets room again.
+Status Writer::State::commit(const lesson::LessonResult* result) {
+    const Status done = transaction(*database, [&]() -> Status {
+        BOLT_TRY(put_collected());
+        if (result != nullptr) {
+            BOLT_TRY(put_result(*database, *result, checksums));
+        }
+        return put_checksums(*database, checksums);
+    });
+    if (!done) {
+        const double kept = static_cast<double>(committed_ticks) * dt;
+        refusal =
+            file_error(file, fmt::format("cannot be written: {}, what was recorded up to {:.3f} s is kept",
+                                         done.error().what, kept))
+                .value();
+        return fail(*refusal);
+    }
+    committed_ticks += ticks.size();
+    committed_events += events.size();
+    ticks.clear();
+    events.clear();
+    timing.reset();
+    return {};
+}
+
+// Moves everything from the -wal file into the session file. The journal is in memory because a crash would
+// leave an on-disk journal with which only a writer could open the file.
+Status Writer::State::leave_single_file() {
+    const Status moved = database->execute("PRAGMA journal_mode = MEMORY");
+    // A reader holds the file: the session is complete in both files, and readers use both.
+    if (moved || database->was_busy()) return {};
+    return file_error(file, "everything is recorded, but some of it is still in " + file +
+                                "-wal, which has to stay with it: " + moved.error().what);
+}
+
+void Writer::State::update(const lesson::JointResult& result) {
+    const auto known =
+        std::ranges::find_if(joints, [&](const JointRow& joint) { return joint.result.id == result.id; });
+    if (known == joints.end()) {
+        joints.push_back({result, std::nullopt, true});
+    } else {
+        known->result = result;
+        known->changed = true;
+    }
+}
+
+Writer::Writer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Writer::Writer(Writer&& other) noexcept = default;
+Writer& Writer::operator=(Writer&& other) noexcept = default;
+Writer::~Writer() = default;
+
+Result<Writer> Writer::create(const std::filesystem::path& path, const Header& header) {
+    const std::string file = path.string();
+    const auto chunk_ticks = ticks_per_commit(header.dt);
+    if (!chunk_ticks) return file_error(file, fmt::format("a tick of {} s cannot be recorded", header.dt));
+    // SQLite puts its -wal file beside the target of a link; so do the other files.
+    std::error_code status;
+    const std::filesystem::path real =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(path), status);
+    if (status) return file_error(file, "is not a valid path: " + status.message());
+
+    TableChecksums checksums;
+    BOLT_TRY_ASSIGN(auto lock, claim_place(real, file));
+    BOLT_TRY(make_new_file(real, file, header, checksums));
+    BOLT_TRY_ASSIGN(auto database, Database::open(real, file));
+    // NORMAL: a commit survives the death of the process, a checkpoint also a power failure; commits do not
+    // wait for the disk. A checkpoint at each megabyte keeps the longest commit short. The update changes no
+    // value, but creates the -wal file by which a reader detects a writer.
+    BOLT_TRY(
+        database.execute("PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 256;"
+                         "UPDATE meta SET value = value WHERE key = 'state'"));
+
+    auto state = std::make_unique<State>(std::move(lock), std::move(database), file);
+    state->dt = header.dt;
+    state->chunk_ticks = *chunk_ticks;
+    state->checksums = checksums;
+    state->ticks.reserve(*chunk_ticks);
+    return Writer(std::move(state));
+}
+
+Status Writer::append(const TickRecord& tick) {
+    State& state = *state_;
+    if (state.refusal) return fail(*state.refusal);
+    if (!is_valid(tick)) return file_error(state.file, "was given a tick with a value out of range");
+    state.ticks.push_back(tick);
+    if (state.ticks.size() < state.chunk_ticks) return {};
+    return state.commit(nullptr);
+}
+
+Status Writer::add(const lesson::Event& event) {
+    if (state_->refusal) return fail(*state_->refusal);
+    state_->events.push_back(event);
+    return {};
+}
+
+Status Writer::update(const lesson::JointResult& result) {
+    if (state_->refusal) return fail(*state_->refusal);
+    state_->update(result);
+    return {};
+}
+
+Status Writer::keep(const servo::Timing& timing) {
+    if (state_->refusal) return fail(*state_->refusal);
+    state_->timing = timing;
+    return {};
+}
+
+Status Writer::finish(const lesson::LessonResult& result) {
+    State& state = *state_;
+    if (state.refusal) return fail(*state.refusal);
+    for (const lesson::JointResult& joint : result.joints) state.update(joint);
+    BOLT_TRY(state.commit(&result));
+    Status single = state.leave_single_file();
+    state.database.reset();
+    state.lock.reset();
+    state.refusal =
+        single ? file_error(state.file, "is complete, nothing more can be recorded").value() : single.error();
+    return single;
+}
+
+}  // namespace bolt::session

@@ -1,0 +1,263 @@
+#include "haptics/collision/edges.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "haptics/collision/closest.hpp"
+#include "haptics/collision/embree_query.hpp"
+
+namespace bolt::collision {
+namespace {
+
+// m; radius searched beyond the necessary one for a piece that had no edge near it.
+constexpr double edge_lookahead = 3e-3;
+// m and rad; cached candidates are searched again when less than this remains of their bounds.
+constexpr double min_cached_distance = 0.1e-3, min_cached_turn = 2e-3;
+constexpr double rounding_in_float = 1e-6;  // m; exceeds the error of positions and distances in float
+
+bool nearer_crossing(const Crossing& a, const Crossing& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.edge < b.edge;
+}
+
+struct EdgeGathering {
+    const Solid* solid;
+    const EdgePiece* piece;
+    double length;    // half the piece's
+    glm::vec3 along;  // unit
+    std::array<glm::vec3, 2> inward;
+    glm::vec3 low, high;   // of its box
+    float asked_in_float;  // the radius, with a margin
+    double radius, band;
+    std::array<Crossing, 16> found;
+    std::size_t count = 0;
+    double clear, turn = infinite_distance;
+    FacingEdges* facing = nullptr;
+    double dropped = infinite_distance;
+
+    void add(Crossing crossing) {
+        if (count < found.size()) {
+            found[count++] = crossing;
+            return;
+        }
+        const auto last = std::max_element(found.begin(), found.end(), nearer_crossing);
+        if (nearer_crossing(crossing, *last)) std::swap(crossing, *last);
+        dropped = std::min(dropped, crossing.distance);
+    }
+};
+
+// How far the common perpendicular is from leading out of both solids, as a cosine; at most 0: it does. Else
+// some face, vertex or other edge is nearer.
+double off_facing(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
+    double off = -1.0;
+    for (std::size_t i = 0; i < 2; ++i)
+        off = std::max({off, glm::dot(normal, Vec3(edge.inward[i])), -glm::dot(normal, piece.inward[i])});
+    constexpr double slack = 1e-6;
+    return off - slack;
+}
+
+// A turn (rad) that lasts long enough not to ask how far the edge is.
+constexpr double worth_a_turn = 0.02;
+
+// Whether the edge is surely further than the radius from all of the piece: by their boxes.
+bool is_beyond(const EdgeGathering& g, const Ridge& edge) {
+    const glm::vec3 low = glm::min(edge.ends[0], edge.ends[1]);
+    const glm::vec3 high = glm::max(edge.ends[0], edge.ends[1]);
+    const glm::vec3 beside = glm::max(glm::max(low - g.high, g.low - high), glm::vec3(0.0F));
+    return glm::dot(beside, beside) > g.asked_in_float * g.asked_in_float;
+}
+
+// Whether the piece has to turn by far until the common perpendicular leads out of both solids; most edges
+// are done with so.
+bool is_off_by_far(EdgeGathering& g, const Ridge& edge) {
+    constexpr float rounding_of_turns = 1e-3F;
+    const glm::vec3 across = glm::cross(g.along, edge.along);
+    float plus = -1.0F, minus = -1.0F;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const float of_edge = glm::dot(across, edge.inward[i]), of_piece = glm::dot(across, g.inward[i]);
+        plus = std::max({plus, of_edge, -of_piece});
+        minus = std::max({minus, -of_edge, of_piece});
+    }
+    const double turn = static_cast<double>(std::min(plus, minus) / 3.0F - rounding_of_turns);
+    if (turn > worth_a_turn) g.facing->turn = std::min(g.facing->turn, turn);
+    return turn > worth_a_turn;
+}
+
+// One edge against the piece. Why the bounds hold: turning the piece by φ turns the perpendicular by 1.5 φ
+// over the sine between the edges at most, while φ is below a third of that sine.
+void meet(EdgeGathering& g, std::uint32_t index) {
+    const Ridge& edge = g.solid->ridges[index];
+    const Vec3 a(edge.ends[0]);
+    const Vec3 b(edge.ends[1]);
+    const Vec3 middle = 0.5 * (a + b);
+    const Vec3 half = 0.5 * (b - a);
+    const Vec3 across = glm::cross(g.piece->half, half);
+    const double size = glm::length(across);
+    const double length = glm::length(half);
+    const double sine = size / (g.length * length);
+    Crossing crossing;
+    if (sine > 1e-3) {
+        crossing.normal = across / size;
+        const double off = std::min(off_facing(edge, *g.piece, crossing.normal),
+                                    off_facing(edge, *g.piece, -crossing.normal));
+        const double turn = off * sine / 3.0;
+        if (turn >= g.turn) return;
+        if (turn > worth_a_turn) {
+            g.turn = turn;
+            return;
+        }
+        if (off > 0.0) {
+            const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
+            const Vec3 between = g.piece->middle + at.s * g.piece->half - middle - at.t * half;
+            if (glm::dot(between, between) <= g.radius * g.radius) g.turn = turn;
+            return;
+        }
+    }
+    const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
+    crossing.on_piece = g.piece->middle + at.s * g.piece->half;
+    crossing.on_edge = middle + at.t * half;
+    const double apart = glm::length(crossing.on_piece - crossing.on_edge);
+    if (apart > g.radius) return;
+    // Edges that are nearly parallel are compared at their middles only: off by their angle at most.
+    const double beyond = apart - max_crossing_depth - (at.inner ? 0.0 : 2e-3 * g.length);
+    if (!(sine > 1e-3)) {
+        g.clear = std::min(g.clear, beyond);
+        return;
+    }
+    if (glm::dot(crossing.normal, Vec3(edge.normals[0]) + Vec3(edge.normals[1])) < 0.0)
+        crossing.normal = -crossing.normal;
+    if (!at.inner) {
+        const Vec3 between = middle - g.piece->middle;
+        const double on_piece = glm::dot(glm::cross(between, half), across) / (size * size);
+        const double on_edge = glm::dot(glm::cross(between, g.piece->half), across) / (size * size);
+        // By how much the feet of the perpendicular lie beyond the ends. They move by 1.12 of the way and 4.8
+        // of the distance and turn, over the sine, at most.
+        const double over =
+            std::max((std::abs(on_piece) - 1.0) * g.length, (std::abs(on_edge) - 1.0) * length);
+        double clear = std::min(apart, 0.4 * over * sine);
+        double turn = std::min(0.05 * sine, over * sine * sine / (10.0 * apart));
+        // The lines are apart, and cannot pass each other before they have come together: their distance
+        // falls by the way and by turn times how far the foot is, at most.
+        const double distance = -glm::dot(between, crossing.normal);
+        if (const double until = std::min(apart, 0.8 * distance); until > clear) {
+            clear = until;
+            turn = std::min(0.05 * sine, 0.15 * distance / (std::abs(on_piece) * g.length + 1e-9));
+        }
+        if (clear > beyond) {
+            g.clear = std::min(g.clear, clear);
+            g.turn = std::min(g.turn, turn);
+        } else {
+            g.clear = std::min(g.clear, beyond);
+        }
+        return;
+    }
+    crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
+    crossing.edge = edge.sharp_edge;
+    if (crossing.distance > 0.0) {
+        // The other way round only by coming through.
+        g.clear = std::min(g.clear, 0.9 * crossing.distance);
+        g.turn = std::min(g.turn, 0.1 * sine);
+    } else {
+        g.clear = std::min(g.clear, beyond);
+    }
+    if (crossing.distance > g.band || crossing.distance < -max_crossing_depth) return;
+    g.add(crossing);
+}
+
+bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
+    auto& g = *static_cast<EdgeGathering*>(arguments->userPtr);
+    const Ridge& edge = g.solid->ridges[arguments->primID];
+    if (is_beyond(g, edge) || is_off_by_far(g, edge)) return false;
+    FacingEdges& facing = *g.facing;
+    facing.all = facing.all && facing.count < facing.ridges.size();
+    if (facing.all) facing.ridges[facing.count++] = arguments->primID;
+    meet(g, arguments->primID);
+    return false;
+}
+
+bool is_inside(const Solid& solid, const Vec3& point) {
+    return query_point(solid, point, infinite_distance, 0.0, {}).distance < 0.0;
+}
+
+EdgeGathering gathering(const Solid& solid, const EdgePiece& piece, double radius, double band) {
+    EdgeGathering g;
+    g.solid = &solid;
+    g.piece = &piece;
+    g.length = glm::length(piece.half);
+    g.radius = std::max({radius, band, max_crossing_depth});
+    g.clear = g.radius - max_crossing_depth;
+    g.band = band;
+    return g;
+}
+
+Crossings conclude(EdgeGathering& g, const Solid& other, const Pose& to_other,
+                   std::span<Crossing> crossings) {
+    std::sort(g.found.begin(), g.found.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
+    Crossings result{0, std::min(g.band, g.dropped), g.clear, g.turn};
+    for (const Crossing& c : std::span(g.found).first(g.count)) {
+        if (c.distance < -ambiguous_depth && !is_inside(*g.solid, c.on_piece) &&
+            (c.distance < -g.band || !is_inside(other, to_other * c.on_edge)))
+            continue;
+        if (result.count == crossings.size()) {
+            result.complete = std::min(result.complete, c.distance);
+            break;
+        }
+        crossings[result.count++] = c;
+    }
+    return result;
+}
+
+}  // namespace
+
+Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
+                      double radius, double band, std::span<Crossing> crossings, FacingEdges& facing) {
+    facing.count = 0;
+    facing.all = true;
+    facing.turn = infinite_distance;
+    if (!solid.edge_scene) return {0, band, infinite_distance, infinite_distance};
+    EdgeGathering g = gathering(solid, piece, radius, band);
+    g.facing = &facing;
+    g.along = glm::vec3(piece.half / g.length);
+    for (std::size_t i = 0; i < 2; ++i) g.inward[i] = glm::vec3(piece.inward[i]);
+    const glm::vec3 middle(piece.middle);
+    const glm::vec3 extent = glm::abs(glm::vec3(piece.half));
+    g.low = middle - extent;
+    g.high = middle + extent;
+    g.asked_in_float = with_margin(g.radius, piece.middle);
+    RTCPointQuery query = make_query(piece.middle, g.length + g.radius);
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
+    g.turn = std::min(g.turn, facing.turn);
+    return conclude(g, other, to_other, crossings);
+}
+
+Crossings query_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                             const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
+                             const FacingEdges& facing) {
+    EdgeGathering g = gathering(solid, piece, radius, band);
+    g.turn = facing.turn;
+    for (std::uint32_t i = 0; i < facing.count; ++i) meet(g, facing.ridges[i]);
+    return conclude(g, other, to_other, crossings);
+}
+
+Crossings query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                             const Pose& to_other, double turned, double band, bool near_before,
+                             EdgeCache& cache, bool& searched, std::span<Crossing> crossings) {
+    const double turn = turned - cache.turned;
+    const double way =
+        glm::length(piece.middle - Vec3(cache.at)) + glm::length(piece.half) * turn + rounding_in_float;
+    const double deepest = std::max(band, max_crossing_depth);
+    searched = !(cache.facing.all && cache.radius - way > deepest + band + min_cached_distance &&
+                 cache.facing.turn - turn > min_cached_turn);
+    if (!searched) {
+        FacingEdges facing = cache.facing;
+        facing.turn -= turn;
+        return query_facing_edges(solid, piece, other, to_other, cache.radius - way, band, crossings, facing);
+    }
+    cache.at = glm::vec3(piece.middle);
+    cache.turned = turned;
+    cache.radius = deepest + (near_before ? short_lookahead : edge_lookahead);
+    return query_edges(solid, piece, other, to_other, cache.radius, band, crossings, cache.facing);
+}
+
+}  // namespace bolt::collision

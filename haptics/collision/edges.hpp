@@ -1,0 +1,74 @@
+// Edge against edge: a straight piece of one solid's convex edge against the convex edges of another solid.
+#pragma once
+
+#include "haptics/collision/solid.hpp"
+
+namespace bolt::collision {
+
+// A straight piece of a convex edge, in the frame of the solid that it is compared with.
+struct EdgePiece {
+    Vec3 middle{0.0}, half{0.0};   // m; the piece extends from middle − half to middle + half
+    std::array<Vec3, 2> inward{};  // as in SharpEdge
+};
+
+struct Crossing {
+    double distance = 0.0;             // m, signed; negative: the edges have passed through each other
+    Vec3 on_piece{0.0}, on_edge{0.0};  // m
+    Vec3 normal{0.0};                  // unit, away from the solid
+    std::uint32_t edge = 0;            // index in the solid's mesh.sharp_edges
+};
+
+// m; crossings deeper than this are not reported. Samples along the edges detect deeper penetration.
+inline constexpr double max_crossing_depth = 2e-3;
+// m; a deeper crossing is reported only if one of its points is inside the other solid. Otherwise the edges
+// lie on both sides of a thin rib and do not touch.
+inline constexpr double ambiguous_depth = 0.1e-3;
+
+struct Crossings {
+    std::size_t count = 0;
+    double complete = 0.0;  // as in PointQueryResult
+    // The result stays empty while the piece's points move by less than `clear` minus the band (m) and the
+    // piece turns by less than `turn` (rad).
+    double clear = 0.0, turn = 0.0;
+};
+
+// Candidate edges of a solid for a piece. Any other edge is further than the radius of the query or cannot
+// face the piece until it has turned by `turn` (rad).
+struct FacingEdges {
+    std::array<std::uint32_t, 40> ridges{};  // indices in `Solid::ridges`
+    std::uint32_t count = 0;
+    bool all = false;  // all candidates fitted
+    double turn = 0.0;
+};
+
+// Finds the crossings within `band` of the piece in which edge faces edge; if the output is too small, the
+// nearest. `other` is the solid that the piece belongs to, `to_other` leads into its frame. Edges further
+// than `radius` are ignored. Fills `facing`.
+Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
+                      double radius, double band, std::span<Crossing> crossings, FacingEdges& facing);
+
+// As `query_edges`, among the candidates of an earlier query. `radius` and `facing.turn` must be reduced by
+// the piece's motion since then, and `facing.all` must be true.
+Crossings query_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                             const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
+                             const FacingEdges& facing);
+
+// The candidates of a piece's last search, with its middle and accumulated turn at that time.
+struct EdgeCache {
+    glm::vec3 at{0.0F};   // m
+    double turned = 0.0;  // rad
+    double radius = 0.0;  // m, of the search; 0: no search yet
+    FacingEdges facing;
+};
+
+// m; radius beyond the necessary one that is searched for a piece that had an edge within this distance.
+inline constexpr double short_lookahead = 2e-3;
+
+// As `query_edges`, with the cached candidates where they suffice. `turned`: rad, the piece's accumulated
+// turn. `near_before`: an edge was within `short_lookahead` at the last query. `searched` returns whether the
+// edges had to be searched again.
+Crossings query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                             const Pose& to_other, double turned, double band, bool near_before,
+                             EdgeCache& cache, bool& searched, std::span<Crossing> crossings);
+
+}  // namespace bolt::collision

@@ -1,0 +1,183 @@
+#include "haptics/collision/jaw.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace bolt::collision {
+namespace {
+
+// Over the opening, as tools/models/wrench makes them.
+constexpr double thickness_share = 0.5, throat_share = 0.6, tip_share = 0.7, bevel_share = 0.025;
+constexpr double lead_in_share = 0.035, round_share = 0.129;  // chords of the radii 0.06 and 0.22
+constexpr double half_head_at_tip = 0.735;                    // where the jaw ends and its head's circle is
+
+constexpr double slope = pi / 6.0;  // of a nut's chamfers
+constexpr double sixth = pi / 3.0;
+
+Vec3 direction(double angle) { return {std::cos(angle), std::sin(angle), 0.0}; }
+
+void cap(double half, std::vector<HalfSpace>& planes) {
+    planes.push_back({{0, 0, 1}, half});
+    planes.push_back({{0, 0, -1}, half});
+}
+
+HalfSpace through(const Vec3& normal, const Vec3& point) {
+    const Vec3 n = glm::normalize(normal);
+    return {n, glm::dot(n, point)};
+}
+
+Convex turned(std::vector<HalfSpace> planes, double angle) {
+    const Quat turn = glm::angleAxis(angle, Vec3(0, 0, 1));
+    for (HalfSpace& plane : planes) plane.normal = turn * plane.normal;
+    return make_convex(planes);
+}
+
+// One of the two jaws, on the side of +Y or −Y.
+Convex half_jaw(const Jaw& j, double side) {
+    const double flat = 0.5 * j.opening, back = jaw_cover * j.opening, high = 0.5 * j.thickness;
+    const double head = half_head_at_tip * j.opening;
+    std::vector<HalfSpace> planes{{{0, -side, 0}, -flat},
+                                  {{0, side, 0}, flat + back},
+                                  {{-1, 0, 0}, j.tip},
+                                  {{1, 0, 0}, j.throat + back}};
+    cap(high, planes);
+    for (const double up : {1.0, -1.0})
+        planes.push_back(through({0, -side, up}, {0, side * flat, up * (high - j.bevel)}));
+    planes.push_back(through({-1, -side, 0}, {-j.tip, side * (flat + j.lead_in), 0}));
+    planes.push_back(through({-1, side, 0}, {-j.tip, side * (head - j.round), 0}));
+    return turned(planes, j.head_angle);
+}
+
+Convex bottom(const Jaw& j) {
+    const double wide = (0.5 + jaw_cover) * j.opening, high = 0.5 * j.thickness;
+    std::vector<HalfSpace> planes{{{-1, 0, 0}, -j.throat},
+                                  {{1, 0, 0}, j.throat + jaw_cover * j.opening},
+                                  {{0, 1, 0}, wide},
+                                  {{0, -1, 0}, wide}};
+    cap(high, planes);
+    for (const double up : {1.0, -1.0})
+        planes.push_back(through({-1, 0, up}, {j.throat, 0, up * (high - j.bevel)}));
+    return turned(planes, j.head_angle);
+}
+
+// Of a line p + t up, 0 ≤ t ≤ length, the length within |coordinate| ≤ half; it begins at `start` and grows
+// by `rate`.
+double within(double start, double rate, double length, double half) {
+    if (std::abs(rate) < 1e-12) return std::abs(start) <= half ? length : 0.0;
+    const double a = (-half - start) / rate, b = (half - start) / rate;
+    return std::clamp(std::max(a, b), 0.0, length) - std::clamp(std::min(a, b), 0.0, length);
+}
+
+}  // namespace
+
+Jaw make_jaw(double opening, double head_angle, double thickness, double throat, double tip) {
+    Jaw jaw;
+    jaw.opening = opening;
+    jaw.head_angle = head_angle;
+    jaw.throat = throat > 0.0 ? throat : throat_share * opening;
+    jaw.tip = tip > 0.0 ? tip : tip_share * opening;
+    jaw.thickness = thickness > 0.0 ? thickness : thickness_share * opening;
+    jaw.bevel = std::min(bevel_share * opening, 0.25 * jaw.thickness);
+    jaw.lead_in = lead_in_share * opening;
+    jaw.round = round_share * opening;
+    return jaw;
+}
+
+double HexagonPrism::half_side() const { return 0.5 * across_flats / std::sqrt(3.0); }
+
+double HexagonPrism::fall() const {
+    return std::max(0.0, across_flats / std::sqrt(3.0) - 0.5 * bearing) * std::tan(slope);
+}
+
+JawParts jaw_parts(const Jaw& jaw) { return {half_jaw(jaw, 1.0), half_jaw(jaw, -1.0), bottom(jaw)}; }
+
+bool covered_by_jaw(const JawParts& parts, const Vec3& point) {
+    constexpr double facets = 20e-6;  // m, that a mesh may stick out of what it is made from
+    return std::any_of(parts.begin(), parts.end(), [&](const Convex& part) {
+        return std::all_of(part.faces.begin(), part.faces.end(), [&](const ConvexFace& face) {
+            return glm::dot(face.plane.normal, point) <= face.plane.offset + facets;
+        });
+    });
+}
+
+Convex hexagon(const HexagonPrism& p) {
+    std::vector<HalfSpace> planes{{{0, 0, 1}, p.height}, {{0, 0, -1}, 0.0}};
+    for (int i = 0; i < 6; ++i) planes.push_back({direction((i + 0.5) * sixth), 0.5 * p.across_flats});
+    for (int i = 0; i < 12; ++i) {
+        const Vec3 out = direction(0.5 * i * sixth);
+        for (const double up : {1.0, -1.0}) {
+            const Vec3 rim = 0.5 * p.bearing * out + Vec3(0, 0, up > 0.0 ? p.height : 0.0);
+            planes.push_back(through(std::sin(slope) * out + Vec3(0, 0, up * std::cos(slope)), rim));
+        }
+    }
+    return make_convex(planes);
+}
+
+JawSeat seat_of(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
+    const Vec3 to_throat = wrench.orientation * direction(jaw.head_angle);
+    const Vec3 across = wrench.orientation * direction(jaw.head_angle + 0.5 * pi);
+    const Vec3 normal = wrench.orientation * Vec3(0, 0, 1);
+    const double azimuth = std::atan2(to_throat.y, to_throat.x), off = wrap(azimuth, sixth);
+    const Vec3 along = direction(azimuth - off), out = direction(azimuth - off + 0.5 * pi);
+
+    JawSeat seat;
+    seat.misalignment = -off;  // tightening turns about −Z
+    seat.tilt = std::asin(std::clamp(across.z, -1.0, 1.0));
+    const Vec3 middle(0.0, 0.0, wrench.position.z);
+    seat.aside = glm::dot(middle - wrench.position, across);
+    const double fall = prism.fall(), side = prism.half_side();
+    seat.overlap = prism.height;
+    for (const double a : {-side, side})
+        for (const double b : {-0.5, 0.5}) {
+            const Vec3 corner = a * along + b * prism.across_flats * out + Vec3(0, 0, fall);
+            seat.overlap = std::min(seat.overlap, within(glm::dot(corner - wrench.position, normal), normal.z,
+                                                         prism.height - 2.0 * fall, jaw.half_flat()));
+        }
+    // The axis sees the jaw's middle this far along the flats.
+    const double ahead = glm::dot(wrench.position, along);
+    seat.toward_mouth = std::min(side, jaw.tip - jaw.lead_in - ahead);
+    seat.toward_throat = std::min(side, jaw.throat + ahead);
+    return seat;
+}
+
+std::size_t jaw_contacts(const JawParts& jaw, const Convex& hexagon, const Pose& wrench, const Pose& nut,
+                         double band, ObstacleId obstacle, std::span<Contact, most_jaw_contacts> out) {
+    const Pose to_nut = inverse(nut) * wrench;
+    std::size_t count = 0;
+    for (std::uint32_t part = 0; part < jaw.size(); ++part) {
+        const Separation s = separation(jaw[part], hexagon, to_nut, band);
+        if (s.distance > band) continue;
+        std::array<Contact, most_meeting> found;
+        const std::size_t points = meeting_points(jaw[part], hexagon, to_nut, s, found);
+        const std::size_t room = std::min(points, most_jaw_contacts / jaw.size());
+        std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(points),
+                  [](const Contact& a, const Contact& b) {
+                      return a.distance != b.distance ? a.distance < b.distance : a.feature < b.feature;
+                  });
+        for (std::size_t i = 0; i < room; ++i) {
+            Contact& c = out[count++];
+            c = found[i];
+            c.on_tool = nut * c.on_tool;
+            c.on_obstacle = nut * c.on_obstacle;
+            c.normal = nut.orientation * c.normal;
+            c.obstacle = obstacle;
+            c.feature += 64 * part;
+        }
+    }
+    return count;
+}
+
+void remove_axial_moment(const Vec3& on_axis, const Vec3& axis, std::span<Contact> contacts) {
+    for (Contact& c : contacts) {
+        const Vec3 tangent = glm::cross(axis, c.normal);
+        const double square_level = glm::dot(tangent, tangent);
+        if (square_level < 1e-12) continue;
+        const double lever = glm::dot(axis, glm::cross(c.on_obstacle - on_axis, c.normal));
+        const Vec3 shift = tangent * (lever / square_level);
+        c.on_tool += shift;
+        c.on_obstacle += shift;
+    }
+}
+
+}  // namespace bolt::collision

@@ -1,0 +1,77 @@
+// The narrow phase: contacts between the tool and all bodies of a world. Three kinds of pairs are compared:
+// samples of the tool against surfaces of bodies, samples of bodies against the tool's surface, edges of the
+// tool against edges of bodies.
+//
+// Every sample and every cluster of samples stores a lower bound of its distance. The relative motion since
+// then is subtracted from it; only where nothing remains is the surface queried again. The bounds save work
+// and never change the result: it is the same bit for bit with an empty cache.
+#pragma once
+
+#include <vector>
+
+#include "haptics/collision/contact_reduction.hpp"
+#include "haptics/collision/edges.hpp"
+#include "haptics/collision/world.hpp"
+
+namespace bolt::collision {
+
+// A conservative distance bound, stored with the motion accumulated when it was computed. Subtract the motion
+// since then to get the bound that holds now.
+struct DistanceBound {
+    double lower;  // m: signed distance of a point, or `Crossings::clear` of an edge piece
+    double turn;   // rad: `Crossings::turn`; infinite for points
+};
+
+// The last query of a sample or cluster: its middle in the surface's frame, the lower bound there, and the
+// accumulated turn. The motion since then is at most the way of the middle plus the sample's size times the
+// turn, which is a tighter bound than the tool's whole motion.
+struct CachedQuery {
+    glm::vec3 at;   // m
+    float lower;    // m
+    double turned;  // rad
+    bool met;       // edge pieces: an edge was within `short_lookahead`
+};
+
+// The cache of one solid's samples against the other's surface.
+struct Bounds {
+    std::vector<std::vector<DistanceBound>> levels;  // by level and cluster; holds for all samples of it
+    std::vector<std::vector<CachedQuery>> level_queries;
+    std::vector<DistanceBound> samples;
+    std::vector<CachedQuery> seen;  // by sample
+    std::vector<EdgeCache> edges;   // by piece
+};
+
+// The cache of the tool and one body.
+struct PairBounds {
+    bool fresh = true;                 // no query yet
+    Pose last;                         // tool to body, at the last query
+    double moved = 0.0, turned = 0.0;  // m and rad, accumulated relative motion
+    Bounds of_tool, of_body;
+};
+
+struct NarrowPhaseState {
+    std::vector<PairBounds> pairs;  // in the order of the world's bodies
+    // Scratch memory of a query.
+    std::vector<Contact> near;
+    std::vector<RankedContact> order;
+    std::vector<KeptContact> kept;
+    std::vector<std::uint8_t> kept_in;
+    std::vector<DeferredContact> deferred;
+    std::vector<RankedContact> deferred_order;
+};
+
+// Allocates everything that `find_contacts` needs for this world and tool.
+NarrowPhaseState make_narrow_phase(const World& world, const ToolShape& tool);
+
+// Discards all cached bounds. The next result is the same, at a higher cost.
+void clear_cache(NarrowPhaseState& state, const World& world, const ToolShape& tool);
+
+// Writes the contacts up to `band` (m) between the tool at `pose` and the bodies of the world that are on.
+// Penetration has no limit except for edges against edges (edges.hpp). Distances are those of the meshes,
+// computed in double; the equation of `Contact` holds to 1e-9 m. `clearance` is the band if all contacts were
+// written or merged (contact_reduction.hpp), otherwise the distance up to which they are complete. `work`
+// depends on the cache. Does not allocate.
+ContactQueryResult find_contacts(const World& world, const ToolShape& tool, const Pose& pose, double band,
+                                 NarrowPhaseState& state, std::span<Contact> out);
+
+}  // namespace bolt::collision

@@ -1,0 +1,64 @@
+// Points and edge pieces of a solid that can be the first to touch another solid, in a hierarchy of clusters.
+//
+// Two solids touch where at least one of them curves outward: at a corner, along an edge (against an edge or
+// a round face), or on a round face. Flat and hollow regions need no samples: whatever touches them has some.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "haptics/collision/solid.hpp"
+
+namespace bolt::collision {
+
+// A point, or a piece of a convex edge.
+struct Sample {
+    static constexpr std::uint32_t no_piece = 0xffffffffU;
+    Vec3 at{0.0};                    // m; the middle of an edge piece
+    std::uint32_t triangle = 0;      // one that it lies on
+    std::uint32_t piece = no_piece;  // index in `Samples::pieces`; no_piece: a point
+};
+
+struct Piece {
+    Vec3 half{0.0};                // m, from the middle to the end
+    double half_length = 0.0;      // m
+    std::array<Vec3, 2> inward{};  // as in SharpEdge
+};
+
+// A bounding sphere of samples, including the ends of edge pieces.
+struct Cluster {
+    Vec3 middle{0.0};     // m
+    double radius = 0.0;  // m
+    double reach = 0.0;   // m, greatest distance of its samples from the frame's origin
+    std::uint32_t begin = 0,
+                  end = 0;  // range of samples on level 0, of clusters of the level below elsewhere
+};
+
+inline constexpr std::size_t cluster_size = 16;  // children of a cluster at most
+
+struct Samples {
+    std::vector<Sample> samples;  // those of a cluster are consecutive
+    std::vector<Piece> pieces;
+    std::vector<std::vector<Cluster>>
+        levels;  // level 0 holds samples; the last has at most cluster_size clusters
+};
+
+struct SampleOptions {
+    double longest_piece = 4e-3;  // m; edges that continue nearly straight are joined up to this length
+    // One solid of a pair has edge pieces (`edges`), the other has points along its round edges (`round`):
+    // where the two meet, the samples of one side suffice.
+    bool edges = true, round = false;
+    // m, spacing of points along edges. A fillet of the other solid that crosses an edge between two points
+    // is detected late: a fillet of radius 1 mm falls by 0.28 mm over half of 1.5 mm, by 0.15 mm over half
+    // of 1.1 mm.
+    double along_edges = 1.5e-3;
+    std::size_t on_faces = 0;  // points spread evenly over the surface, for faces of very low curvature
+};
+
+// rad; edges sharper than this get points along them, since a round face may touch them anywhere.
+inline constexpr double keen_angle = 20.0 * pi / 180.0;
+
+// Deterministic: the same mesh gives the same samples in the same order.
+Samples make_samples(const Solid& solid, const SampleOptions& options);
+
+}  // namespace bolt::collision

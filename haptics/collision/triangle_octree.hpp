@@ -1,0 +1,78 @@
+// An octree over the surroundings of a solid, built at load and refined near curved surface. A leaf stores
+// the signed distance of its centre and the triangles within `octree_reach` of any point in it. A query
+// returns distance bounds without visiting triangles; near the surface the listed triangles give exact
+// distances.
+#pragma once
+
+#include <optional>
+
+#include "haptics/collision/solid.hpp"
+
+namespace bolt::collision {
+
+inline constexpr double octree_reach = 0.7e-3;  // m; see above
+inline constexpr int octree_levels = 5;         // of subdivision below the root cells
+inline constexpr std::size_t max_listed = 256;  // triangles of a leaf; a leaf with more lists none
+
+struct OctreeLeaf {
+    std::uint32_t begin = 0, end = 0;  // range in `TriangleOctree::triangles`
+    // Index in `TriangleOctree::boxes` of the triangles' bounding boxes: the lowest x of all, …, the highest
+    // z of all. Each coordinate is padded to a multiple of four entries.
+    std::uint32_t boxes = 0;
+    // Plane normal · x = height that has all triangles behind it; `spread` (rad) bounds the angle between
+    // their normals and the plane's.
+    Vec3 normal{0.0};
+    double height = 0.0;
+    float spread = 0.0F;
+    bool front = false;  // the part of the cell in front of the plane is outside the solid
+    // The triangles belong to one part and none rises above the plane of another within reach, so a point
+    // outside has exactly one separating plane.
+    bool convex = false;
+};
+
+struct TriangleOctree {
+    struct Node {
+        float distance;  // m, signed, at the centre
+        std::int32_t
+            next;  // > 0: index of the first of eight children; < 0: minus the leaf's index; 0: empty
+    };
+    Vec3 low{0.0};                                  // m, lowest corner of the first root cell
+    double root = 0.0;                              // m, size of a root cell
+    double per_root = 0.0;                          // 1 / root
+    std::array<double, octree_levels + 1> sizes{};  // m, cell size by level
+    double rounding = 0.0;                          // m; exceeds the error of points and distances in float
+    std::array<int, 3> roots{};                     // root cells along each axis; 0: the octree is empty
+    std::vector<Node> nodes;                        // root cells first, x fastest
+    std::vector<OctreeLeaf> leaves;                 // the first is a placeholder
+    std::vector<std::uint32_t> triangles;
+    std::vector<float> boxes;
+};
+
+// `cell`: m, size of the smallest cells; 0 gives an empty octree. The octree extends beyond the solid's box
+// by one root cell.
+TriangleOctree make_triangle_octree(const Solid& solid, double cell);
+
+// Bounds at a point: lower ≤ signed distance and |signed distance| ≤ upper. Outside the octree the bounds are
+// infinite.
+struct OctreeQuery {
+    double lower = -infinite_distance, upper = infinite_distance;  // m
+    const OctreeLeaf* leaf = nullptr;                              // null: no triangles are listed
+    double unlisted = 0.0;  // m; lower bound of the distance to any triangle that is not listed
+};
+OctreeQuery query(const TriangleOctree& octree, const Vec3& point);
+
+// The leaf of the last query. Queries at nearby points reuse it instead of descending from the root.
+struct OctreeCursor {
+    Vec3 middle{0.0};    // m, from `TriangleOctree::low`
+    double half = -1.0;  // m, half the cell's size
+    const TriangleOctree::Node* node = nullptr;
+};
+OctreeQuery query(const TriangleOctree& octree, const Vec3& point, OctreeCursor& last);
+
+// As `query_point`, among the listed triangles of `seen.leaf`, which must not be null. Empty if the nearest
+// listed triangle is further than `seen.unlisted`. `band` must not exceed octree_reach.
+std::optional<PointQueryResult> query_listed(const Solid& solid, const TriangleOctree& octree,
+                                             const OctreeQuery& seen, const Vec3& point, double band,
+                                             std::span<SeparatingPlane> planes);
+
+}  // namespace bolt::collision

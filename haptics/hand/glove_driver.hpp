@@ -1,0 +1,46 @@
+// A glove on a serial port, read by its own thread. Readers get the latest sample and report without waiting.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "haptics/hand/glove_session.hpp"
+
+namespace bolt::hand {
+
+struct GloveSample {
+    GloveFrame frame;
+    std::uint64_t number = 0;  // 0: none yet
+    double time = 0.0;         // s on the steady clock, when its last byte was read
+};
+
+struct GloveReport {
+    bool open = false;  // the port
+    GloveState state = GloveState::handshake;
+    GloveIdentity identity;
+    std::array<char, 200> trouble{};  // zero-terminated text; empty: none
+    std::uint64_t frames = 0, lost_bytes = 0, handshakes = 0, openings = 0;
+    // s: time of the latest frame on the steady clock, and the longest gap between frames up to now.
+    double newest = 0.0, longest_silence = 0.0;
+};
+
+class GloveDriver {
+  public:
+    // Returns immediately. If the port cannot be opened, the thread retries and the report has the reason.
+    static GloveDriver start(std::filesystem::path port, const GloveSessionOptions& options = {});
+
+    GloveDriver(GloveDriver&&) noexcept;
+    GloveDriver& operator=(GloveDriver&&) noexcept;
+    ~GloveDriver();  // stops the thread
+
+    // One calling thread each.
+    const GloveSample& sample();
+    const GloveReport& report();
+
+  private:
+    struct Shared;
+    explicit GloveDriver(std::unique_ptr<Shared> shared);
+    std::unique_ptr<Shared> shared_;
+};
+
+}  // namespace bolt::hand

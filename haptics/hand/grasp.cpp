@@ -1,0 +1,136 @@
+#include "haptics/hand/grasp.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace bolt::hand {
+namespace {
+
+bool touches(const hand::FingertipContact& contact) { return contact.distance <= hand::touching; }
+
+// Larger than the friction angle of two fingertips (fingertip_contact.hpp): the palm supports a closed hand.
+constexpr double opposing = to_radians(60.0);
+
+bool pushes_at(const hand::FingertipContact& one, const hand::FingertipContact& other) {
+    const Vec3 between = other.point - one.point;
+    return glm::dot(between, -one.normal) >= std::cos(opposing) * glm::length(between);
+}
+
+// Combines the touching fingers into one virtual finger (M. A. Arbib, T.
+// Iberall, D. Lyons, Coordinated control programs for movements of the hand, Exp. Brain Res. Suppl. 10,
+// 1985).
+bool together(const FingerClosure& closure) {
+    hand::FingertipContact all{0.0, Vec3(0.0), Vec3(0.0)};
+    double count = 0.0;
+    for (std::size_t i = 1; i < hand::digit_count; ++i) {
+        const hand::FingertipContact& nearest = closure.digits[i].nearest;
+        if (!touches(nearest)) continue;
+        all.point += nearest.point;
+        all.normal += nearest.normal;
+        count += 1.0;
+    }
+    const double length = glm::length(all.normal);
+    if (count == 0.0 || length < 0.5 * count) return false;  // they push at each other
+    all.point /= count;
+    all.normal /= length;
+    const hand::FingertipContact& thumb = closure.digits[0].nearest;
+    return touches(thumb) && pushes_at(thumb, all) && pushes_at(all, thumb);
+}
+
+// The touching bones of thumb and fingers as fingertips for fingertip_grasp().
+hand::Fingertips tips_of(const collision::ToolShape& tool, const FingerClosure& closure) {
+    hand::Fingertips tips;
+    for (std::size_t i = 0; i < hand::digit_count; ++i) {
+        const hand::FingertipContact& nearest = closure.digits[i].nearest;
+        tips.at[i] = touches(nearest) ? nearest.point + (nearest.distance + tips.radius) * nearest.normal
+                                      : Vec3(2.0 * (tool.reach() + hand::sight), 0.0, 0.0);
+    }
+    return tips;
+}
+
+// True if enough fingers touch and the thumb opposes one of them or the virtual finger.
+bool grasps(const collision::ToolShape& tool, const FingerClosure& closure, std::size_t fingers) {
+    const auto touching = std::count_if(closure.digits.begin() + 1, closure.digits.end(),
+                                        [](const DigitStop& digit) { return touches(digit.nearest); });
+    return touching >= static_cast<std::ptrdiff_t>(fingers) &&
+           (together(closure) || hand::fingertip_grasp(tool, tips_of(tool, closure)).held);
+}
+
+// True if the thumb or all fingers are beyond the release distance.
+bool away(const FingerClosure& closure, double distance) {
+    double nearest = collision::infinite_distance;
+    for (std::size_t i = 1; i < hand::digit_count; ++i)
+        nearest = std::min(nearest, closure.digits[i].nearest.distance);
+    return nearest > distance || closure.digits[0].nearest.distance > distance;
+}
+
+GraspEvent update_glove_loss(GraspState& grip, const GraspOptions& options, const GraspInput& input) {
+    if (input.fresh) {
+        if (!grip.lost) return GraspEvent::none;
+        grip.lost = false;
+        grip.release_blocked_for = options.regrasp_time;
+        grip.change_pending = false;
+        return GraspEvent::glove_back;
+    }
+    if (grip.lost || !grip.has_frame || grip.frame_age <= options.silence) return GraspEvent::none;
+    grip.lost = true;
+    return GraspEvent::glove_lost;
+}
+
+// Updates by a frame that arrived `gap` seconds after the one before.
+GraspEvent decide(GraspState& grip, const GraspOptions& options, double gap) {
+    grip.release_blocked_for = std::max(0.0, grip.release_blocked_for - gap);
+    const bool contrary =
+        grip.held ? grip.release_blocked_for == 0.0 && away(grip.closure, options.release_distance)
+                  : grip.grasping;
+    grip.change_pending_for = contrary && grip.change_pending ? grip.change_pending_for + gap : 0.0;
+    grip.change_pending = contrary;
+    if (!contrary || grip.change_pending_for < (grip.held ? options.release_delay : options.grasp_delay))
+        return GraspEvent::none;
+    grip.held = !grip.held;
+    grip.change_pending = false;
+    return grip.held ? GraspEvent::grasped : GraspEvent::released;
+}
+
+bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
+
+}  // namespace
+
+const char* message_for(GraspEvent told, bool held) {
+    switch (told) {
+        case GraspEvent::none:
+            return "";
+        case GraspEvent::grasped:
+            return "You hold the tool.";
+        case GraspEvent::released:
+            return "You have let go of the tool.";
+        case GraspEvent::glove_lost:
+            return held ? "The glove is lost: the tool stays in your hand. Is the glove plugged in and on?"
+                        : "The glove is lost. Is it plugged in and switched on?";
+        case GraspEvent::glove_back:
+            return held ? "The glove is back: close your hand to keep the tool." : "The glove is back.";
+    }
+    return "";
+}
+
+GraspEvent update_grasp(GraspState& grip, const GraspOptions& options, const collision::ToolShape& tool,
+                        const hand::Hand& hand, const GraspInput& input, double dt) {
+    grip.frame_age += dt;
+    const double gap = grip.frame_age;
+    const GraspEvent glove_event = update_glove_loss(grip, options, input);
+    const bool moved = !grip.held && !same(grip.wrist, input.wrist);
+    if (!grip.held) grip.wrist = input.wrist;
+    if (input.fresh) {
+        grip.measured = input.measured;
+        grip.has_frame = true;
+        grip.frame_age = 0.0;
+    }
+    if (input.fresh || moved) {
+        grip.closure = close_fingers(tool, hand, grip.measured, grip.wrist);
+        grip.grasping = grasps(tool, grip.closure, options.fingers);
+    }
+    return input.fresh && glove_event == GraspEvent::none ? decide(grip, options, gap) : glove_event;
+}
+
+}  // namespace bolt::hand

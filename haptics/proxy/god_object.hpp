@@ -1,0 +1,92 @@
+// The god-object: the pose of the tool under contact constraints. It follows the device as far as obstacles
+// permit and does not penetrate them. The hand feels the coupling between the two poses
+// (haptics/proxy/coupling.hpp); contacts have no springs of their own, so a contact that appears or
+// disappears causes no step in the force.
+//
+// Ruspini, Kolarov and Khatib, SIGGRAPH 1997 (the proxy); Ortega, Redon and Coquillart, IEEE TVCG 13(3), 2007
+// (six degrees of freedom, least constraint). The metric of the constraint is the coupling's stiffness: the
+// god-object rests where spring and contacts balance, and the spring's force is the contacts' force.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "engine/base/function_ref.hpp"
+#include "haptics/collision/contact.hpp"
+#include "haptics/proxy/coupling.hpp"
+#include "haptics/proxy/twist.hpp"
+
+namespace bolt::proxy {
+
+// Writes the contacts of the tool at a pose up to `band` (m); the result is as contact.hpp states.
+using ContactFinder =
+    FunctionRef<collision::ContactQueryResult(const Pose&, double band, std::span<collision::Contact>)>;
+
+inline constexpr std::size_t most_contacts = 32;  // room that the finder gets
+
+// Limits of the change of the rendered force per millisecond that the god-object's own motion causes
+// (slipping, falling off an edge), beyond the change that the hand's motion would cause with the tool held.
+// People notice a step of 7 %. While the tool is pushed out of an obstacle that moved into it, only `maximum`
+// applies.
+struct ForceRateLimits {
+    double of_rendered = 0.05;  // share of the rendered force
+    double of_maximum = 0.005;  // share of the greatest force; applies where the rendered force is small
+    double maximum = 0.08;      // share of the greatest force, the hand's own motion included
+    // Share of the limit that is free in any direction. The rest applies only along the change of the last
+    // tick: a change that alternates from tick to tick would be felt as trembling.
+    double at_once = 0.3;
+};
+
+struct GodObjectParameters {
+    proxy::Coupling coupling;
+    ForceRateLimits rate_limits;
+    double radius = 0.3;        // m; bounds the distance of the tool's points from its origin
+    std::optional<Extent> box;  // bounds the tool as well, in its own frame
+    double friction = 0.15;     // coefficient
+    // m, kept between tool and obstacles. Features between the finder's samples are detected up to 0.19 mm
+    // late (bolt-contact-validation, on the ZQ350), so the penetration stays below 0.1 mm.
+    double skin = 110e-6;
+    double stride = 0.4e-3;  // m, motion of a point between two queries without a certified clearance
+    double reach = 5e-3;     // m, widest band of a query
+    double recovery = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
+    // Budget per tick: number of queries, and their cost (ContactQueryResult::work, without the first query
+    // at the last tick's pose) after which no query follows a motion. An exhausted budget only delays the
+    // tool; it continues in the next tick.
+    int queries = 5;
+    std::uint32_t work = 800;
+};
+
+struct GodObjectState {
+    Pose tool;  // to the assembly
+    // Of the last tick.
+    Pose device;
+    proxy::Offset offset;
+    force::OutputCommand felt;   // N and N·m, rendered by the coupling
+    force::OutputCommand event;  // part of its change that the hand's motion did not cause
+    // m, nearest contact; infinite without contacts.
+    double free = std::numeric_limits<double>::infinity();
+    Twist first_motion;  // first constrained motion of the tick; warm-starts the next solve
+};
+
+// Result of a step.
+struct GodObjectStep {
+    double nearest = 0.0;      // m; lower bound of the distance at the pose of the last query
+    std::size_t contacts = 0;  // within the band at that pose
+    int queries = 0;
+    std::uint32_t work = 0;  // cost of the queries
+    int solves = 0;
+    bool spent = false;    // the query budget ended before the tool reached its constrained pose
+    bool settled = false;  // the motion was shortened to limit the change of force
+};
+
+// The tool must not penetrate anything at `pose`.
+GodObjectState start_god_object(const Pose& pose);
+
+// Advances by one tick of `dt` (s). A motion is carried out only if it is certified beforehand (no point of
+// the tool travels further than the nearest obstacle) or if, at steps of at most `stride`, a query afterwards
+// reports nothing too near that the motion approached; a finder may detect features up to 0.25 mm late.
+// Ignores a pose that is not finite. Does not allocate.
+GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
+                              const Pose& device, ContactFinder finder, double dt);
+
+}  // namespace bolt::proxy

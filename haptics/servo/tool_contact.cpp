@@ -1,0 +1,249 @@
+#include "haptics/servo/tool_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "haptics/collision/smooth_normals.hpp"
+#include "haptics/joint/corner.hpp"
+#include "haptics/servo/jaw_grip.hpp"
+
+namespace bolt::servo {
+
+namespace {
+
+// Merging contacts assumes that the tool moves less than merge_stride between two queries.
+static_assert(proxy::GodObjectParameters{}.stride <= collision::merge_stride);
+
+constexpr double contact_distance = 1.5;  // skins; nearer contacts count as touching
+
+// m between jaw and hexagon. The clearance of a jaw is a tenth of a millimetre; the usual skin would fill
+// half of it.
+constexpr double jaw_skin = 2e-6;
+constexpr double both_skins = 2.5;  // of jaw_skin: one on each flank, and a margin
+
+// Shares of the jaw opening. A nut whose centre is within these limits can touch only the jaw of the wrench.
+constexpr double beside = 0.15, ahead = 0.25;
+constexpr double nearly_level = 0.99;  // cos 8°
+
+// Transforms a point of the assembly into the jaw: x along the slot towards its throat, y across, z normal.
+Vec3 to_jaw_frame(const collision::Jaw& jaw, const Pose& wrench, const Vec3& point) {
+    return glm::angleAxis(-jaw.head_angle, Vec3(0, 0, 1)) * (inverse(wrench) * point);
+}
+
+// Returns true if only the jaw can touch the nut in this tick and the next ones.
+bool only_jaw_in_reach(const Setup& setup, const NutGeometry& nut, const Pose& place, const Pose& wrench) {
+    const collision::Jaw& jaw = setup.wrench.jaw;
+    const Vec3 p = to_jaw_frame(jaw, wrench, place.position + 0.5 * nut.height * nut.axis);
+    const Vec3 normal = wrench.orientation * Vec3(0, 0, 1);
+    return std::abs(p.y) < beside * jaw.opening && p.x < ahead * jaw.opening &&
+           std::abs(glm::dot(normal, nut.axis)) > nearly_level;
+}
+
+bool equal(const Pose& a, const Pose& b) {
+    return a.position == b.position && a.orientation == b.orientation;
+}
+
+void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const joint::JointState> joints,
+                      bool held) {
+    for (std::size_t i = 0; i < contact.nut_poses.size(); ++i) {
+        const Pose place = nut_pose(setup.nuts[i], joints[i].nut.angle);
+        const bool unchanged = equal(place, contact.nut_poses[i]);
+        contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && unchanged;
+        contact.nut_poses[i] = place;
+        if (!contact.nut_bodies[i]) continue;
+        collision::Body& body = contact.world.bodies[*contact.nut_bodies[i]];
+        body.pose = place;
+        const bool on = !held || !only_jaw_in_reach(setup, setup.nuts[i], place, contact.god_object.tool);
+        contact.cache.meshes_unchanged =
+            contact.cache.meshes_unchanged && on == body.on && (unchanged || !on);
+        body.on = on;
+    }
+}
+
+// The pose of a seated nut as the jaw meets it: turned with the jaw beyond the play, less a margin that
+// leaves both flanks their skin. Two flanks pressed at once would be contradictory constraints with unlimited
+// friction.
+Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose& place, const Pose& wrench) {
+    const double off =
+        collision::seat_of(setup.wrench.jaw, prism_of(nut), inverse(place) * wrench).misalignment;
+    const double play = joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, 0.0);
+    const double lever = 0.5 * nut.across_flats * (std::cos(play) / std::sqrt(3.0) - std::sin(play));
+    const double room = std::max(0.0, play - both_skins * jaw_skin / lever);
+    const double beyond = off - std::clamp(off, -room, room);
+    return {place.position, place.orientation * glm::angleAxis(-beyond, Vec3(0, 0, 1))};
+}
+
+// Contacts of the jaw with all nuts, up to the size of `out`. If more exist, the result is marked as crowded.
+collision::ContactQueryResult find_jaw_contacts(const Setup& setup, const ToolContact& contact,
+                                                const Pose& pose, double band,
+                                                std::span<collision::Contact> out) {
+    const double skin_reduction = contact.parameters.skin - jaw_skin;
+    collision::ContactQueryResult found{0, band, false};
+    std::array<collision::Contact, collision::most_jaw_contacts> met;
+    for (std::size_t i = 0; i < contact.hexagons.size(); ++i) {
+        const NutGeometry& nut = setup.nuts[i];
+        const bool seated = static_cast<int>(i) == contact.seated_joint;
+        const Pose place =
+            seated ? hexagon_pose_in_jaw(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
+        const std::size_t count = collision::jaw_contacts(contact.jaw, contact.hexagons[i], pose, place, band,
+                                                          collision::ObstacleId::nut(i), met);
+        if (seated) collision::remove_axial_moment(place.position, nut.axis, std::span(met).first(count));
+        for (std::size_t k = 0; k < count; ++k) {
+            collision::Contact& c = met[k];
+            c.distance += skin_reduction;
+            if (found.count < out.size()) {
+                out[found.count++] = c;
+            } else {
+                found.truncated = true;
+                found.clearance = std::min(found.clearance, c.distance);
+            }
+        }
+    }
+    return found;
+}
+
+// Contacts between meshes, without those of nuts that the closed form of the jaw covers.
+collision::ContactQueryResult find_mesh_contacts(ToolContact& contact, const Pose& pose, double band,
+                                                 std::span<collision::Contact> out) {
+    collision::ContactQueryResult found =
+        collision::find_contacts(contact.world, contact.wrench, pose, band, contact.narrow_phase, out);
+    collision::smooth_normals(contact.world, contact.wrench, pose, out.first(found.count));
+    const auto is_covered = [&](const collision::Contact& c) {
+        return c.obstacle.is_nut() && collision::covered_by_jaw(contact.jaw, inverse(pose) * c.on_tool);
+    };
+    const auto end = out.begin() + static_cast<std::ptrdiff_t>(found.count);
+    found.count = static_cast<std::size_t>(std::remove_if(out.begin(), end, is_covered) - out.begin());
+    return found;
+}
+
+// A tick often starts at the pose where the last one ended. The cache then returns the contacts of all bodies
+// that did not move; if only the held nut moved, only the contacts of the jaw are computed again.
+collision::ContactQueryResult find(const Setup& setup, ToolContact& contact, const Pose& pose, double band,
+                                   std::span<collision::Contact> out) {
+    ContactCache& last = contact.cache;
+    const bool same_query = last.band == band && equal(last.pose, pose);
+    const auto kept = std::span(last.contacts).first(last.count);
+    const bool nuts_unchanged = same_query && last.nuts_unchanged;
+    // The jaw contacts come first, so their number limits the space that is left for those of meshes.
+    const std::size_t jaw_contacts_before = last.nuts.count;
+    if (nuts_unchanged)
+        std::copy_n(kept.begin(), last.nuts.count, out.begin());
+    else
+        last.nuts = find_jaw_contacts(setup, contact, pose, band, out);
+    const auto rest = out.subspan(last.nuts.count);
+    collision::ContactQueryResult found = last.meshes;
+    found.work = 0;
+    if (same_query && last.meshes_unchanged && last.nuts.count == jaw_contacts_before)
+        std::copy_n(kept.begin() + static_cast<std::ptrdiff_t>(jaw_contacts_before), found.count,
+                    rest.begin());
+    else
+        found = last.meshes = find_mesh_contacts(contact, pose, band, rest);
+    found.count += last.nuts.count;
+    found.clearance = std::min(found.clearance, last.nuts.clearance);
+    found.truncated = found.truncated || last.nuts.truncated;
+
+    std::copy_n(out.begin(), found.count, last.contacts.begin());
+    last.count = found.count;
+    last.pose = pose;
+    last.band = band;
+    last.nuts_unchanged = last.meshes_unchanged = true;
+    return found;
+}
+
+// A jaw that no longer holds a nut is clear when it has no contact with the hexagon at its actual pose.
+bool jaw_is_clear(const ToolContact& contact, std::size_t i) {
+    std::array<collision::Contact, collision::most_jaw_contacts> met;
+    return collision::jaw_contacts(contact.jaw, contact.hexagons[i], contact.god_object.tool,
+                                   contact.nut_poses[i], 0.0, {}, met) == 0;
+}
+
+// Returns the obstacle of the nearest contact if it touches, none otherwise.
+collision::ObstacleId touched_obstacle(std::span<const collision::Contact> contacts, double skin) {
+    const auto nearest = std::min_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
+        return a.distance < b.distance;
+    });
+    return nearest != contacts.end() && nearest->distance < contact_distance * skin ? nearest->obstacle
+                                                                                    : collision::ObstacleId();
+}
+
+}  // namespace
+
+void set_coupling(const Setup& setup, ToolContact& contact) {
+    proxy::CouplingRange range;
+    range.force = setup.limits.force;
+    range.torque = setup.limits.torque;
+    range.stiffness = setup.limits.stiffness;
+    range.torsion = setup.limits.torsion;
+    range.dt = setup.dt;
+    contact.parameters.coupling = proxy::make_coupling(range);
+}
+
+Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescription& d) {
+    ToolContact contact;
+    std::vector<collision::Obstacle> obstacles;
+    for (const collision::ContactMesh& mesh : d.still)
+        obstacles.push_back({collision::ObstacleId::fixed(obstacles.size()), &mesh, {}, false});
+    for (std::size_t i = 0; i < d.nuts.size() && i < setup.nuts.size(); ++i)
+        if (!d.nuts[i].triangles.empty())
+            obstacles.push_back(
+                {collision::ObstacleId::nut(i), &d.nuts[i], nut_pose(setup.nuts[i], 0.0), true});
+    Result<collision::World> world = collision::make_world(obstacles);
+    if (!world) return fail(world.error());
+    contact.world = std::move(*world);
+    Result<collision::ToolShape> wrench = collision::make_tool(d.wrench);
+    if (!wrench) return fail(wrench.error());
+    contact.wrench = std::move(*wrench);
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
+        contact.nut_bodies.push_back(collision::find_body(contact.world, collision::ObstacleId::nut(i)));
+        contact.hexagons.push_back(collision::hexagon(prism_of(setup.nuts[i])));
+        contact.nut_poses.push_back(nut_pose(setup.nuts[i], 0.0));
+    }
+    contact.jaw = collision::jaw_parts(setup.wrench.jaw);
+    contact.narrow_phase = collision::make_narrow_phase(contact.world, contact.wrench);
+
+    set_coupling(setup, contact);
+    contact.parameters.radius = contact.wrench.reach();
+    contact.parameters.box = {contact.wrench.solid.box.low, contact.wrench.solid.box.high};
+    contact.parameters.friction = d.friction;
+    return contact;
+}
+
+force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
+                                      std::span<const joint::JointState> joints, const Pose& hand, bool held,
+                                      int held_joint) {
+    update_nut_poses(setup, contact, joints, held);
+    const int seated_before = contact.seated_joint;
+    if (held_joint >= 0)
+        contact.seated_joint = held_joint;
+    else if (contact.seated_joint >= 0 &&
+             (!held || jaw_is_clear(contact, static_cast<std::size_t>(contact.seated_joint))))
+        contact.seated_joint = -1;
+    contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.seated_joint == seated_before;
+    if (!held || !contact.in_hand) {
+        contact.god_object = proxy::start_god_object(hand);
+        contact.last_step = {};
+        contact.touched = {};
+        contact.in_hand = held;
+        if (!held) return {};
+    }
+    const auto finder = [&](const Pose& pose, double band, std::span<collision::Contact> out) {
+        const collision::ContactQueryResult found = find(setup, contact, pose, band, out);
+        contact.touched = touched_obstacle(out.first(found.count), contact.parameters.skin);
+        return found;
+    };
+    contact.last_step =
+        proxy::step_god_object(contact.parameters, contact.god_object, hand, finder, setup.dt);
+    force::ForceRequest request;
+    request.command = contact.god_object.felt;
+    request.stored_energy = proxy::stored_energy(contact.parameters.coupling, contact.god_object.offset);
+    return request;
+}
+
+bool occluded(const ToolContact& contact, const Vec3& from, const Vec3& to, int joint) {
+    const auto i = static_cast<std::size_t>(joint);
+    const bool has_mesh = joint >= 0 && i < contact.nut_bodies.size();
+    return collision::occluded(contact.world, from, to, has_mesh ? contact.nut_bodies[i] : std::nullopt);
+}
+
+}  // namespace bolt::servo

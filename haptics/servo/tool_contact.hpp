@@ -1,0 +1,74 @@
+// Contact of the wrench with its surroundings: housing, bolts and nuts. Nuts turn and descend with their
+// joints. The god-object (haptics/proxy/god_object.hpp) limits the wrench to poses without penetration; the
+// hand feels the coupling between the device's pose and the wrench's.
+//
+// Contact between jaw and nut is closed form (haptics/collision/jaw.hpp), from the first contact until the
+// jaw is clear of the nut. Any other part of the wrench meets the nut's mesh; all other obstacles meet the
+// wrench's meshes.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "engine/base/result.hpp"
+#include "haptics/collision/narrow_phase.hpp"
+#include "haptics/force/passivity.hpp"
+#include "haptics/proxy/god_object.hpp"
+#include "haptics/servo/setup.hpp"
+
+namespace bolt::servo {
+
+// Static obstacles are in the assembly's frame, nuts in their own (nut_pose in setup.hpp).
+struct ToolContactDescription {
+    std::span<const collision::ContactMesh> still;
+    std::span<const collision::ContactMesh> nuts;    // by joint; a mesh without triangles meets the jaw only
+    std::span<const collision::ContactMesh> wrench;  // in the tool's frame
+    double friction = 0.15;                          // steel on painted iron with a film of oil
+};
+
+// The contacts of the last query with its pose and band: the jaw's with nuts first, then those of meshes.
+struct ContactCache {
+    bool nuts_unchanged = false;    // no nut moved since, so the jaw's contacts are valid
+    bool meshes_unchanged = false;  // no body moved or was switched since, so the meshes' contacts are valid
+    Pose pose;
+    double band = 0.0;  // m
+    collision::ContactQueryResult nuts, meshes;
+    std::size_t count = 0;
+    std::array<collision::Contact, proxy::most_contacts> contacts;
+};
+
+struct ToolContact {
+    collision::World world;
+    collision::ToolShape wrench;
+    collision::NarrowPhaseState narrow_phase;
+    proxy::GodObjectParameters parameters;
+    proxy::GodObjectState god_object;
+    std::vector<std::optional<std::size_t>> nut_bodies;  // by joint: index into world.bodies; none: no mesh
+    std::vector<collision::Convex> hexagons;             // by joint
+    std::vector<Pose> nut_poses;                         // by joint, in the assembly's frame
+    collision::JawParts jaw;
+    int seated_joint = -1;           // joint whose nut is inside the jaw, held or slipping; −1: none
+    proxy::GodObjectStep last_step;  // result of the last tick
+    ContactCache cache;
+    bool in_hand = false;           // the wrench was held in the last tick
+    collision::ObstacleId touched;  // the nearest obstacle in contact
+};
+
+// Builds the collision structures; the only function here that allocates. Fails if a mesh is not closed.
+Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescription& description);
+
+// Derives the coupling from the device's limits and the tick's dt. Call it again when either changes.
+void set_coupling(const Setup& setup, ToolContact& contact);
+
+// One tick: places the nuts by their joints' angles and moves the wrench towards `hand` as far as contacts
+// allow. `held_joint` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with the jaw, so
+// that contacts leave that rotation to the joint law (jaw_grip.hpp). If `held` is false the wrench follows
+// the hand and the returned request is zero.
+force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
+                                      std::span<const joint::JointState> joints, const Pose& hand, bool held,
+                                      int held_joint);
+
+// Returns true if an obstacle other than `joint`'s nut crosses the segment. `joint` −1 excludes no nut.
+bool occluded(const ToolContact& contact, const Vec3& from, const Vec3& to, int joint);
+
+}  // namespace bolt::servo

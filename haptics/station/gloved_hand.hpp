@@ -1,0 +1,62 @@
+// The gloved hand at a station: it grasps the tool by closing on it, holds it while the glove is lost, and
+// releases it by opening. Pure, no allocation. Runs at the glove's rate; hand::update_grasp is too slow for
+// the servo tick.
+//
+// The device that moves the tool is the only source of the hand's position: the tool moves along with the
+// open hand, and forces start when the hand has closed on it.
+#pragma once
+
+#include <string>
+
+#include "haptics/hand/glove_driver.hpp"
+#include "haptics/hand/grasp.hpp"
+#include "haptics/hand/measured_hand.hpp"
+#include "haptics/servo/io.hpp"
+
+namespace bolt::station {
+
+struct HandSetup {
+    hand::GloveWearer wearer;
+    collision::ToolShape tool;
+    Pose wrist;  // in the frame of the commanded tool
+    hand::GraspOptions grip;
+};
+
+// In the assembly's frame.
+struct ToolPoses {
+    Pose commanded;  // by the mover
+    Pose actual;     // constrained by obstacles
+};
+
+struct HandState {
+    hand::MeasuredHand gloved;
+    hand::GraspState grip;
+    std::uint64_t number = 0;  // of the last glove sample
+};
+
+// One step of dt with the latest sample of the glove, which may be the one of the last step.
+hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const hand::GloveSample& sample,
+                             const ToolPoses& tool, double dt);
+
+// The servo's grip of this hand.
+constexpr servo::Grip grip_of(const HandState& state) {
+    return state.grip.held ? servo::Grip::wrench : servo::Grip::none;
+}
+
+// For display, in the frame of the tool: combine it with servo::Output::tool of any tick.
+struct DisplayedHand {
+    hand::Skeleton joints;
+    hand::Side side = hand::Side::right;
+    bool has_frame = false;  // the glove has sent the joint angles at least once
+    bool held = false, lost = false;
+};
+DisplayedHand display(const HandSetup& setup, const HandState& state);
+
+struct HandStatus {
+    bool held = false, lost = false;
+};
+// Messages on problems of the glove, its connection or its wearer, worst first. `worn` is the side that is
+// calibrated.
+std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const hand::GloveReport& report);
+
+}  // namespace bolt::station

@@ -1,0 +1,334 @@
+#include "haptics/station/tick.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "haptics/servo/guide_inputs.hpp"
+
+namespace bolt::station {
+
+namespace {
+
+using device::Description;
+using device::DeviceSnapshot;
+using device::Sensing;
+
+constexpr double servo_stall = 0.010;  // s without a tick; less than device::SupervisorOptions::stale
+// Chosen for a gliding tool: 12 cm/s from 8 cm on, slower than a user who pushes it away.
+constexpr force::GuidingParameters gliding{.gain = 0.25, .greatest = 3.0, .torque = 0.2};
+constexpr double glide_speed = 0.04;  // m/s per N of the guiding law
+constexpr double glide_turn = 3.0;    // rad/s per N·m; slower than a user who turns the tool
+constexpr double largest_deflection = to_radians(2.5);  // of the wrench, at the largest torque
+constexpr double wheel_fade_time = 0.05;                // s in which a wheel's torque fades in and out
+
+bool renders(const Description& d) { return renders_force(d) || renders_torque(d); }
+
+// Updates the link from the snapshot and the share of the force that the device may render.
+void update_link(const Description& d, DeviceLink& link, const DeviceSnapshot& snapshot, double elapsed) {
+    link.usable = snapshot.usable;
+    link.fresh = snapshot.usable && snapshot.number != link.number;
+    link.silence = link.fresh ? 0.0 : link.silence + elapsed;
+    if (link.fresh) link.number = snapshot.number;
+    const force::OutputLimits& limits = d.limits;
+    if (!link.usable || link.silence > limits.silence) {
+        // As in the watchdog, the force is zero `release` after the last sample.
+        const double release = limits.release - transport_delay;
+        const double most = std::max(0.0, (release - link.silence - elapsed) / (release - limits.silence));
+        link.force_share = link.usable ? std::min(link.force_share, most) : 0.0;
+    } else {
+        link.force_share = std::min(1.0, link.force_share + elapsed / limits.ramp_up);
+    }
+}
+
+// Returns true if the device's data are current. A device that renders nothing and gives rates may be silent
+// at rest.
+bool has_current_data(const Description& d, const DeviceLink& link) {
+    return d.sensing == Sensing::pose || renders(d) ? link.fresh : link.usable;
+}
+
+// Factor on a pushed tool's angular rate: faster with fingers, slower the more torque the wrench transmits,
+// which is the only feedback of torque that such a device gives.
+double angular_rate_factor(const servo::Setup& setup, const State& s) {
+    if (s.output.joint < 0) return 1.0;
+    if (s.input.grip == servo::Grip::fingers) return spinning;
+    const double greatest = setup.wrench.stiffness * largest_deflection;
+    return 1.0 / (1.0 + firmness * std::abs(s.output.wrench_torque) / greatest);
+}
+
+// Integrates the device's rates into the tool's pose, at most the permitted lead over the constrained
+// pose.
+void integrate_rates(const Layout& layout, const servo::Setup& setup, State& s, const device::Sample& sample,
+                     const Quat& view, double dt) {
+    const Quat turn = view * layout.workspace.turn;
+    Pose& tool = s.workspace.tool;
+    tool.position += turn * sample.velocity * dt;
+    const Vec3 turned_on = angular_rate_factor(setup, s) * (turn * sample.angular_velocity) * dt;
+    tool.orientation = glm::normalize(rotation(turned_on) * tool.orientation);
+    const Pose& held_back = s.output.tool;
+    tool.position = held_back.position + force::clamp_length(tool.position - held_back.position, ahead);
+    const Vec3 turned =
+        rotation_vector(glm::normalize(tool.orientation * glm::conjugate(held_back.orientation)));
+    if (glm::length(turned) > turned_ahead)
+        tool.orientation =
+            glm::normalize(rotation(force::clamp_length(turned, turned_ahead)) * held_back.orientation);
+}
+
+void move(const Layout& layout, const servo::Setup& setup, State& s, const DeviceSnapshot& snapshot,
+          const Quat& view, bool clutch, double dt) {
+    if (layout.mover->sensing == Sensing::rate) {
+        if (s.mover.usable && s.mover.silence < rate_timeout && !clutch)
+            integrate_rates(layout, setup, s, snapshot.sample, view, dt);
+        return;
+    }
+    if (s.mover.fresh) {
+        s.hand = snapshot.sample.pose;
+        if (snapshot.opening != s.mover.opening) {
+            const Pose tool = s.workspace.tool;
+            s.workspace = force::place(layout.workspace, s.hand, tool);
+            s.workspace.share = 0.0;
+        }
+        s.mover.opening = snapshot.opening;
+    }
+    if (s.mover.number == 0) return;
+    const bool away = clutch || !s.mover.usable;
+    force::to_assembly(layout.workspace, s.workspace, s.hand, away, dt);
+}
+
+// Moves the tool; it follows the hand from there.
+void place_tool(const Layout& layout, State& s, const Pose& tool) {
+    const double share = s.workspace.share;
+    s.workspace = force::place(layout.workspace, s.hand, tool);
+    s.workspace.share = share;
+}
+
+// +1 if the wheel's angle counts counter-clockwise as the user sees it, −1 otherwise. The user looks at the
+// wheel along −z or from above, and at a nut against the bolt's axis.
+double rotation_sense(const Description& wheel) {
+    return glm::dot(wheel.axis, Vec3(0.0, 1.0, 1.0)) < 0.0 ? -1.0 : 1.0;
+}
+
+bool on_bolt(const State& s) { return s.output.joint >= 0; }
+
+void turn(const Layout& layout, const servo::Setup& setup, State& s, const DeviceSnapshot& snapshot,
+          bool clutch) {
+    if (!s.wheel.fresh) return;
+    const double by = snapshot.opening == s.wheel.opening ? snapshot.sample.turn - s.wheel_angle : 0.0;
+    s.wheel.opening = snapshot.opening;
+    s.wheel_angle = snapshot.sample.turn;
+    if (!on_bolt(s) || clutch || by == 0.0 || !std::isfinite(by)) return;
+    const servo::NutGeometry& nut = setup.nuts[static_cast<std::size_t>(s.output.joint)];
+    const Vec3 centre = servo::nut_centre(nut, s.output.nut_angle);
+    const Quat turned = glm::angleAxis(rotation_sense(*layout.wheel) * by, nut.axis);
+    Pose tool = s.workspace.tool;
+    tool.position = centre + turned * (tool.position - centre);
+    tool.orientation = glm::normalize(turned * tool.orientation);
+    place_tool(layout, s, tool);
+}
+
+// A wrench that is taken starts at its rest pose. A wrench released on a nut stays there; released elsewhere
+// it returns to StationControls::wrench_rest.
+void update_wrench_rest(const Layout& layout, State& s, servo::Grip grip, const StationControls& controls) {
+    const std::optional<Pose>& rest = controls.wrench_rest;
+    if (!rest) return;
+    const bool had = s.input.grip == servo::Grip::wrench, has = grip == servo::Grip::wrench;
+    if (has && !had && s.wrench_rest) {
+        place_tool(layout, s, *s.wrench_rest);
+        s.workspace.share = 0.0;
+    }
+    if (has) s.wrench_rest.reset();
+    // The hand stays in place; from now on the device moves its fingertips.
+    if (had && !has && layout.wrist && controls.bare_wrist)
+        place_tool(layout, s, s.workspace.tool * *layout.wrist * inverse(*controls.bare_wrist));
+    if (!has && !s.wrench_rest) s.wrench_rest = had && s.output.joint >= 0 ? s.output.tool : *rest;
+}
+
+// Updates the links. Returns the controls combined with the devices' buttons.
+StationControls merge_buttons(const Layout& layout, State& s, const StationInputs& inputs, double elapsed) {
+    StationControls controls = inputs.controls;
+    controls.dead_man &= inputs.controls_age <= controls.dead_man_timeout;
+    controls.stop |= std::exchange(s.stopped_in_pause, false);
+    s.dead_man_pressed = false;
+    const auto press = [&](const DeviceLink& link, const DeviceSnapshot& snapshot, const Buttons& buttons) {
+        if (!link.usable) return;
+        s.dead_man_pressed |= (snapshot.sample.buttons & buttons.held) != 0;
+        controls.clutch |= (snapshot.sample.buttons & buttons.clutch) != 0;
+        controls.stop |= (snapshot.sample.buttons & buttons.stop) != 0;
+        controls.reset |= (snapshot.sample.buttons & buttons.reset) != 0;
+    };
+    if (layout.mover) {
+        update_link(*layout.mover, s.mover, inputs.mover, elapsed);
+        press(s.mover, inputs.mover, layout.mover_buttons);
+    }
+    if (layout.wheel) {
+        update_link(*layout.wheel, s.wheel, inputs.wheel, elapsed);
+        press(s.wheel, inputs.wheel, layout.wheel_buttons);
+    }
+    controls.dead_man |= s.dead_man_pressed;
+    return controls;
+}
+
+servo::Grip grip_of(const StationInputs& inputs) {
+    if (!inputs.hand_grip) return inputs.controls.grip;
+    if (*inputs.hand_grip == servo::Grip::wrench) return servo::Grip::wrench;
+    return inputs.controls.grip == servo::Grip::fingers ? servo::Grip::fingers : servo::Grip::none;
+}
+
+// Queues the received commands in the state until a tick executes them.
+void receive(State& s, std::span<const StationCommand> commands) {
+    for (const StationCommand& command : commands) {
+        if (const auto* place = std::get_if<PlaceTool>(&command)) s.tool_to_place = place->tool;
+        if (std::holds_alternative<SaveCheckpoint>(command)) ++s.checkpoints_to_save;
+        const auto* restore = std::get_if<RestoreCheckpoint>(&command);
+        if (restore != nullptr && restore->steps <= servo::max_checkpoints)
+            s.checkpoint_to_restore = restore->steps;
+        const auto* amend = std::get_if<AmendRestore>(&command);
+        if (amend != nullptr && amend->steps <= servo::max_checkpoints && s.checkpoint_to_restore != 0)
+            s.checkpoint_to_restore = amend->steps;
+    }
+}
+
+// The servo's undo input of this tick. A restore stays pending until map_output() sees it done.
+std::uint8_t next_undo(State& s) {
+    if (s.checkpoints_to_save == 0) return s.checkpoint_to_restore;
+    --s.checkpoints_to_save;
+    return servo::save_checkpoint;
+}
+
+force::OutputCommand part(const force::OutputCommand& whole, double share) {
+    return {share * whole.force, share * whole.torque};
+}
+
+}  // namespace
+
+State initial_state(const Layout& layout) {
+    State state;
+    state.workspace = force::place(layout.workspace, {}, layout.home);
+    state.output.tool = layout.home;
+    return state;
+}
+
+servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, State& s,
+                         const StationInputs& inputs) {
+    const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
+    const StationControls controls = merge_buttons(layout, s, inputs, elapsed);
+    receive(s, inputs.commands);
+    if (layout.mover) move(layout, setup, s, inputs.mover, controls.view, controls.clutch, elapsed);
+    if (layout.wheel) turn(layout, setup, s, inputs.wheel, controls.clutch);
+    if (s.tool_to_place) {
+        place_tool(layout, s, *s.tool_to_place);
+        s.tool_to_place.reset();
+        s.workspace.share = 0.0;
+    }
+    const servo::Grip grip = grip_of(inputs);
+    update_wrench_rest(layout, s, grip, controls);
+
+    servo::Input input;
+    input.device = servo::sample_of(s.workspace.tool);
+    input.grip = grip;
+    input.undo = next_undo(s);
+    input.setting = controls.click_setting;
+
+    input.enabled = controls.dead_man;
+    input.guide = controls.guide;
+    input.stop = controls.stop;
+    input.reset = controls.reset;
+    input.missed = static_cast<std::uint8_t>(std::min<std::uint64_t>(inputs.missed, 15));
+    // The device that renders the force now must be alive.
+    const bool by_wheel = layout.wheel && (on_bolt(s) || !layout.mover);
+    input.fresh =
+        by_wheel ? has_current_data(*layout.wheel, s.wheel) : has_current_data(*layout.mover, s.mover);
+    // During a stall the devices' own watchdogs released the force. The output stage must release it too and
+    // ramp up.
+    s.restarting = s.restarting || elapsed > servo_stall;
+    if (s.restarting) input.fresh = false;
+    s.input = input;
+    return input;
+}
+
+void glide(const Layout& layout, const servo::Setup& setup, State& s, const servo::State& servo,
+           const StationInputs& inputs, servo::Input& input) {
+    if (!layout.mover || layout.mover->sensing != Sensing::rate || renders_force(*layout.mover)) return;
+    Pose& tool = s.workspace.tool;
+    const int held = s.output.joint;
+    const int joint = held < 0 && s.mover.usable && input.enabled ? inputs.controls.glide : -1;
+    // A held nut carries the tool along as it descends.
+    if (held >= 0) {
+        const auto i = static_cast<std::size_t>(held);
+        const Vec3 at = servo::nut_centre(setup.nuts[i], servo.joints[i].nut.angle);
+        if (s.carrying_joint == held) tool.position += at - s.carrying_point;
+        s.carrying_point = at;
+    }
+    s.carrying_joint = held;
+    const servo::ToolPose now = servo::at_pose(s.workspace.tool);
+    const auto free = [&](const Vec3& from, const Vec3& to) {
+        return !servo.tool_contact || !servo::occluded(*servo.tool_contact, from, to, joint);
+    };
+    const force::OutputCommand guiding =
+        force::guide(gliding, s.glides, servo::guided_tool(setup, now),
+                     servo::goal_at(setup, servo.joints, joint), free, setup.dt)
+            .command;
+    tool.position += glide_speed * setup.dt * guiding.force;
+    tool.orientation = glm::normalize(rotation(glide_turn * setup.dt * guiding.torque) * tool.orientation);
+    input.device = servo::sample_of(tool);
+    s.input = input;
+}
+
+DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, State& s,
+                          const servo::Output& output) {
+    if (output.undone > 0) s.checkpoint_to_restore = 0;
+    s.output = output;
+    DeviceCommands commands;
+    if (s.restarting) {
+        s.restarting = output.force != Vec3(0.0) || output.torque != Vec3(0.0);
+        s.mover.force_share = s.wheel.force_share = 0.0;
+    }
+    force::OutputCommand felt{output.force, output.torque};
+    if (layout.wheel) {
+        const bool engaged = on_bolt(s);
+        if (engaged) s.bolt_axis = setup.nuts[static_cast<std::size_t>(output.joint)].axis;
+        s.wheel_fade =
+            std::clamp(s.wheel_fade + (engaged ? setup.dt : -setup.dt) / wheel_fade_time, 0.0, 1.0);
+        const double torque = glm::dot(felt.torque, s.bolt_axis) * s.wheel_fade * s.wheel.force_share;
+        commands.wheel.torque = rotation_sense(*layout.wheel) * torque * layout.wheel->axis;
+        felt.torque = Vec3(0.0);
+    }
+    if (layout.mover)
+        commands.mover = part(force::to_device(layout.workspace, s.workspace, felt), s.mover.force_share);
+    return commands;
+}
+
+DeviceCommands tick(const Layout& layout, const servo::Setup& setup, State& state, servo::State& servo,
+                    const StationInputs& inputs) {
+    servo::Input input = read_inputs(layout, setup, state, inputs);
+    glide(layout, setup, state, servo, inputs, input);
+    return map_output(layout, setup, state, servo::tick(setup, servo, input));
+}
+
+Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const State& s,
+                    const StationControls& controls) {
+    const bool bare = s.wrench_rest && layout.wrist && controls.bare_wrist;
+    if (bare) {
+        const Vec3 tip = inverse(*s.wrench_rest) * s.workspace.tool.position;
+        const Vec3 nearest(std::clamp(tip.x, 0.0, setup.wrench.handle_length), 0.0, 0.0);
+        if (glm::distance(tip, nearest) < handle_capture_distance) return *s.wrench_rest;
+    }
+    return bare ? s.workspace.tool * *controls.bare_wrist * inverse(*layout.wrist) : s.workspace.tool;
+}
+
+DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, State& s,
+                          const StationInputs& inputs) {
+    const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
+    receive(s, inputs.commands);
+    s.stopped_in_pause = merge_buttons(layout, s, inputs, elapsed).stop;
+    if (layout.mover) move(layout, setup, s, inputs.mover, inputs.controls.view, true, elapsed);
+    if (layout.wheel) {
+        if (s.wheel.fresh) s.wheel_angle = inputs.wheel.sample.turn;
+        s.wheel.opening = inputs.wheel.opening;
+    }
+    s.restarting = true;
+    s.wheel_fade = s.mover.force_share = s.wheel.force_share = 0.0;
+    return {};
+}
+
+}  // namespace bolt::station

@@ -1,0 +1,78 @@
+#include "game/report/comparison.hpp"
+
+#include <doctest/doctest.h>
+
+#include "game/plot/text.hpp"
+#include "tests/analysis/curves.hpp"
+#include "tests/report/well_formed.hpp"
+
+using namespace bolt;
+using namespace bolt::analysis;
+using namespace bolt::report;
+using joint::Direction;
+using report::markup_fault;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Comparison comparison_of(int cycles, const std::string& words) {
+    Comparison c;
+    c.session = "out/" + words;
+    c.title = c.law = c.variant = c.measured_file = c.source = words;
+    c.direction = Direction::tighten;
+    for (int i = 0; i < cycles; ++i)
+        c.measured.push_back({words, curve_of(tightening_torque, 5.0 * i, 95.0, 1.0, Direction::tighten)});
+    const analysis::Curve ours =
+        curve_of([](double at) { return 1.05 * tightening_torque(at); }, 0.0, 95.0, 0.1, Direction::tighten);
+    c.options.floor_share = 1e-3;  // navigation has 0.5 N·m of 105
+    Result<JointComparison> joint = compare_joint(words, ours, c.measured, c.options);
+    REQUIRE(joint);
+    c.errors = joint->errors;
+    c.joints.push_back(std::move(*joint));
+    return c;
+}
+
+}  // namespace
+
+TEST_CASE("page, drawing and console name the source and give the errors") {
+    const Comparison c = comparison_of(3, "Rig & Co");
+    const std::string page = comparison_page(c), svg = overlay_svg(c, 0), text = console_text(c);
+    CHECK(markup_fault(page) == "");
+    CHECK(markup_fault(svg) == "");
+    CHECK(has(page, "Measured by Rig &amp; Co"));
+    CHECK(has(svg, "Measured by Rig &amp; Co"));
+    CHECK(has(text, "measured by: Rig & Co"));
+    for (const StageError& stage : c.joints[0].errors.stage) {
+        REQUIRE(stage.count > 0);
+        CHECK(has(page, plot::number(stage.mre, 5)));
+        CHECK(has(text, plot::number(stage.mape, 5)));
+    }
+    CHECK_FALSE(has(page, "<script"));
+    CHECK(has(page, "<dd>out/<wbr/>Rig &amp; Co</dd>"));
+}
+
+TEST_CASE("hostile names do no harm") {
+    const Comparison c = comparison_of(2, "</style></svg><script>\"' x=\"");
+    for (const std::string& text : {comparison_page(c), overlay_svg(c, 0)}) {
+        CHECK(markup_fault(text) == "");
+        CHECK_FALSE(has(text, "<script"));
+    }
+}
+
+TEST_CASE("peaks that do not belong together are remarked upon") {
+    Comparison c = comparison_of(1, "rig");
+    CHECK_FALSE(has(console_text(c), "factor"));
+    for (double& torque : c.measured[0].curve.torque) torque *= 0.02;
+    CHECK(has(console_text(c), "The peaks differ by a factor of up to 5"));
+}
+
+TEST_CASE("a comparison of closed forms") {
+    const Comparison c = comparison_of(1, "rig");
+    // Laid upon each other where both pass the same torque, the curves differ less than the 5 % between them
+    // there.
+    CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::navigation)].mape ==
+          doctest::Approx(0.05).epsilon(0.1));
+    CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::linearity)].mape < 0.03);
+    CHECK(c.errors.all.count + c.errors.all.below + c.errors.outside == c.measured[0].curve.size());
+}

@@ -1,0 +1,100 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "content/format/load.hpp"
+#include "engine/base/file.hpp"
+#include "game/report/comparison.hpp"
+#include "game/session/session_file.hpp"
+#include "tests/analysis/curves.hpp"
+#include "tests/report/well_formed.hpp"
+#include "tests/support/folder.hpp"
+
+using namespace bolt;
+using namespace bolt::analysis;
+using namespace bolt::report;
+
+namespace {
+
+// A session in which the cover's joint B2 was loosened as curves.hpp has it, and nothing else was done.
+struct Loosened {
+    test::Folder folder;
+    std::filesystem::path path = folder / "loosened.boltwright";
+    static constexpr double start = 4000.0;  // degrees of nut angle
+
+    Loosened() {
+        session::Header header;
+        const auto file = content::content_folder() / "assemblies" / "cover-m8" / "assembly.json";
+        const Result<std::string> text = read_file(file, 1U << 20U, ErrorCode::bad_content);
+        REQUIRE_MESSAGE(text, (text ? "" : text.error().message()));
+        header.assembly_text = *text;
+        header.law = "mechanistic";
+        header.task = "loosen";
+        Result<session::Writer> writer = session::Writer::create(path, header);
+        REQUIRE(writer);
+        for (int i = 0; i < 50; ++i) put(*writer, 0.0, loosening_torque(0.0) * i / 50.0);
+        for (double back = 0.0; back <= 200.0; back += 0.1) put(*writer, back, loosening_torque(back));
+        REQUIRE(writer->finish({}));
+    }
+
+    static void put(session::Writer& writer, double back, double torque) {
+        session::TickRecord tick;
+        tick.joint = 1;
+        tick.nut_angle = static_cast<float>(to_radians(start - back));
+        tick.wrench_torque = static_cast<float>(torque);
+        tick.stage = static_cast<std::uint8_t>(stage_at(torque));
+        REQUIRE(writer.append(tick));
+    }
+};
+
+Measured rig(double take_up, double factor) {
+    std::string text = "angle_deg,torque_Nm\n";
+    for (double at = -take_up; at < 150.0; at += 1.0)
+        text += std::to_string(at + take_up) + "," +
+                std::to_string(factor * (at < 0.0 ? 0.0 : loosening_torque(at))) + "\n";
+    const Result<Measured> measured = parse_measured(text, "rig.csv");
+    REQUIRE_MESSAGE(measured, (measured ? "" : measured.error().message()));
+    return *measured;
+}
+
+}  // namespace
+
+TEST_CASE("a session against a rig that measured the same") {
+    const Loosened session;
+    const Result<session::Reader> reader = session::Reader::open(session.path);
+    REQUIRE(reader);
+    const Result<Comparison> c = analysis::compare(*reader, rig(30.0, 1.0), "");
+    REQUIRE_MESSAGE(c, (c ? "" : c.error().message()));
+    REQUIRE(c->joints.size() == 1);
+    CHECK(c->joints[0].joint == "B2");
+    CHECK(to_degrees(c->joints[0].cycles[0].alignment.shift) == doctest::Approx(-30.0).epsilon(1e-3));
+    CHECK(c->errors.all.count > 30);
+    CHECK(c->errors.all.mre < 0.01);
+    CHECK(c->errors.outside == 30);  // the rig's take-up
+    CHECK(report::markup_fault(comparison_page(*c)) == "");
+
+    const Result<Comparison> weaker = analysis::compare(*reader, rig(30.0, 1.0 / 1.1), "B2");
+    REQUIRE(weaker);
+    CHECK(weaker->errors.all.mre == doctest::Approx(0.1).epsilon(0.05));
+    CHECK(weaker->errors.all.mape == doctest::Approx(0.1).epsilon(0.05));
+}
+
+TEST_CASE("what cannot be compared is said clearly") {
+    const Loosened session;
+    const Result<session::Reader> reader = session::Reader::open(session.path);
+    REQUIRE(reader);
+    const Measured measured = rig(30.0, 1.0);
+    const Result<Comparison> unknown = analysis::compare(*reader, measured, "b2");
+    REQUIRE_FALSE(unknown.has_value());
+    CHECK(unknown.error().code == ErrorCode::usage);
+    CHECK(unknown.error().message() == "there is no joint 'b2' in the session; expected 'B2'");
+    const Result<Comparison> untouched = analysis::compare(*reader, measured, "B1");
+    REQUIRE_FALSE(untouched.has_value());
+    CHECK(untouched.error().what == "joint 'B1' was not loosened in this session");
+    Measured tightening = measured;
+    tightening.direction = joint::Direction::tighten;
+    const Result<Comparison> other = analysis::compare(*reader, tightening, "");
+    REQUIRE_FALSE(other.has_value());
+    CHECK(other.error().what == "no joint was tightened in this session");
+}

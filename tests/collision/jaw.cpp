@@ -1,0 +1,264 @@
+// The jaw and the hexagon against what paper and pencil say of them. A 24.2 mm jaw, an M16 nut.
+#include "haptics/collision/jaw.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/base/random.hpp"
+#include "tests/support/forbidden.hpp"
+
+using namespace bolt;
+using namespace bolt::collision;
+
+namespace {
+
+constexpr double opening = 24.2e-3, flats = 24e-3;
+
+struct Pair {
+    Jaw jaw = make_jaw(opening, to_radians(15.0), 12e-3);
+    HexagonPrism prism{flats, 14.8e-3, 22.5e-3};
+    JawParts parts = jaw_parts(jaw);
+    Convex nut = hexagon(prism);
+
+    // The jaw's middle at `at` from the nut's, turned by `yaw` about the bolt after `tilt` about the flats'
+    // length and `pitch` about the line across them.
+    [[nodiscard]] Pose wrench(const Vec3& at = Vec3(0.0), double yaw = 0.0, double tilt = 0.0,
+                              double pitch = 0.0) const {
+        const Quat square_on = glm::angleAxis(-jaw.head_angle, Vec3(0, 0, 1));
+        const Quat turn = glm::angleAxis(yaw, Vec3(0, 0, 1)) * glm::angleAxis(tilt, Vec3(1, 0, 0)) *
+                          glm::angleAxis(pitch, Vec3(0, 1, 0));
+        return {at + Vec3(0, 0, 0.5 * prism.height), turn * square_on};
+    }
+    [[nodiscard]] double apart(const Pose& wrench) const {
+        double least = 1.0;
+        for (const Convex& part : parts) least = std::min(least, separation(part, nut, wrench, 0.1).distance);
+        return least;
+    }
+};
+
+double along(const Convex& tool, const Convex& obstacle, const Pose& pose, const Vec3& n) {
+    double least = 1.0, most = -1.0;
+    for (const Vec3& p : tool.points) least = std::min(least, glm::dot(pose * p, n));
+    for (const Vec3& p : obstacle.points) most = std::max(most, glm::dot(p, n));
+    return least - most;
+}
+
+// cos ψ + sin ψ/√3 = w/s: a corner of the hexagon on each flat of the jaw.
+double play_of(double w, double s) { return pi / 6.0 - std::acos(0.5 * std::sqrt(3.0) * w / s); }
+
+Vec3 any_direction(Random& random) {
+    return glm::normalize(Vec3(random.normal(), random.normal(), random.normal()) + Vec3(1e-9, 0, 0));
+}
+
+}  // namespace
+
+TEST_CASE("the solids are what they are made of") {
+    const Pair p;
+    // Euler: corners - edges + faces.
+    for (const Convex* solid : {&p.parts[0], &p.parts[1], &p.parts[2], &p.nut}) {
+        CHECK(solid->edges.size() <= most_edges);
+        CHECK(solid->faces.size() <= 64);
+        CHECK(solid->points.size() <= 64);
+        CHECK(solid->points.size() + solid->faces.size() == solid->edges.size() + 2);
+    }
+    // A prism with twelve-sided ends: the flats' tops are at the cone, lowest at the corners.
+    double highest_corner = 0.0;
+    for (const Vec3& q : p.nut.points)
+        if (std::hypot(q.x, q.y) > flats / std::sqrt(3.0) - 1e-9)
+            highest_corner = std::max(highest_corner, q.z);
+    CHECK(highest_corner == doctest::Approx(p.prism.height - p.prism.fall()).epsilon(1e-9));
+    CHECK(p.prism.fall() == doctest::Approx((13.856e-3 - 11.25e-3) * std::tan(pi / 6)).epsilon(1e-3));
+}
+
+TEST_CASE("square on and in the middle there is half the clearance on both planes, and all of the bottom's") {
+    const Pair p;
+    CHECK(separation(p.parts[0], p.nut, p.wrench(), 0.1).distance == doctest::Approx(0.1e-3).epsilon(1e-9));
+    CHECK(separation(p.parts[1], p.nut, p.wrench(), 0.1).distance == doctest::Approx(0.1e-3).epsilon(1e-9));
+    CHECK(separation(p.parts[2], p.nut, p.wrench(), 0.1).distance ==
+          doctest::Approx(p.jaw.throat - flats / std::sqrt(3.0)).epsilon(1e-9));
+    const Pose aside = p.wrench({0, 0.06e-3, 0});
+    CHECK(separation(p.parts[0], p.nut, aside, 0.1).distance == doctest::Approx(0.16e-3).epsilon(1e-9));
+    CHECK(separation(p.parts[1], p.nut, aside, 0.1).distance == doctest::Approx(0.04e-3).epsilon(1e-9));
+    CHECK(p.apart(p.wrench({0, 0.12e-3, 0})) == doctest::Approx(-0.02e-3).epsilon(1e-9));
+}
+
+TEST_CASE("the backlash is what the hexagon's corners leave, to either side, every 60 degrees") {
+    const Pair p;
+    const double play = play_of(opening, flats);
+    CHECK(to_degrees(play) == doctest::Approx(0.8376).epsilon(1e-4));
+    for (int sixth = 0; sixth < 6; ++sixth)
+        for (const double side : {-1.0, 1.0}) {
+            const double yaw = sixth * pi / 3.0 + side * play;
+            CHECK(std::abs(p.apart(p.wrench(Vec3(0.0), yaw))) < 1e-9);
+            CHECK(p.apart(p.wrench(Vec3(0.0), yaw - side * 1e-4)) > 0.0);
+            CHECK(p.apart(p.wrench(Vec3(0.0), yaw + side * 1e-4)) < 0.0);
+        }
+}
+
+TEST_CASE("it tilts until its flats' edges meet the nut on both planes: w/2 cos - h sin = s/2") {
+    const Pair p;
+    const double w = 0.5 * opening, h = p.jaw.half_flat();
+    const double most = std::acos(0.5 * flats / std::hypot(w, h)) - std::atan2(h, w);
+    CHECK(to_degrees(most) == doctest::Approx(1.08).epsilon(0.05));
+    for (const double side : {-1.0, 1.0}) {
+        CHECK(std::abs(p.apart(p.wrench(Vec3(0.0), 0.0, side * most))) < 1e-9);
+        CHECK(p.apart(p.wrench(Vec3(0.0), 0.0, side * (most - 1e-4))) > 0.0);
+        CHECK(p.apart(p.wrench(Vec3(0.0), 0.0, side * (most + 1e-4))) < 0.0);
+    }
+    // About the line across the flats nothing holds an open end.
+    CHECK(p.apart(p.wrench({2e-3, 0, 0}, 0.0, 0.0, to_radians(10.0))) ==
+          doctest::Approx(0.1e-3).epsilon(1e-6));
+    // Turned to half its play, less is left to tilt: an edge of the jaw against a corner of the nut.
+    CHECK(p.apart(p.wrench(Vec3(0.0), 0.5 * play_of(opening, flats), 0.6 * most)) < 0.0);
+}
+
+TEST_CASE(
+    "where no direction was found to part them none does, and the one found parts them as far as told") {
+    const Pair p;
+    Random random(5);
+    double worst_own = 0.0;
+    int together = 0, apart = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const double far = i % 3 == 0 ? 30e-3 : 1e-3;
+        const Pose pose =
+            p.wrench(far * Vec3(random.normal(), random.normal(), random.normal()), random.uniform(-0.6, 0.6),
+                     random.uniform(-0.4, 0.4) * (i % 2), random.uniform(-0.4, 0.4) * (i % 5 == 0 ? 1 : 0));
+        for (const Convex& part : p.parts) {
+            const Separation s = separation(part, p.nut, pose, 1.0);
+            worst_own = std::max(worst_own, std::abs(along(part, p.nut, pose, s.normal) - s.distance));
+            if (s.distance > 0.0) {
+                ++apart;
+                continue;
+            }
+            ++together;
+            for (int k = 0; k < 60; ++k) {
+                const Vec3 near = s.normal + 1e-3 * k * k / 900.0 * any_direction(random);
+                const Vec3 n = k < 30 ? any_direction(random) : glm::normalize(near);
+                REQUIRE(along(part, p.nut, pose, n) <= 1e-12);
+            }
+        }
+    }
+    CHECK(worst_own < 1e-12);
+    CHECK(together > 500);
+    CHECK(apart > 500);
+}
+
+TEST_CASE("while they overlap it is the depth: no direction near it is shorter out") {
+    const Pair p;
+    Random random(6);
+    int touching = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Pose pose = p.wrench(0.4e-3 * Vec3(random.normal(), random.normal(), 10.0 * random.normal()),
+                                   random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05));
+        for (const Convex& part : p.parts) {
+            const Separation s = separation(part, p.nut, pose, 1.0);
+            if (s.distance > 0.0) continue;
+            ++touching;
+            for (int k = 0; k < 200; ++k) {
+                const Vec3 n = glm::normalize(s.normal + 0.02 * k / 200.0 * any_direction(random));
+                REQUIRE(along(part, p.nut, pose, n) <= s.distance + 1e-12);
+            }
+        }
+    }
+    CHECK(touching > 300);
+}
+
+TEST_CASE("flat on flat meets in four corners, and lets turn what its lines of action no longer pass") {
+    const Pair p;
+    const Pose pose = p.wrench({0, 0.1e-3, 0});
+    std::array<Contact, most_jaw_contacts> found;
+    const std::size_t count = jaw_contacts(p.parts, p.nut, pose, {}, 0.15e-3, ObstacleId::nut(7), found);
+    REQUIRE(count == 4);  // one jaw only: the other is 0.2 mm away
+    for (std::size_t i = 0; i < count; ++i) {
+        const Contact& c = found[i];
+        CHECK(std::abs(c.distance) < 1e-12);
+        CHECK(c.obstacle == ObstacleId::nut(7));
+        CHECK(glm::length(c.normal - Vec3(0, -1, 0)) < 1e-9);
+        CHECK(std::abs(c.on_tool.x) == doctest::Approx(flats / std::sqrt(12.0)).epsilon(1e-6));
+        CHECK(std::abs(c.on_tool.z - 7.4e-3) == doctest::Approx(p.jaw.half_flat()).epsilon(1e-6));
+        CHECK(glm::length(c.on_obstacle + c.distance * c.normal - c.on_tool) < 1e-12);
+    }
+    remove_axial_moment(Vec3(0.0), Vec3(0, 0, 1), std::span(found).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        CHECK(std::abs(glm::cross(found[i].on_tool, found[i].normal).z) < 1e-12);
+        CHECK(std::abs(found[i].on_tool.z - 7.4e-3) == doctest::Approx(p.jaw.half_flat()).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("whatever is found is at least as far as the separation says, and lies on both") {
+    const Pair p;
+    Random random(8);
+    for (int i = 0; i < 2000; ++i) {
+        const Pose nut{{0.1, 0.2, -0.3}, glm::normalize(Quat(0.8, 0.1, -0.5, 0.3))};
+        const Pose pose =
+            p.wrench(Vec3(random.normal() * 0.3e-3, random.normal() * 0.1e-3, random.normal() * 5e-3),
+                     random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02));
+        std::array<Contact, most_jaw_contacts> found;
+        const std::size_t count = jaw_contacts(p.parts, p.nut, nut * pose, nut, 2e-3, {}, found);
+        const double apart = p.apart(pose);
+        double nearest = 1.0;
+        for (std::size_t k = 0; k < count; ++k) {
+            nearest = std::min(nearest, found[k].distance);
+            REQUIRE(std::abs(glm::length(found[k].normal) - 1.0) < 1e-9);
+        }
+        if (apart < 2e-3) REQUIRE(nearest == doctest::Approx(apart).epsilon(1e-6).scale(1e-6));
+        if (apart > 2e-3) REQUIRE(count == 0);
+    }
+}
+
+TEST_CASE("how it sits: turned, half on, pulled back, tilted, turned over") {
+    const Pair p;
+    const double side = flats / std::sqrt(12.0), flat = 2.0 * p.jaw.half_flat();
+    JawSeat seat = seat_of(p.jaw, p.prism, p.wrench());
+    CHECK(seat.overlap == doctest::Approx(flat).epsilon(1e-12));
+    CHECK(seat.toward_mouth == doctest::Approx(side).epsilon(1e-12));
+    CHECK(seat.toward_throat == doctest::Approx(side).epsilon(1e-12));
+    CHECK(std::abs(seat.misalignment) < 1e-12);
+    CHECK(seat.around(opening));
+    // Lifted so that half of its flats is on the flats of the nut.
+    const double corner_top = 0.5 * p.prism.height - p.prism.fall();
+    seat = seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top}));
+    CHECK(seat.overlap == doctest::Approx(0.5 * flat).epsilon(1e-12));
+    CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top + p.jaw.half_flat()})).around(opening));
+    // Pulled off towards the handle until only the throat's half of the flats is left, and until nothing is.
+    seat = seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip - p.jaw.lead_in, 0, 0}));
+    CHECK(std::abs(seat.toward_mouth) < 1e-12);
+    CHECK(seat.around(opening));
+    CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip + side, 0, 0})).around(opening));
+    // Tightening is clockwise seen from outside; a sixth of a turn on it sits the same.
+    for (const double yaw : {0.01, 0.01 - pi / 3.0, 0.01 + pi})
+        CHECK(seat_of(p.jaw, p.prism, p.wrench(Vec3(0.0), yaw)).misalignment ==
+              doctest::Approx(-0.01).epsilon(1e-9));
+    seat = seat_of(p.jaw, p.prism, p.wrench({0, 0.05e-3, 0}, 0.0, 0.01));
+    CHECK(seat.tilt == doctest::Approx(0.01).epsilon(1e-9));
+    CHECK(seat.aside == doctest::Approx(-0.05e-3).epsilon(1e-3));
+    // Turned over, with the head to the other side.
+    Pose over = p.wrench();
+    over.orientation = glm::angleAxis(pi, Vec3(1, 0, 0)) * over.orientation;
+    seat = seat_of(p.jaw, p.prism, over);
+    CHECK(seat.overlap == doctest::Approx(flat).epsilon(1e-12));
+    CHECK(std::abs(seat.misalignment) < 1e-9);
+    CHECK(p.apart(over) == doctest::Approx(0.1e-3).epsilon(1e-6));
+}
+
+TEST_CASE("looking for contacts of the jaw allocates nothing and gives the same bits twice") {
+    const Pair p;
+    std::array<Contact, most_jaw_contacts> first, second;
+    std::size_t count = 0, again = 0;
+    const Pose pose = p.wrench({0, 0.05e-3, 6e-3}, 0.005, 0.003);
+    const test::Forbidden in_search = test::forbidden_in([&] {
+        count = jaw_contacts(p.parts, p.nut, pose, {}, 1e-3, {}, first);
+        again = jaw_contacts(p.parts, p.nut, pose, {}, 1e-3, {}, second);
+    });
+    CHECK(in_search.all() == 0);
+    REQUIRE(count == again);
+    REQUIRE(count > 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        CHECK(first[i].distance == second[i].distance);
+        CHECK(first[i].on_tool == second[i].on_tool);
+    }
+}

@@ -1,0 +1,140 @@
+// What is merged is held by what is kept, and what waits is as if it had been found.
+#include "haptics/collision/contact_reduction.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "haptics/proxy/twist.hpp"
+#include "tests/collision/support.hpp"
+
+using namespace bolt;
+using namespace bolt::collision;
+using namespace bolt::proxy;
+using namespace contact_test;
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+// Somewhere on a few faces that are not quite flat.
+std::vector<Contact> some_contacts(Random& random, std::size_t count, double size) {
+    std::vector<Contact> all;
+    std::array<Vec3, 4> faces{};
+    for (Vec3& face : faces) face = random_direction(random);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Contact c;
+        c.on_tool = size * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        c.normal =
+            glm::normalize(faces[random.bits() % 4] + random.uniform(0.0, 0.6) * random_direction(random));
+        c.distance = random.uniform(0.0, 0.6) * mm;
+        c.obstacle = ObstacleId::nut(random.bits() % 2);
+        c.feature = i;
+        all.push_back(c);
+    }
+    return all;
+}
+
+struct Space {
+    std::vector<Contact> near;
+    std::vector<RankedContact> order{1024}, deferred_order{1024};
+    std::vector<KeptContact> kept{1024};
+    std::vector<std::uint8_t> kept_in = std::vector<std::uint8_t>(1024);
+
+    ContactQueryResult reduce_contacts(std::span<const Contact> found, std::span<DeferredContact> deferred,
+                                       ResolveDeferred find, std::span<Contact> out) {
+        near.assign(found.begin(), found.end());
+        near.resize(1024);
+        return collision::reduce_contacts(
+            {near, found.size(), order, kept, kept_in, deferred, deferred_order, 0.6 * mm}, find, out);
+    }
+};
+
+double came(const Contact& c, const Twist& motion) {
+    return glm::dot(c.normal, motion.linear + glm::cross(motion.angular, c.on_tool));
+}
+
+}  // namespace
+
+TEST_CASE("a motion that the contacts written allow goes into none that was merged but for the tolerance") {
+    Random random(71);
+    Space space;
+    std::array<Contact, 600> out;
+    int merged = 0, moved = 0;
+    double worst = 0.0;
+    for (int set = 0; set < 20'000; ++set) {
+        const std::vector<Contact> all = some_contacts(random, 1 + random.bits() % 8, 1.0 * mm);
+        const ContactQueryResult found = space.reduce_contacts(
+            all, {}, [](const DeferredContact&, Contact&) { return false; }, out);
+        const auto kept = std::span(out).first(found.count);
+        REQUIRE(!found.truncated);
+        merged += static_cast<int>(all.size() - kept.size());
+        for (int i = 0; i < 20; ++i) {
+            // Nearly straight at one of them, and as far as all that are kept let it.
+            const Vec3 at = -all[random.bits() % all.size()].normal;
+            Twist motion{at + random.uniform(0.0, 0.2) * random_direction(random),
+                         random.uniform(0.0, 1.0) * random_direction(random)};
+            double share = merge_stride / travel(motion, 0.3);
+            for (const Contact& c : kept)
+                if (came(c, motion) < 0.0)
+                    share = std::min(share, std::max(c.distance, 0.0) / -came(c, motion));
+            motion = share * motion;
+            moved += share > 0.0 ? 1 : 0;
+            const double tolerance =
+                merge_angle * merge_stride + first_merge_distance * glm::length(motion.angular);
+            for (const Contact& c : all) {
+                const double behind = -(c.distance + came(c, motion));
+                worst = std::max(worst, behind / tolerance);
+            }
+        }
+    }
+    CHECK(worst <= 1.0);
+    CHECK(merged > 5'000);
+    CHECK(worst > 0.3);
+    CHECK(moved > 100'000);
+}
+
+TEST_CASE("what waits is merged, or found, as if it had been there from the start") {
+    Random random(72);
+    Space space;
+    int waited = 0, asked = 0;
+    for (int set = 0; set < 500; ++set) {
+        const std::vector<Contact> all = some_contacts(random, 250, 8.0 * mm);
+        std::vector<Contact> there;
+        std::vector<DeferredContact> deferred;
+        for (const Contact& c : all) {
+            if (random.chance(0.4)) {
+                there.push_back(c);
+                continue;
+            }
+            DeferredContact w;
+            w.blur = static_cast<float>(random.uniform(0.0, 0.6) * mm);
+            w.spread = static_cast<float>(random.uniform(0.001, 0.3));
+            w.lower = c.distance - random.uniform(0.0, 0.2) * mm;
+            w.on_tool = c.on_tool + 0.999 * static_cast<double>(w.blur) * random_direction(random);
+            w.normal = rotation(0.99 * static_cast<double>(w.spread) * random_direction(random)) * c.normal;
+            w.obstacle = c.obstacle;
+            w.sample = c.feature;
+            deferred.push_back(w);
+        }
+        const auto find = [&](const DeferredContact& w, Contact& c) {
+            ++asked;
+            c = all[w.sample];
+            return true;
+        };
+        // Now there is room for all, now so little that more is merged.
+        std::array<Contact, 600> a, b;
+        const std::size_t room = set % 2 == 0 ? 32 : 600;
+        const ContactQueryResult x = space.reduce_contacts(all, {}, find, std::span(a).first(room));
+        waited += static_cast<int>(deferred.size());
+        const ContactQueryResult y = space.reduce_contacts(there, deferred, find, std::span(b).first(room));
+        REQUIRE(x.count == y.count);
+        REQUIRE(x.clearance == y.clearance);
+        REQUIRE(x.truncated == y.truncated);
+        for (std::size_t i = 0; i < x.count; ++i) REQUIRE(a[i].feature == b[i].feature);
+    }
+    CHECK(asked > 0.05 * waited);
+    CHECK(asked < 0.95 * waited);
+}

@@ -1,0 +1,51 @@
+// Small solids and random poses for tests of contact; tools/verify/oracle gives the exact answers.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/assets/model.hpp"
+#include "engine/base/pose.hpp"
+#include "engine/base/random.hpp"
+#include "haptics/collision/mesh.hpp"
+#include "tools/verify/oracle/surface.hpp"
+
+namespace contact_test {
+
+using bolt::Pose;
+using bolt::Vec3;
+using bolt::collision::ContactMesh;
+
+struct Triangles {
+    std::vector<glm::vec3> vertices;
+    std::vector<std::uint32_t> indices;
+    void triangle(const Vec3& a, const Vec3& b, const Vec3& c);
+    void quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+    [[nodiscard]] ContactMesh mesh() const;
+};
+
+Triangles box(const Vec3& low, const Vec3& high);
+Triangles ball(double radius, int rings = 24);
+// An open wrench of flat faces: a jaw with a rounded back, and a handle along +X.
+Triangles wrench();
+// A block with a pocket and a slot that leaves a rib of 1 mm, all edges sharp: concave everywhere that
+// matters.
+Triangles casing();
+
+// All meshes of a glTF file, one a node, where the nodes are; of nodes whose name begins with `prefix`.
+std::vector<ContactMesh> load_parts(const std::filesystem::path& path, const std::string& prefix = {});
+
+// A turn that is uniform over all turns.
+bolt::Quat random_turn(bolt::Random& random);
+Vec3 random_direction(bolt::Random& random);
+
+using bolt::contact_oracle::Surface;
+
+// The triangles of one or more meshes, for the oracle.
+Surface surface_of(const ContactMesh& mesh);
+Surface surface_of(const std::vector<ContactMesh>& meshes);
+// Of all points of a surface, one that is within `far` (m) of a random one.
+Vec3 near_surface(const Surface& surface, double far, bolt::Random& random);
+
+}  // namespace contact_test

@@ -1,0 +1,111 @@
+// The contact oracle against closed forms and against plain loops over all triangles.
+#include "tools/verify/oracle/surface.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "engine/base/random.hpp"
+#include "tests/collision/support.hpp"
+#include "tools/author/geometry/crossing.hpp"
+
+using namespace bolt;
+using namespace bolt::contact_oracle;
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+Surface cube() {
+    return contact_test::surface_of(contact_test::box(Vec3(-10.0) * mm, Vec3(10.0) * mm).mesh());
+}
+
+double to_cube(const Vec3& p) {  // signed
+    const Vec3 q = glm::abs(p) - 10.0 * mm;
+    return glm::length(glm::max(q, Vec3(0.0))) + std::min(0.0, std::max({q.x, q.y, q.z}));
+}
+
+}  // namespace
+
+TEST_CASE("Contact oracle: distance and side of points at a cube") {
+    const Surface surface = cube();
+    Random random(1);
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 p = 8.0 * mm * Vec3(random.normal(), random.normal(), random.normal());
+        CHECK(signed_distance(surface, p, 1.0) == doctest::Approx(to_cube(p)).epsilon(1e-9).scale(1.0));
+        CHECK(winding(surface, p) == (to_cube(p) < 0.0 ? 1 : 0));
+    }
+    // Rays out of the middle along an edge's plane pass vertices and diagonals of faces.
+    for (const Vec3& p : {Vec3(0.0), Vec3(5.0, 5.0, 5.0) * mm, Vec3(0.0, 5.0, -5.0) * mm})
+        CHECK(winding(surface, p) == 1);
+}
+
+TEST_CASE("Contact oracle: the gap of two cubes, face to face, edge to edge, corner to face") {
+    const Surface a = cube();
+    const double diagonal = std::sqrt(2.0) * 10.0 * mm;
+    const Quat about_z = rotation(Vec3(0.0, 0.0, 0.25 * pi)), about_y = rotation(Vec3(0.0, 0.25 * pi, 0.0));
+    const auto apart = [&](const Vec3& at, const Quat& turn) { return gap(a.tree, a.tree, {at, turn}, 1.0); };
+    CHECK(apart(Vec3(23.0, 3.0, -4.0) * mm, Quat(1, 0, 0, 0)) == doctest::Approx(3.0 * mm));
+    CHECK(apart(Vec3(10.0 * mm + diagonal + 2.0 * mm, 0.0, 0.0), about_z) == doctest::Approx(2.0 * mm));
+    // Both turned by 45 degrees, about axes square to each other: two edges cross at a distance.
+    const Pose first{Vec3(0.0), about_y}, second{Vec3(2.0 * diagonal + 1.5 * mm, 0.0, 0.0), about_z};
+    CHECK(gap(a.tree, a.tree, inverse(first) * second, 1.0) == doctest::Approx(1.5 * mm));
+    CHECK_FALSE(cross(a.tree, a.tree, inverse(first) * second));
+    const Pose in{Vec3(2.0 * diagonal - 0.01 * mm, 0.0, 0.0), about_z};
+    CHECK(cross(a.tree, a.tree, inverse(first) * in));
+    CHECK(gap(a.tree, a.tree, {Vec3(1.0, 0.0, 0.0), Quat(1, 0, 0, 0)}, 5.0 * mm) == 5.0 * mm);
+}
+
+TEST_CASE("Contact oracle: the depth of a cube in another is that of its deepest corner, edge or face") {
+    const Surface a = cube();
+    const DepthOptions depths{.least = 5e-6, .enough = 1.0, .tolerance = 1e-7};
+    const double diagonal = std::sqrt(2.0) * 10.0 * mm;
+    const Quat about_z = rotation(Vec3(0.0, 0.0, 0.25 * pi));
+    for (const double in : {0.02 * mm, 0.3 * mm, 4.0 * mm}) {
+        const Pose pose{Vec3(10.0 * mm + diagonal - in, 0.0, 1.0 * mm), about_z};
+        CHECK(depth_in(a.tree, a, pose, depths) == doctest::Approx(in).epsilon(1e-3));
+        // Flat on flat, all of it as deep.
+        const Pose flat{Vec3(20.0 * mm - in, 1.0 * mm, 2.0 * mm), Quat(1, 0, 0, 0)};
+        CHECK(depth_in(a.tree, a, flat, depths) == doctest::Approx(in).epsilon(1e-3));
+    }
+    CHECK(depth_in(a.tree, a, {Vec3(21.0 * mm, 0.0, 0.0), Quat(1, 0, 0, 0)}, depths) == 0.0);
+    // Enough is enough.
+    const Pose far_in{Vec3(12.0 * mm, 1.0 * mm, 2.0 * mm), Quat(1, 0, 0, 0)};
+    CHECK(depth_in(a.tree, a, far_in, {.least = 5e-6, .enough = 1.0 * mm, .tolerance = 1e-6}) >= 1.0 * mm);
+}
+
+TEST_CASE("Contact oracle: the tree of boxes leaves out no triangle that counts") {
+    const std::vector<geometry::Triangle> ball =
+        contact_test::surface_of(contact_test::ball(9.0 * mm, 8).mesh()).tree.triangles();
+    const std::vector<geometry::Triangle> wrench =
+        contact_test::surface_of(contact_test::wrench().mesh()).tree.triangles();
+    const Surface a = make_surface(wrench), b = make_surface(ball);
+    Random random(3);
+    int inside = 0, crossing = 0, apart = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 p = contact_test::near_surface(a, 3.0 * mm, random);
+        double least = 1.0;
+        for (const geometry::Triangle& t : wrench) least = std::min(least, point_triangle(p, t));
+        CHECK(nearest(a.tree, p, 1.0).distance == least);
+        CHECK(winding(a, p) == winding_by_solid_angle(a.tree, p));
+        inside += winding(a, p) == 1 ? 1 : 0;
+    }
+    for (int i = 0; i < 40; ++i) {
+        const Pose pose{contact_test::near_surface(a, 20.0 * mm, random), contact_test::random_turn(random)};
+        bool crosses = false;
+        double least = 1.0;
+        for (const geometry::Triangle& s : wrench)
+            for (const geometry::Triangle& t : ball) {
+                const geometry::Triangle placed{pose * t.a, pose * t.b, pose * t.c, 0};
+                crosses = crosses || geometry::cross(s, placed);
+                least = std::min(least, triangle_triangle(s, placed));
+            }
+        CHECK(cross(a.tree, b.tree, pose) == crosses);
+        CHECK((depth(a, b, pose) > 0.0) == crosses);
+        if (!crosses) CHECK(gap(a.tree, b.tree, pose, 1.0) == doctest::Approx(least).epsilon(1e-9));
+        (crosses ? crossing : apart) += 1;
+    }
+    CHECK(inside > 20);
+    CHECK(crossing > 5);
+    CHECK(apart > 5);
+}

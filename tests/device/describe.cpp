@@ -1,0 +1,46 @@
+#include "haptics/device/describe.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/device/support.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+
+namespace {
+
+std::string all(const Description& description) {
+    std::string text;
+    for (const std::string& line : summary_lines(description)) text += line + "\n";
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("Describe: the summary gives what a device renders with figures, and omits the rest") {
+    Description arm = test::arm();
+    arm.remarks = {"its cable is worn"};
+    CHECK(all(arm) ==
+          "says where the hand is, in six degrees of freedom, within 40 x 40 x 40 cm, 1000 times a second; 2 "
+          "buttons\n"
+          "renders force along 3 axes, 20 N at most, as stiff as 2 N/mm; torque about 3 axes, 2 N·m at most\n"
+          "its cable is worn\n");
+    Description wheel;
+    wheel.sensing = Sensing::turn;
+    wheel.silent_at_rest = true;
+    wheel.renders[5] = true;
+    wheel.limits.force = 0.0;
+    wheel.limits.torque = 12.5;
+    wheel.buttons = 1;
+    CHECK(all(wheel) ==
+          "says how far it is turned about its one axis, 1000 times a second while it moves; 1 button\n"
+          "renders torque about 1 axis, 12.5 N·m at most\n");
+    Description puck;
+    puck.sensing = Sensing::rate;
+    puck.rate = 125;
+    CHECK(
+        all(puck) ==
+        "says how fast the hand wants to go, in six degrees of freedom, 125 times a second while it moves; 0 "
+        "buttons\n"
+        "renders no force\n");
+}

@@ -1,0 +1,177 @@
+// The thread of a device and its mailboxes. What passes or fails is order and counts, on a machine of any
+// speed; how soon things happen is tested in virtual time (supervisor.cpp).
+#include "haptics/device/device_thread.hpp"
+
+#include <doctest/doctest.h>
+
+#include <condition_variable>
+#include <mutex>
+
+#include "tests/device/support.hpp"
+#include "tests/support/eventually.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+using bolt::test::eventually;
+
+namespace {
+
+// A device whose cable and whose timeout are in the test's hands.
+struct Bench {
+    std::atomic<bool> plugged{true};
+    std::atomic<bool> holds{false};    // from the next write on: it comes back when let go
+    std::atomic<bool> holding{false};  // a write is inside now
+    std::atomic<int> open{0};
+    std::mutex mutex;
+    std::condition_variable let_go;
+    std::vector<force::OutputCommand> commands;
+
+    std::vector<force::OutputCommand> written() {
+        const std::lock_guard lock(mutex);
+        return commands;
+    }
+    void release() {
+        const std::lock_guard lock(mutex);
+        holds = false;
+        let_go.notify_all();
+    }
+};
+
+class OnBench final : public Device {
+  public:
+    explicit OnBench(std::shared_ptr<Bench> bench) : bench_(std::move(bench)) { ++bench_->open; }
+    OnBench(const OnBench&) = delete;
+    OnBench& operator=(const OnBench&) = delete;
+    ~OnBench() override { --bench_->open; }
+
+    [[nodiscard]] const Description& describe() const override { return description_; }
+    Result<std::optional<Sample>> read(double timeout) override {
+        if (!bench_->plugged) return lost();
+        timer_.wait(std::min(timeout, 1e-3));
+        Sample sample;
+        sample.pose.position.x = 1e-6 * static_cast<double>(++count_);
+        return sample;
+    }
+    Status write(const force::OutputCommand& command) override {
+        if (!bench_->plugged) return lost();
+        std::unique_lock lock(bench_->mutex);
+        if (bench_->holds) {
+            bench_->holding = true;
+            bench_->let_go.wait(lock, [&] { return !bench_->holds; });
+            bench_->holding = false;
+        }
+        bench_->commands.push_back(command);
+        return {};
+    }
+
+  private:
+    static tl::unexpected<Error> lost() {
+        Error error;
+        error.code = ErrorCode::no_device;
+        error.what = "the cable is out";
+        error.lost = true;
+        return fail(error);
+    }
+
+    std::shared_ptr<Bench> bench_;
+    Description description_ = test::arm();
+    Timer timer_ = steady_timer();
+    std::uint64_t count_ = 0;
+};
+
+DeviceFactory opens(const std::shared_ptr<Bench>& bench) {
+    return [bench]() -> Result<std::unique_ptr<Device>> {
+        if (!bench->plugged) return fail(ErrorCode::no_device, "there is no arm", "a connected arm");
+        return std::make_unique<OnBench>(bench);
+    };
+}
+
+}  // namespace
+
+TEST_CASE(
+    "DeviceThread: samples arrive in order, commands reach the device, and the destructor releases the "
+    "force") {
+    const auto bench = std::make_shared<Bench>();
+    {
+        Result<DeviceThread> line = DeviceThread::start(opens(bench));
+        REQUIRE(line);
+        const auto description = line->wait_until_open(60.0);
+        REQUIRE(description);
+        CHECK((*description)->name == "an arm");
+        std::uint64_t number = 0;
+        bool in_order = true;
+        REQUIRE(eventually([&] {
+            line->command({Vec3(2, 0, 0), Vec3(0.0)}, true);
+            const DeviceSnapshot& told = line->snapshot();
+            in_order = in_order && told.number >= number;
+            number = told.number;
+            const auto written = bench->written();
+            return number > 20 && !written.empty() && written.back().force.x == 2.0;
+        }));
+        CHECK(in_order);
+        CHECK(line->snapshot().usable);
+        CHECK(line->snapshot().opening == 1);
+        CHECK(line->snapshot().sample.pose.position.x > 0.0);
+    }
+    CHECK(bench->written().back().force.x == 0.0);
+    CHECK(bench->open == 0);
+}
+
+TEST_CASE(
+    "DeviceThread: command() returns while the device hangs in a write; afterwards only the latest command "
+    "is sent") {
+    const auto bench = std::make_shared<Bench>();
+    Result<DeviceThread> line = DeviceThread::start(opens(bench));
+    REQUIRE(line);
+    REQUIRE(line->wait_until_open(60.0));
+    REQUIRE(eventually([&] { return bench->written().size() == 1; }));  // the zero it begins with
+    bench->holds = true;
+    double force = 0.0;
+    REQUIRE(eventually([&] {
+        line->command({Vec3(force += 1e-3, 0, 0), Vec3(0.0)}, true);
+        return bench->holding.load();
+    }));
+    const std::size_t before = bench->written().size();
+    // All of these are given while it hangs: it still does afterwards.
+    for (int i = 1; i <= 1000; ++i) line->command({Vec3(1 + i, 0, 0), Vec3(0.0)}, true);
+    CHECK(bench->holding);
+    CHECK(line->snapshot().number > 0);
+    CHECK(bench->holding);
+    CHECK(bench->written().size() == before);
+    bench->release();
+    REQUIRE(eventually([&] { return bench->written().size() >= before + 2; }));
+    const auto written = bench->written();
+    CHECK(written[before].force.x < 1.0);  // the one that hung
+    // Then the newest; on a machine so slow that it had grown stale by then, no force.
+    CHECK((written[before + 1].force.x == 20.0 || written[before + 1].force.x == 0.0));
+}
+
+TEST_CASE(
+    "DeviceThread: after a replug the report names it, the device is usable, and the opening count changes") {
+    const auto bench = std::make_shared<Bench>();
+    Result<DeviceThread> line = DeviceThread::start(opens(bench));
+    REQUIRE(line);
+    REQUIRE(eventually([&] { return line->snapshot().number > 5; }));
+    bench->plugged = false;
+    REQUIRE(eventually([&] { return !line->snapshot().usable; }));
+    REQUIRE(eventually([&] { return line->report().trouble.find("a connected arm") != std::string::npos; }));
+    CHECK(line->report().losses == 1);
+    CHECK(line->report().state == DeviceState::absent);
+    const std::uint64_t at = line->snapshot().number;
+    bench->plugged = true;
+    REQUIRE(eventually([&] { return line->snapshot().usable && line->snapshot().number > at; }));
+    CHECK(line->snapshot().opening == 2);
+    REQUIRE(eventually([&] { return line->report().trouble.empty(); }));
+}
+
+TEST_CASE("DeviceThread: wait_until_open reports why a missing device does not open") {
+    const auto bench = std::make_shared<Bench>();
+    bench->plugged = false;
+    Result<DeviceThread> line = DeviceThread::start(opens(bench));
+    REQUIRE(line);
+    REQUIRE(eventually([&] { return line->report().refusals > 0; }));
+    const auto none = line->wait_until_open(0.0);
+    REQUIRE_FALSE(none);
+    CHECK(none.error().code == ErrorCode::no_device);
+    CHECK(none.error().message() == "there is no arm; expected a connected arm");
+}

@@ -1,0 +1,323 @@
+// How soon a device is back, how soon its forces are gone, and what is said meanwhile, in virtual time.
+#include "haptics/device/supervisor.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/random.hpp"
+#include "haptics/device/simulated.hpp"
+#include "tests/device/support.hpp"
+
+using namespace bolt;
+using namespace bolt::device;
+
+namespace {
+
+// A supervisor of a simulated device, and a servo that gives it an order a millisecond while it is
+// `ordering`.
+struct Kept {
+    explicit Kept(Description description = test::arm(), const std::vector<FaultInterval>& troubles = {})
+        : thing({std::move(description), [](double) { return Sample{}; }, std::nullopt, troubles},
+                virtual_timer(time)),
+          supervisor(thing.open(), virtual_timer(time)) {}
+
+    VirtualTime time;
+    SimulatedDevice thing;
+    DeviceSupervisor supervisor;
+    force::OutputCommand wanted{Vec3(1, 2, 3), Vec3(0.1, 0, 0)};
+    bool ordering = true, enabled = true;
+    std::uint64_t samples = 0;
+
+    std::optional<Sample> turn() {
+        const auto sample = supervisor.poll([&] {
+            if (ordering) number_ = 1 + static_cast<std::uint64_t>(time.now * 1e3);
+            return ForceCommand{wanted, enabled, number_};
+        });
+        if (sample) ++samples;
+        return sample;
+    }
+    void until(double end) {
+        while (time.now < end) turn();
+    }
+    [[nodiscard]] double force() const { return glm::length(thing.rendered().force); }
+    [[nodiscard]] double torque() const { return glm::length(thing.rendered().torque); }
+
+  private:
+    std::uint64_t number_ = 0;
+};
+
+// Takes a sample a period by a clock of its own, and keeps the newest until it is read; a write takes 0.3 ms,
+// as hidraw's do.
+class Periodic final : public Device {
+  public:
+    Periodic(double period, Timer timer) : period_(period), timer_(std::move(timer)) {
+        description_ = test::arm();
+        description_.rate = 1.0 / period;
+    }
+    [[nodiscard]] const Description& describe() const override { return description_; }
+    Result<std::optional<Sample>> read(double timeout) override {
+        const double until = timer_.now() + timeout;
+        double taken = newest();
+        if (taken <= given_ && taken + period_ <= until) timer_.wait((taken += period_) - timer_.now());
+        if (taken <= given_) {
+            timer_.wait(until - timer_.now());
+            return std::nullopt;
+        }
+        given_ = taken;
+        Sample sample;
+        sample.time = taken;
+        return sample;
+    }
+    Status write(const force::OutputCommand& /*command*/) override {
+        timer_.wait(0.3e-3);
+        return {};
+    }
+
+  private:
+    [[nodiscard]] double newest() const { return std::floor(timer_.now() / period_ + 1e-9) * period_; }
+
+    double period_, given_ = -1.0;
+    Timer timer_;
+    Description description_;
+};
+
+}  // namespace
+
+TEST_CASE("DeviceSupervisor: a sample is returned within one device period, whatever is written meanwhile") {
+    for (const double period : {1e-3, 2e-3, 8e-3}) {
+        VirtualTime time;
+        DeviceSupervisor supervisor(
+            [&]() -> Result<std::unique_ptr<Device>> {
+                return std::make_unique<Periodic>(period, virtual_timer(time));
+            },
+            virtual_timer(time));
+        int samples = 0;
+        double oldest = 0.0;
+        while (time.now < 2.0) {
+            const auto sample = supervisor.poll([&] {
+                return ForceCommand{
+                    {Vec3(1, 0, 0), Vec3(0.0)}, true, static_cast<std::uint64_t>(time.now * 1e3)};
+            });
+            if (!sample) continue;
+            ++samples;
+            oldest = std::max(oldest, time.now - sample->time);
+        }
+        CHECK(oldest <= period);
+        CHECK(samples >= static_cast<int>(1.9 / period));  // none is left out
+    }
+}
+
+TEST_CASE("DeviceSupervisor: attempts to open back off exponentially, and the reason is reported at once") {
+    VirtualTime time;
+    std::vector<double> tries;
+    DeviceSupervisor supervisor(
+        [&]() -> Result<std::unique_ptr<Device>> {
+            tries.push_back(time.now);
+            return fail(ErrorCode::no_device, "no arm", "a connected arm");
+        },
+        virtual_timer(time));
+    const auto none = [] { return ForceCommand{}; };
+    CHECK_FALSE(supervisor.poll(none));
+    CHECK(supervisor.report().trouble == "no arm; expected a connected arm");
+    CHECK(supervisor.report().state == DeviceState::absent);
+    while (time.now < 10.0) CHECK_FALSE(supervisor.poll(none));
+    const double pauses[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.0, 1.0, 1.0};
+    REQUIRE(tries.size() > 8);
+    CHECK(tries[0] == 0.0);
+    for (std::size_t i = 0; i < 8; ++i)
+        CHECK(tries[i + 1] - tries[i] == doctest::Approx(pauses[i]).epsilon(0.01));
+    CHECK(supervisor.report().refusals == tries.size());
+}
+
+TEST_CASE("DeviceSupervisor: a device that fails at its first read is not reopened in a busy loop") {
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    state->fails_reading = true;
+    DeviceSupervisor supervisor(test::opens(state, virtual_timer(time)), virtual_timer(time));
+    while (time.now < 10.0) supervisor.poll([] { return ForceCommand{}; });
+    CHECK(supervisor.report().openings == supervisor.report().losses);
+    CHECK(supervisor.report().openings < 16);
+    CHECK(supervisor.report().openings > 8);
+}
+
+TEST_CASE("DeviceSupervisor: a replug at any moment is reported within 10 ms and usable within 2 s") {
+    Random random(1);
+    for (int run = 0; run < 200; ++run) {
+        Kept kept;
+        kept.until(random.uniform(0.01, 0.5));
+        REQUIRE(kept.supervisor.report().state == DeviceState::usable);
+        REQUIRE(kept.supervisor.report().trouble.empty());
+        const double pulled = kept.time.now;
+        const double back = pulled + random.uniform(0.001, 5.0);
+        kept.thing.inject({InjectedFault::unplugged, pulled, back});
+        kept.until(pulled + 0.01);
+        if (back > pulled + 0.01) {
+            CHECK(kept.supervisor.report().state == DeviceState::absent);
+            CHECK(kept.supervisor.report().trouble.find("not plugged in") != std::string::npos);
+            CHECK(kept.supervisor.report().losses == 1);
+        }
+        kept.until(back);
+        while (kept.supervisor.report().state != DeviceState::usable && kept.time.now < back + 3.0)
+            kept.turn();
+        CHECK(kept.time.now <= back + 2.0);
+        kept.turn();
+        kept.turn();
+        CHECK(kept.force() == doctest::Approx(std::sqrt(14.0)));
+        CHECK(kept.supervisor.report().trouble.empty());
+    }
+}
+
+TEST_CASE("DeviceSupervisor: when commands stop, the force is released within 20 ms") {
+    Random random(2);
+    for (int run = 0; run < 200; ++run) {
+        Kept kept;
+        kept.until(random.uniform(0.05, 0.2));
+        REQUIRE(kept.force() > 3.0);
+        kept.ordering = false;
+        const double last = kept.time.now;
+        kept.until(last + 0.010);
+        CHECK(kept.force() > 3.0);  // a late servo is not yet a dead one
+        kept.until(last + 0.020);
+        CHECK(kept.force() == 0.0);
+        CHECK(kept.torque() == 0.0);
+        CHECK(kept.supervisor.report().lapses == 1);
+        kept.until(last + 0.5);
+        CHECK(kept.supervisor.report().lapses == 1);
+        kept.ordering = true;
+        kept.until(last + 0.51);
+        CHECK(kept.force() > 3.0);
+    }
+}
+
+TEST_CASE("DeviceSupervisor: no force without enable, for NaN, and after close") {
+    Kept kept;
+    kept.until(0.1);
+    REQUIRE(kept.force() > 3.0);
+    kept.enabled = false;
+    kept.until(0.103);
+    CHECK(kept.force() == 0.0);
+    kept.enabled = true;
+    kept.until(0.106);
+    REQUIRE(kept.force() > 3.0);
+    kept.wanted.torque.z = std::numeric_limits<double>::quiet_NaN();
+    kept.until(0.109);
+    CHECK(kept.force() == 0.0);
+    kept.wanted.torque.z = 0.0;
+    kept.until(0.112);
+    REQUIRE(kept.force() > 3.0);
+    kept.supervisor.close();
+    CHECK(kept.force() == 0.0);
+
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    {
+        DeviceSupervisor supervisor(test::opens(state, virtual_timer(time)), virtual_timer(time));
+        std::uint64_t number = 0;
+        for (int i = 0; i < 50; ++i)
+            supervisor.poll([&] { return ForceCommand{{Vec3(1, 0, 0), Vec3(0.0)}, true, ++number}; });
+        REQUIRE(state->commands.back().force.x == 1.0);
+    }
+    CHECK(state->commands.back().force.x == 0.0);
+    CHECK(state->closed == 1);
+}
+
+TEST_CASE("DeviceSupervisor: commands older than the opening are never rendered; the first write is zero") {
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    DeviceSupervisor supervisor(test::opens(state, virtual_timer(time)), virtual_timer(time));
+    for (int i = 0; i < 100; ++i)
+        supervisor.poll([] { return ForceCommand{{Vec3(9, 0, 0), Vec3(0.0)}, true, 77}; });
+    REQUIRE(state->commands.size() == 1);
+    CHECK(state->commands[0].force == Vec3(0.0));
+    supervisor.poll([] { return ForceCommand{{Vec3(9, 0, 0), Vec3(0.0)}, true, 78}; });
+    REQUIRE(state->commands.size() == 2);
+    CHECK(state->commands[1].force == Vec3(9, 0, 0));
+    CHECK(supervisor.report().lapses == 0);
+}
+
+TEST_CASE("DeviceSupervisor: a command is clamped to the described limits and axes") {
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    state->description.renders = {true, true, false, false, false, true};
+    state->description.limits.force = 5.0;
+    state->description.limits.torque = 0.5;
+    DeviceSupervisor supervisor(test::opens(state, virtual_timer(time)), virtual_timer(time));
+    supervisor.poll([] { return ForceCommand{}; });
+    supervisor.poll([] { return ForceCommand{{Vec3(30, 40, 50), Vec3(1, 1, -2)}, true, 1}; });
+    CHECK(glm::length(state->commands.back().force - Vec3(3, 4, 0)) < 1e-12);
+    CHECK(glm::length(state->commands.back().torque - Vec3(0, 0, -0.5)) < 1e-12);
+}
+
+TEST_CASE("DeviceSupervisor: invalid samples are counted and dropped; many in a row count as silence") {
+    Kept kept;
+    kept.until(0.1);
+    const std::uint64_t before = kept.samples;
+    kept.thing.inject({InjectedFault::not_a_number, 0.1, 0.2});
+    kept.until(0.199);
+    CHECK(kept.samples == before);
+    CHECK(kept.supervisor.report().malformed >= 98);
+    CHECK(kept.supervisor.report().state == DeviceState::usable);
+    kept.until(0.3);
+    CHECK(kept.samples > before + 90);
+    kept.thing.inject({InjectedFault::not_a_number, 0.3, 0.7});
+    kept.until(0.6);
+    CHECK(kept.supervisor.report().state == DeviceState::silent);
+    CHECK(kept.supervisor.report().trouble.find("nothing of sense") != std::string::npos);
+    kept.until(0.8);
+    CHECK(kept.supervisor.report().state == DeviceState::usable);
+    CHECK(kept.supervisor.report().trouble.empty());
+    CHECK(kept.supervisor.report().openings == 1);
+}
+
+TEST_CASE(
+    "DeviceSupervisor: a silent device is reported within 1 s, reopened, and usable within 2 s of its "
+    "return") {
+    Kept kept;
+    kept.until(0.1);
+    kept.thing.inject({InjectedFault::silent, 0.1, 4.0});
+    kept.until(0.5);
+    CHECK(kept.supervisor.report().state == DeviceState::silent);
+    CHECK_FALSE(kept.supervisor.report().trouble.empty());
+    CHECK(kept.supervisor.report().openings == 1);
+    kept.until(3.9);
+    CHECK(kept.supervisor.report().silences >= 2);
+    CHECK_FALSE(kept.supervisor.report().trouble.empty());
+    kept.until(4.0);
+    while (kept.supervisor.report().state != DeviceState::usable && kept.time.now < 8.0) kept.turn();
+    CHECK(kept.time.now < 6.0);
+}
+
+TEST_CASE("DeviceSupervisor: devices that are silent at rest may rest indefinitely") {
+    for (const Sensing sensing : {Sensing::rate, Sensing::turn}) {
+        Description description = test::arm();
+        description.sensing = sensing;
+        description.silent_at_rest = sensing == Sensing::turn;
+        Kept kept(description, {{InjectedFault::silent, 0.0, 100.0}});
+        kept.until(10.0);
+        CHECK(kept.supervisor.report().state == DeviceState::usable);
+        CHECK(kept.supervisor.report().openings == 1);
+        CHECK(kept.supervisor.report().trouble.empty());
+        CHECK(kept.supervisor.report().samples == 0);
+    }
+}
+
+TEST_CASE(
+    "DeviceSupervisor: while a write takes 15 ms commands are accepted, and only the latest is written "
+    "next") {
+    VirtualTime time;
+    const auto state = std::make_shared<test::Written>();
+    state->write_takes = 0.015;
+    DeviceSupervisor supervisor(test::opens(state, virtual_timer(time)), virtual_timer(time));
+    while (time.now < 1.0)
+        supervisor.poll([&] {
+            const auto tick = static_cast<std::uint64_t>(time.now * 1e3);
+            return ForceCommand{{Vec3(1e-3 * static_cast<double>(tick), 0, 0), Vec3(0.0)}, true, tick};
+        });
+    REQUIRE(state->commands.size() > 50);
+    CHECK(state->commands.size() < 70);
+    for (std::size_t i = 1; i < state->commands.size(); ++i)
+        CHECK(state->commands[i].force.x == doctest::Approx(state->began[i]).epsilon(1e-2).scale(0.1));
+    CHECK(supervisor.report().lapses == 0);
+}

@@ -1,0 +1,176 @@
+#include "game/lesson/feedback.hpp"
+
+#include <doctest/doctest.h>
+
+#include "game/lesson/terms.hpp"
+#include "tests/hints/bench.hpp"
+
+using namespace bolt;
+using namespace bolt::lesson;
+using namespace bolt::lesson;
+
+namespace {
+
+words::Words words_in(std::string_view language) {
+    words::Loaded loaded = words::load_words(words::words_folder(), language);
+    REQUIRE(loaded.ok());
+    return std::move(loaded.words);
+}
+
+// Four joints that are done as they should be.
+struct Outcome {
+    content::Assembly assembly;
+    Lesson lesson;
+    servo::State state;
+
+    explicit Outcome(Task task = Task::tighten) {
+        content::Pass pass{content::StepKind::tighten, 1.0, {}};
+        for (std::size_t i = 0; i < 4; ++i) {
+            content::AssemblyJoint joint;
+            joint.design.id = "B" + std::to_string(i + 1);
+            joint.spec.torque = {70.0, 60.0, 80.0};
+            joint.spec.has_angle = true;
+            joint.spec.angle = {to_radians(30.0), to_radians(20.0), to_radians(40.0)};
+            assembly.joints.push_back(joint);
+            pass.order.push_back(i);
+        }
+        assembly.passes = {pass};
+        lesson = begin(assembly, Mode::guided, task);
+        state.joints.resize(4);
+        for (std::size_t i = 0; i < 4; ++i) done(i, 70.0, 30.0);
+        lesson.current = lesson.steps.size();
+    }
+    void done(std::size_t joint, double torque, double degrees) {
+        lesson.joints[joint].result.torque = torque;
+        lesson.joints[joint].result.angle = to_radians(degrees);
+        state.joints[joint].stage = joint::Stage::linearity;
+    }
+    [[nodiscard]] Review review() const { return lesson::review(assembly, judge(lesson, state, 1e-3)); }
+    [[nodiscard]] std::vector<std::string> reasons() const {
+        const words::Words en = words_in("en");
+        std::vector<std::string> said;
+        for (const Remark& remark : review().reasons) said.push_back(say(en, remark));
+        return said;
+    }
+    [[nodiscard]] std::vector<std::string_view> advice() const {
+        std::vector<std::string_view> keys;
+        for (const words::Key key : review().advice) keys.push_back(key.row().name);
+        return keys;
+    }
+};
+
+using Keys = std::vector<std::string_view>;
+using Said = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("Feedback: nothing wrong: no reasons, and something to try next") {
+    CHECK(Outcome().reasons().empty());
+    CHECK(Outcome().advice() == Keys{"advice.nothing"});
+}
+
+TEST_CASE("Feedback: each loss has its reason with numbers and its advice") {
+    struct Case {
+        const char* reason;
+        const char* advice;
+        void (*spoil)(Outcome&);
+    };
+    const Case cases[] = {
+        {"B1 has 59.9 N·m; 60 N·m are the least.", "advice.torque_low",
+         [](Outcome& r) { r.done(0, 59.9, 30.0); }},
+        {"B1 has had 81.2 N·m; 80 N·m are the most.", "advice.torque_high",
+         [](Outcome& r) { r.done(0, 81.2, 30.0); }},
+        {"B1 was turned by 12° from snug; 20° are the least.", "advice.angle_low",
+         [](Outcome& r) { r.done(0, 70.0, 12.0); }},
+        {"B1 was turned by 55° from snug; 40° are the most.", "advice.angle_high",
+         [](Outcome& r) { r.done(0, 70.0, 55.0); }},
+        {"The bolt of B1 broke.", "advice.broken",
+         [](Outcome& r) { r.state.joints[0].condition = joint::Condition::broken; }},
+        {"The thread of B1 was stripped.", "advice.stripped",
+         [](Outcome& r) { r.state.joints[0].condition = joint::Condition::stripped; }},
+        {"B1 is off its seat again and holds nothing.", "advice.off_seat",
+         [](Outcome& r) { r.state.joints[0].stage = joint::Stage::navigation; }},
+        {"Once a joint was worked on out of turn.", "advice.out_of_turn",
+         [](Outcome& r) { r.lesson.joints[2].result.order_errors = 1; }},
+        {"3 times a joint was pulled again that was done.", "advice.done_already",
+         [](Outcome& r) {
+             r.lesson.joints[2].result.rehits = 2;
+             r.lesson.joints[1].result.rehits = 1;
+         }},
+        {"2 times a nut was turned the wrong way.", "advice.wrong_way",
+         [](Outcome& r) { r.lesson.joints[1].wrong_ways = 2; }},
+        {"Once there was too much torque on a nut; that was made good.", "advice.torque_high",
+         [](Outcome& r) { r.lesson.joints[1].times_overdone = 1; }},
+        {"B1 has had 81.2 N·m; 80 N·m are the most.", "advice.torque_high",
+         [](Outcome& r) {
+             r.done(0, 81.2, 30.0);
+             r.lesson.joints[0].times_overdone = 1;
+         }},
+        {"2 times the wrench slipped off a nut.", "mistake.slipped.do",
+         [](Outcome& r) { r.lesson.joints[1].slips = 2; }},
+        {"The lesson was left at step 4 of 4.", "advice.unfinished",
+         [](Outcome& r) { r.lesson.current = 3; }},
+    };
+    for (const Case& c : cases) {
+        CAPTURE(c.reason);
+        Outcome r;
+        c.spoil(r);
+        CHECK(r.reasons() == Said{c.reason});
+        CHECK(r.advice() == Keys{c.advice});
+        for (const char* language : {"de", "zh"})
+            for (const Remark& remark : r.review().reasons)
+                CHECK(say(words_in(language), remark).find('{') == std::string::npos);
+    }
+    Outcome loose(Task::loosen);
+    loose.lesson.joints[1].result.torque = 0.0;
+    CHECK(loose.reasons() == Said{"B2 was not loosened."});
+}
+
+TEST_CASE("Feedback: advice begins with what cost most, and is never more than three") {
+    Outcome r;
+    r.lesson.joints[0].result.order_errors = 1;
+    r.lesson.joints[0].result.rehits = 5;
+    r.done(1, 50.0, 30.0);
+    r.done(2, 90.0, 30.0);
+    r.done(3, 90.0, 30.0);
+    CHECK(r.advice() == Keys{"advice.torque_high", "advice.torque_low", "advice.done_already"});
+    const Review review = r.review();
+    double points = 0.0;
+    for (const Remark& remark : review.reasons) points += remark.points;
+    CHECK(points == doctest::Approx(judge(r.lesson, r.state, 1e-3).score - 100.0));
+}
+
+TEST_CASE("Feedback: of a session that was read again the reasons stay as they were written") {
+    Outcome r;
+    r.done(0, 50.0, 30.0);
+    LessonResult result = judge(r.lesson, r.state, 1e-3);
+    for (ScoreReason& reason : result.reasons) reason = {reason.points, reason.text};
+    const Review review = lesson::review(r.assembly, result);
+    REQUIRE(review.reasons.size() == 1);
+    CHECK(say(words_in("zh"), review.reasons[0]) == result.reasons[0].text);
+    CHECK(review.reasons[0].points == -25.0);
+    CHECK(review.advice.empty());
+}
+
+TEST_CASE("Feedback: every enumeration has a name in every language, and no two of one are the same") {
+    for (const char* language : {"en", "de", "zh"}) {
+        const words::Words words = words_in(language);
+        const auto differ = [&](std::initializer_list<words::Key> keys) {
+            for (const words::Key& a : keys)
+                for (const words::Key& b : keys)
+                    if (&a != &b) CHECK(words[a] != words[b]);
+        };
+        differ({term(Mode::guided), term(Mode::practice), term(Mode::assessment)});
+        differ({term(Task::tighten), term(Task::loosen)});
+        differ({term(StepKind::run_down), term(StepKind::tighten), term(StepKind::recheck),
+                term(StepKind::loosen)});
+        differ({term(Verdict::none), term(Verdict::low), term(Verdict::ok), term(Verdict::high)});
+        differ({term(joint::Stage::navigation), term(joint::Stage::transition), term(joint::Stage::linearity),
+                term(joint::Stage::yield)});
+        differ({term(joint::Condition::sound), term(joint::Condition::stripped),
+                term(joint::Condition::broken)});
+        for (std::size_t a = 0; a < force::fault_kinds; ++a)
+            for (std::size_t b = 0; b < a; ++b)
+                CHECK(words[term(static_cast<force::Fault>(a))] != words[term(static_cast<force::Fault>(b))]);
+    }
+}

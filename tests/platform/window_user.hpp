@@ -1,0 +1,34 @@
+// A simulated user of a window on the test's X server.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace bolt::test {
+
+// Sends the events of the X server to the window with this title.
+class WindowUser {
+  public:
+    explicit WindowUser(const std::string& title);
+    ~WindowUser();
+    WindowUser(const WindowUser&) = delete;
+    WindowUser& operator=(const WindowUser&) = delete;
+
+    void key(const char* keysym);  // press and release: "F11", "r", "Escape"
+    void move(int x, int y);
+    void point(int x, int y);                       // the same with the real pointer, which is visible
+    void press(int x, int y, unsigned button = 1);  // 1 left, 2 middle, 3 right; 4 and 5 are the wheel
+    void release(int x, int y, unsigned button = 1);
+    void close();  // the window manager's close request
+
+    struct WindowRectangle {
+        int x = 0, y = 0, width = 0, height = 0;
+    };
+    [[nodiscard]] WindowRectangle rectangle() const;  // on the screen, pixels
+
+  private:
+    struct X;
+    std::unique_ptr<X> x_;
+};
+
+}  // namespace bolt::test

@@ -1,0 +1,306 @@
+// What holds whatever the device does: never inside, never through, continuous, repeatable, without a heap.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "tests/proxy/support.hpp"
+#include "tests/support/forbidden.hpp"
+
+using namespace bolt;
+using namespace bolt::collision;
+using namespace bolt::proxy;
+using namespace bolt::test;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+GodObjectParameters for_wrench() {
+    GodObjectParameters p;
+    p.coupling = {1500.0, 15.0, 0.3, 0.003, 20.0, 2.0};
+    p.radius = 0.165;
+    return p;
+}
+
+// Things of every kind around the origin, none of them where the wrench starts.
+Scene random_scene(std::uint64_t seed, const Pose& start) {
+    Random random(seed);
+    Scene scene;
+    add_wrench(scene);
+    scene.nearest_only = seed % 2 == 0;
+    while (scene.obstacles.size() < 12) {
+        const Vec3 where = random.uniform(0.02, 0.15) * any_direction(random);
+        const double kind = random.uniform();
+        const std::size_t pins = scene.pins.size();
+        if (kind < 0.3) {
+            scene.obstacles.push_back(Ball{where, random.uniform(0.003, 0.03)});
+            scene.pins.push_back(std::get<Ball>(scene.obstacles.back()));
+        } else if (kind < 0.6) {
+            const Box box{
+                placed(where, 3.0 * any_direction(random)),
+                Vec3(random.uniform(0.0005, 0.02), random.uniform(0.005, 0.03), random.uniform(0.01, 0.05))};
+            scene.obstacles.push_back(box);
+            add_edges_as_pins(scene, box, 0.005);
+        } else if (kind < 0.85) {
+            const Vec3 along = random.uniform(0.01, 0.04) * any_direction(random);
+            const Rod rod{where - along, where + along, random.uniform(0.003, 0.012)};
+            scene.obstacles.push_back(rod);
+            for (int i = 0; i <= 20; ++i)
+                scene.pins.push_back({glm::mix(rod.a, rod.b, i / 20.0), rod.radius});
+        } else {
+            const Vec3 n = any_direction(random);
+            scene.obstacles.push_back(HalfSpace{n, -random.uniform(0.05, 0.15)});
+        }
+        if (clearance(scene, start) < 1e-3) {
+            scene.obstacles.pop_back();
+            scene.pins.resize(pins);
+        }
+    }
+    return scene;
+}
+
+struct Tally {
+    double deepest = 0.0;
+    double fastest = 0.0;  // m, a tick
+    int in_contact = 0;
+    int most_queries = 0, most_solves = 0;
+    int spent = 0, settled = 0;
+    std::vector<GodObjectState> states;
+};
+
+Tally wander(const Scene& scene, const GodObjectParameters& p, std::uint64_t seed, double speed, int ticks) {
+    Random random(seed, 7);
+    const Wandering hand(random, Vec3(0.0), 0.08, 1.2, speed);
+    Tally tally;
+    GodObjectState state = start_god_object(Pose{});
+    for (int i = 0; i < ticks; ++i) {
+        const double ease = std::min(1.0, i / 300.0);
+        Pose device = hand(i * dt);
+        device.position *= ease;
+        device.orientation = rotation(ease * rotation_vector(device.orientation));
+        const GodObjectState before = state;
+        const GodObjectStep step = step_god_object(p, state, device, scene, dt);
+        const double clear = clearance(scene, state.tool);
+        tally.deepest = std::max(tally.deepest, -clear);
+        tally.in_contact += clear < 2.0 * p.skin ? 1 : 0;
+        tally.most_queries = std::max(tally.most_queries, step.queries);
+        tally.most_solves = std::max(tally.most_solves, step.solves);
+        tally.spent += step.spent ? 1 : 0;
+        tally.settled += step.settled ? 1 : 0;
+        tally.fastest = std::max(tally.fastest, travel(twist_between(before.tool, state.tool), p.radius));
+        tally.states.push_back(state);
+    }
+    return tally;
+}
+
+}  // namespace
+
+TEST_CASE("random scenes: never inside, never a leap, within the budget of queries") {
+    const GodObjectParameters p = for_wrench();
+    Tally sum;
+    for (std::uint64_t seed = 1; seed <= 18; ++seed) {
+        const Scene scene = random_scene(seed, Pose{});
+        const Tally tally = wander(scene, p, seed, seed % 3 == 0 ? 1.0 : 0.25, 1000);
+        CAPTURE(seed);
+        CHECK(tally.deepest <= 0.0);
+        CHECK(tally.most_queries <= p.queries);
+        sum.deepest = std::max(sum.deepest, tally.deepest);
+        sum.fastest = std::max(sum.fastest, tally.fastest);
+        sum.in_contact += tally.in_contact;
+        sum.most_queries = std::max(sum.most_queries, tally.most_queries);
+        sum.most_solves = std::max(sum.most_solves, tally.most_solves);
+        sum.spent += tally.spent;
+        sum.settled += tally.settled;
+    }
+    MESSAGE("in contact " << sum.in_contact << " of 18000 ticks; queries up to " << sum.most_queries
+                          << ", solves up to " << sum.most_solves << "; spent " << sum.spent << ", settled "
+                          << sum.settled << "; farthest in a tick " << 1e3 * sum.fastest << " mm; deepest "
+                          << 1e6 * sum.deepest << " um");
+    CHECK(sum.in_contact > 5000);
+}
+
+TEST_CASE("where looking is dear a tick looks less often; the tool is late then, and nothing else") {
+    GodObjectParameters p = for_wrench();
+    p.work = 1000;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        CAPTURE(seed);
+        const Scene scene = random_scene(seed, Pose{});
+        const auto dear = [&](const Pose& pose, double band, std::span<Contact> out) {
+            ContactQueryResult found = scene(pose, band, out);
+            found.work = 400;
+            return found;
+        };
+        Random random(seed, 7);
+        const Wandering hand(random, Vec3(0.0), 0.08, 1.2, 0.5);
+        GodObjectState state = start_god_object(Pose{});
+        int most = 0;
+        Pose device;
+        for (int i = 0; i < 1000; ++i) {
+            const double ease = std::min(1.0, i / 300.0);
+            device = hand(i * dt);
+            device.position *= ease;
+            device.orientation = rotation(ease * rotation_vector(device.orientation));
+            const GodObjectStep step = step_god_object(p, state, device, dear, dt);
+            most = std::max(most, step.queries);
+            REQUIRE(step.work == 400U * static_cast<std::uint32_t>(step.queries));
+            REQUIRE(clearance(scene, state.tool) >= 0.0);
+        }
+        CHECK(most >= 3);
+        CHECK(most < p.queries);
+        // The hand rests: in the end there is nothing more to do.
+        bool arrived = false;
+        for (int i = 0; i < 1000 && !arrived; ++i) {
+            const GodObjectStep step = step_god_object(p, state, device, dear, dt);
+            arrived = !step.spent && !step.settled;
+        }
+        CHECK(arrived);
+    }
+}
+
+TEST_CASE("the same scene twice: the same bits") {
+    const Tally a = wander(random_scene(4, Pose{}), for_wrench(), 4, 0.5, 1000);
+    const Tally b = wander(random_scene(4, Pose{}), for_wrench(), 4, 0.5, 1000);
+    for (std::size_t i = 0; i < a.states.size(); ++i)
+        REQUIRE(std::memcmp(&a.states[i], &b.states[i], sizeof(GodObjectState)) == 0);
+}
+
+TEST_CASE("a step allocates nothing, locks nothing, reads no clock, and the watch would see it if it did") {
+    const Scene scene = random_scene(5, Pose{});
+    Random random(5, 7);
+    const Wandering hand(random, Vec3(0.0), 0.08, 1.2, 0.5);
+    GodObjectState state = start_god_object(Pose{});
+    const GodObjectParameters p = for_wrench();
+    const Forbidden seen = forbidden_in([&] {
+        for (int i = 0; i < 1000; ++i) step_god_object(p, state, hand(i * dt), scene, dt);
+    });
+    CHECK(seen.all() == 0);
+    CHECK(glm::length(state.felt.force) > 0.0);
+    CHECK(forbidden_in([] { std::vector<int> memory(100); }).allocations > 0);
+}
+
+TEST_CASE("a flick at 2 m/s does not go through a rib of 1 mm, at any angle and phase") {
+    GodObjectParameters p = for_wrench();
+    Random random(11);
+    for (const double thickness : {1e-3, 0.5e-3}) {
+        for (int trial = 0; trial < 60; ++trial) {
+            Scene scene;
+            add_wrench(scene);
+            scene.nearest_only = trial % 2 == 0;
+            scene.obstacles.push_back(Box{placed(Vec3(0.0)), Vec3(0.5 * thickness, 0.6, 0.6)});
+            if (trial % 3 == 0)  // along a floor that the wrench slides on
+                scene.obstacles.push_back(HalfSpace{Vec3(0, 0, 1), -0.3});
+            const Vec3 turn = 3.0 * any_direction(random);
+            const Vec3 spin = trial % 4 == 0 ? 8.0 * any_direction(random) : Vec3(0.0);
+            const double start = -0.2 - random.uniform(0.0, 2e-3);
+            const Vec3 velocity =
+                2.0 * glm::normalize(Vec3(1.0, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
+            GodObjectState state = start_god_object(placed(Vec3(start, 0, 0), turn));
+            REQUIRE(clearance(scene, state.tool) > 0.0);
+            double deepest = 0.0;
+            for (int i = 0; i < 250; ++i) {
+                const Pose device{Vec3(start, 0, 0) + velocity * (i * dt),
+                                  rotation(spin * (i * dt)) * rotation(turn)};
+                step_god_object(p, state, device, scene, dt);
+                deepest = std::max(deepest, -clearance(scene, state.tool));
+                for (const Vec3& point : scene.points) REQUIRE((state.tool * point).x < 0.0);
+            }
+            CHECK(deepest <= 0.0);
+            CHECK(glm::length(state.felt.force) > 15.0);
+        }
+    }
+}
+
+TEST_CASE("the tip of a tool in a gap of 1 mm stays in it, however it is pulled about") {
+    GodObjectParameters p = for_wrench();
+    p.radius = 0.04;
+    Scene scene;
+    add_box(scene, {placed(Vec3(0.0)), Vec3(0.03, 0.4e-3, 0.005)}, 0.003);
+    const Box left{placed(Vec3(0, 5.5e-3, 0)), Vec3(0.05, 5e-3, 0.05)};
+    const Box right{placed(Vec3(0, -5.5e-3, 0)), Vec3(0.05, 5e-3, 0.05)};
+    for (const Box& block : {left, right}) {
+        scene.obstacles.push_back(block);
+        add_edges_as_pins(scene, block, 0.005);
+    }
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        Random random(seed, 3);
+        const Wandering hand(random, Vec3(0.0), 0.015, 0.5, seed % 2 == 0 ? 0.1 : 1.0);
+        GodObjectState state = start_god_object(Pose{});
+        double deepest = 0.0, aside = 0.0, along = 0.0;
+        for (int i = 0; i < 1200; ++i) {
+            Pose device = hand(i * dt);
+            const double ease = std::min(1.0, i / 200.0);
+            device.position *= ease;
+            device.orientation = rotation(ease * rotation_vector(device.orientation));
+            step_god_object(p, state, device, scene, dt);
+            deepest = std::max(deepest, -clearance(scene, state.tool));
+            aside = std::max(aside, std::abs(state.tool.position.y));
+            along = std::max(along, std::abs(state.tool.position.x));
+        }
+        CHECK(deepest <= 0.0);
+        CHECK(aside < 0.1e-3);
+        CHECK(along > 0.5e-3);  // but along the gap it moves
+    }
+}
+
+TEST_CASE("without friction a wall pushes along its normal and nowhere else, and never pulls") {
+    GodObjectParameters p = for_wrench();
+    p.friction = 0.0;
+    p.coupling.damping = p.coupling.torsion_damping = 0.0;
+    Random random(12);
+    for (int trial = 0; trial < 20; ++trial) {
+        Scene scene;
+        add_wrench(scene);
+        const Vec3 n = any_direction(random);
+        scene.obstacles.push_back(HalfSpace{n, -0.03});
+        const Vec3 start = 0.2 * n;
+        Random seed(static_cast<std::uint64_t>(trial) + 100);
+        const Wandering hand(seed, Vec3(0.0), 0.08, 1.2, 0.3);
+        GodObjectState state = start_god_object(placed(start));
+        for (int i = 0; i < 1500; ++i) {
+            Pose device = hand(i * dt);
+            const double ease = std::min(1.0, i / 400.0);
+            device.position = glm::mix(start, device.position, ease);
+            device.orientation = rotation(ease * rotation_vector(device.orientation));
+            const GodObjectStep step = step_god_object(p, state, device, scene, dt);
+            const double push = glm::dot(state.felt.force, n);
+            // But for what a turn that waits for its torque holds back on the way off: under a per cent.
+            REQUIRE(push >= -0.0075 * p.coupling.force);
+            // What settles is still on its way.
+            if (!step.settled && !step.spent)
+                REQUIRE(glm::length(state.felt.force - push * n) < 0.02 + 0.01 * push);
+        }
+    }
+}
+
+TEST_CASE("a round trip against obstacles gives the hand no work, beyond what a sampled spring does") {
+    GodObjectParameters p = for_wrench();
+    p.coupling.damping = p.coupling.torsion_damping = 0.0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Scene scene = random_scene(seed, Pose{});
+        Random random(seed, 9);
+        const Wandering hand(random, Vec3(0.0), 0.06, 0.8, 0.2);
+        GodObjectState state = start_god_object(Pose{});
+        double work = 0.0, sampled = 0.0, done = 0.0;
+        Pose last = state.device;
+        for (int i = 0; i < 2500; ++i) {
+            const double ease = std::min({1.0, i / 300.0, (2500 - i) / 300.0});
+            Pose device = hand(i * dt);
+            device.position *= ease;
+            device.orientation = rotation(ease * rotation_vector(device.orientation));
+            const Twist moved = twist_between(last, device);
+            // The force of the last tick holds while the hand moves.
+            const double share =
+                glm::dot(state.felt.force, moved.linear) + glm::dot(state.felt.torque, moved.angular);
+            work += share;
+            done += std::abs(share);
+            sampled += p.coupling.stiffness * glm::dot(moved.linear, moved.linear) +
+                       p.coupling.torsion * glm::dot(moved.angular, moved.angular);
+            step_god_object(p, state, device, scene, dt);
+            last = device;
+        }
+        CAPTURE(seed);
+        CAPTURE(done);
+        CHECK(work <= 0.5 * sampled);
+    }
+}

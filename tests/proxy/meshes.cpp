@@ -1,0 +1,137 @@
+// The god-object with the finder it is made for, on meshes; what is inside is told by brute force.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "haptics/collision/narrow_phase.hpp"
+#include "haptics/proxy/god_object.hpp"
+#include "tests/collision/support.hpp"
+#include "tests/support/forbidden.hpp"
+
+using namespace bolt;
+using namespace bolt::collision;
+using namespace bolt::proxy;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+struct Bench {
+    World world;
+    ToolShape tool;
+    NarrowPhaseState near;
+    contact_test::Surface obstacle, moving;
+    ContactMesh wrench;
+
+    explicit Bench(const ContactMesh& mesh) : wrench(contact_test::wrench().mesh()) {
+        const Obstacle still{ObstacleId::fixed(1), &mesh, {}, false};
+        Result<World> made = make_world({&still, 1});
+        REQUIRE(made);
+        world = std::move(*made);
+        Result<ToolShape> shape = make_tool({&wrench, 1}, {.samples = 2000});
+        REQUIRE(shape);
+        tool = std::move(*shape);
+        near = make_narrow_phase(world, tool);
+        obstacle = contact_test::surface_of(mesh);
+        moving = contact_test::surface_of(wrench);
+    }
+
+    GodObjectStep step(const GodObjectParameters& p, GodObjectState& state, const Pose& device) {
+        return step_god_object(
+            p, state, device,
+            [&](const Pose& pose, double band, std::span<Contact> out) {
+                return find_contacts(world, tool, pose, band, near, out);
+            },
+            dt);
+    }
+
+    // Where the surfaces meet, and a point lies deeper than 0.1 mm.
+    [[nodiscard]] bool deep(const Pose& pose) const {
+        return contact_oracle::depth(obstacle, moving, pose, contact_oracle::from_50_um) > 1e-4;
+    }
+};
+
+GodObjectParameters for_tool(const ToolShape& tool) {
+    GodObjectParameters p;
+    p.coupling = proxy::make_coupling({});
+    p.radius = tool.reach();
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("meshes: a wrench flicked at 2 m/s does not go through a rib of 1 mm") {
+    Bench bench(contact_test::box(Vec3(-0.5e-3, -0.2, -0.2), Vec3(0.5e-3, 0.2, 0.2)).mesh());
+    const GodObjectParameters p = for_tool(bench.tool);
+    Random random(21);
+    int deep = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        const Quat turn = contact_test::random_turn(random);
+        const Vec3 start(-0.03 - random.uniform(0.0, 2e-3), 0.0, 0.0);
+        const Vec3 velocity =
+            2.0 * glm::normalize(Vec3(1.0, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
+        GodObjectState state = start_god_object({start, turn});
+        for (int i = 0; i < 60; ++i) {
+            bench.step(p, state, {start + velocity * (i * dt), turn});
+            for (const glm::vec3& v : bench.wrench.vertices) REQUIRE((state.tool * Vec3(v)).x < 0.0);
+        }
+        deep += bench.deep(state.tool) ? 1 : 0;
+        CHECK(glm::length(state.felt.force) > 15.0);
+    }
+    CHECK(deep == 0);
+}
+
+TEST_CASE("meshes: a wrench led about a casing with a rib, pockets and sharp edges is never in it") {
+    Bench bench(contact_test::casing().mesh());
+    const GodObjectParameters p = for_tool(bench.tool);
+    int touching = 0, deep = 0, most = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        Random random(seed);
+        const Vec3 start(0.02, 0.06, 0.015);
+        GodObjectState state = start_god_object({start, contact_test::random_turn(random)});
+        const Quat turn = state.tool.orientation;
+        Vec3 from = start, to = start;
+        int left = 0, total = 1;
+        for (int i = 0; i < 1500; ++i) {
+            if (left == 0) {
+                from = state.device.position;
+                to = Vec3(random.uniform(-0.01, 0.05), random.uniform(0.008, 0.03),
+                          random.uniform(-0.01, 0.04));
+                total = left =
+                    static_cast<int>(glm::length(to - from) / (dt * random.uniform(0.05, 0.4))) + 1;
+            }
+            --left;
+            Pose device{glm::mix(to, from, static_cast<double>(left) / total),
+                        rotation(0.6 * Vec3(std::sin(3e-3 * i), std::sin(2e-3 * i), 0)) * turn};
+            // A hand gives way: it presses with no more than some 20 N.
+            const Vec3 ahead = device.position - state.tool.position;
+            device.position = state.tool.position + ahead * std::min(1.0, 8e-3 / (1e-9 + glm::length(ahead)));
+            const GodObjectStep step = bench.step(p, state, device);
+            REQUIRE(step.nearest > -1e-4);
+            most = std::max(most, step.queries);
+            if (step.contacts == 0) continue;
+            ++touching;
+            if (i % 5 == 0) deep += bench.deep(state.tool) ? 1 : 0;
+        }
+    }
+    CHECK(touching > 2000);
+    CHECK(most <= p.queries);
+    CHECK(deep == 0);
+}
+
+TEST_CASE("meshes: a step with the real finder does nothing that a tick must not") {
+    Bench bench(contact_test::casing().mesh());
+    const GodObjectParameters p = for_tool(bench.tool);
+    GodObjectState state = start_god_object({Vec3(0.02, 0.06, 0.015), Quat(1, 0, 0, 0)});
+    std::size_t most = 0;
+    const test::Forbidden seen = test::forbidden_in([&] {
+        for (int i = 0; i < 800; ++i) {
+            const Vec3 at(0.02 + 0.01 * std::sin(5e-3 * i), 0.06 - 6e-5 * i, 0.015);
+            most = std::max(most, bench.step(p, state, {at, state.device.orientation}).contacts);
+        }
+    });
+    CHECK(most > 0);
+    CHECK(seen.all() == 0);
+}

@@ -1,0 +1,127 @@
+// What a hand feels that slides over facets: of a round thing cut into facets the round thing, and of what
+// changes to and fro from tick to tick little.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "haptics/collision/smooth_normals.hpp"
+#include "haptics/proxy/god_object.hpp"
+#include "tests/collision/support.hpp"
+#include "tests/proxy/scene.hpp"
+
+using namespace bolt;
+using namespace bolt::collision;
+using namespace bolt::proxy;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+// How much the force goes to and fro: of all ticks the change of its change, and the worst, N.
+class Trembling {
+  public:
+    void add(const Vec3& force) {
+        if (n_ >= 2) {
+            const double bend = glm::length(force - 2.0 * last_ + before_);
+            sum_ += bend * bend;
+            worst = std::max(worst, bend);
+        }
+        before_ = last_;
+        last_ = force;
+        ++n_;
+    }
+    [[nodiscard]] double rms() const { return std::sqrt(sum_ / std::max(1, n_ - 2)); }
+    double worst = 0.0;
+
+  private:
+    Vec3 last_{0.0}, before_{0.0};
+    double sum_ = 0.0;
+    int n_ = 0;
+};
+
+ContactMesh cylinder(double radius, int sides) {
+    contact_test::Triangles t;
+    const auto at = [&](int i, double y) {
+        const double a = 2.0 * pi * (i % sides) / sides;
+        return Vec3(radius * std::sin(a), y, radius * std::cos(a));
+    };
+    constexpr double half = 0.05;
+    for (int i = 0; i < sides; ++i) {
+        t.quad(at(i, -half), at(i + 1, -half), at(i + 1, half), at(i, half));
+        t.triangle(at(i, -half), Vec3(0, -half, 0), at(i + 1, -half));
+        t.triangle(at(i, half), at(i + 1, half), Vec3(0, half, 0));
+    }
+    return t.mesh();
+}
+
+constexpr ForceRateLimits any{.of_rendered = 10.0, .of_maximum = 10.0, .maximum = 10.0, .at_once = 1.0};
+
+// A die that touches with a corner, led about the cylinder inside its surface.
+Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_limits) {
+    constexpr double radius = 0.02, depth = 4e-3, speed = 0.08, furthest = 0.4;
+    const ContactMesh round = cylinder(radius, sides);
+    const ContactMesh die = contact_test::box(Vec3(-5e-3), Vec3(5e-3)).mesh();
+    const Obstacle still{ObstacleId::fixed(1), &round, {}, false};
+    Result<World> world = make_world({&still, 1});
+    REQUIRE(world);
+    Result<ToolShape> tool = make_tool({&die, 1});
+    REQUIRE(tool);
+    NarrowPhaseState near = make_narrow_phase(*world, *tool);
+    const auto finder = [&](const Pose& pose, double band, std::span<Contact> out) {
+        const ContactQueryResult found = find_contacts(*world, *tool, pose, band, near, out);
+        if (smooth) smooth_normals(*world, *tool, pose, out.first(found.count));
+        return found;
+    };
+    GodObjectParameters p;
+    p.coupling = proxy::make_coupling({});
+    p.radius = tool->reach();
+    p.rate_limits = rate_limits;
+    p.friction = 0.1;
+    // With a corner down.
+    const Vec3 corner = glm::normalize(Vec3(-1.0)), down(0, 0, -1);
+    const Quat turn = rotation(std::acos(glm::dot(corner, down)) * glm::normalize(glm::cross(corner, down)));
+    const auto device = [&](double angle, double height) {
+        return Pose{(radius + height) * Vec3(std::sin(angle), 0.0, std::cos(angle)) - p.radius * down, turn};
+    };
+    GodObjectState state = start_god_object(device(-furthest, 2e-3));
+    const auto step = [&](double angle, double height) {
+        step_god_object(p, state, device(angle, height), finder, dt);
+        CHECK(signed_distance(*world, state.tool * (p.radius * corner)) > 0.0);
+    };
+    for (int i = 0; i <= 200; ++i) step(-furthest, 2e-3 - i / 200.0 * (depth + 2e-3));
+    Trembling trembling;
+    const int ticks = static_cast<int>(2.0 * furthest * radius / (speed * dt));
+    for (int i = 0; i <= ticks; ++i) {
+        step(furthest * (2.0 * i / ticks - 1.0), -depth);
+        if (i > 50) trembling.add(state.felt.force);
+    }
+    CHECK(glm::length(state.felt.force) > 2.0);
+    return trembling;
+}
+
+}  // namespace
+
+TEST_CASE("a round bar cut into facets feels round where the finder's contacts are smooth") {
+    for (const int sides : {16, 24, 48, 96}) {
+        const Trembling facets = about_cylinder(sides, false, any), smooth = about_cylinder(sides, true, any);
+        MESSAGE(
+            fmt::format("{} sides: the change of force changes by {:.4f} N in the mean, {:.3f} N at worst; "
+                        "smooth by {:.4f} N and {:.3f} N",
+                        sides, facets.rms(), facets.worst, smooth.rms(), smooth.worst));
+        CHECK(facets.rms() > 0.2);
+        CHECK(smooth.rms() < 0.01);
+        CHECK(smooth.worst < 0.1);
+    }
+}
+
+TEST_CASE("what changes to and fro is held back, also where contacts are not smooth") {
+    for (const int sides : {16, 24, 48, 96}) {
+        const Trembling free = about_cylinder(sides, false, any), held = about_cylinder(sides, false, {}),
+                        leaping = about_cylinder(sides, false, {.at_once = 1.0});
+        MESSAGE(fmt::format("{} sides: {:.3f} N free, {:.3f} N as it comes, {:.3f} N held", sides, free.rms(),
+                            leaping.rms(), held.rms()));
+        CHECK(held.rms() < 0.5 * free.rms());
+        CHECK(held.worst < 0.6);
+    }
+}

@@ -1,0 +1,98 @@
+#include "game/session/replay_device.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "haptics/station/tick.hpp"
+#include "tests/servo/support.hpp"
+#include "tests/session/support.hpp"
+
+using namespace bolt;
+using namespace bolt::session;
+using namespace bolt::session::test;
+
+namespace {
+
+constexpr std::size_t count = 2500;
+
+// A hand that goes and turns, is silent in every seventh tick, and lets go at the end.
+servo::Input hand_at(std::size_t i) {
+    const double t = 1e-3 * static_cast<double>(i);
+    const Quat q = rotation(Vec3(0.2 * std::sin(3.0 * t), t, 0.1));
+    servo::Input input;
+    input.device.position[0] = static_cast<float>(0.1 * std::sin(t));
+    input.device.position[1] = static_cast<float>(0.3 + 0.05 * t);
+    input.device.orientation[0] = static_cast<float>(q.w);
+    input.device.orientation[1] = static_cast<float>(q.x);
+    input.device.orientation[2] = static_cast<float>(q.y);
+    input.device.orientation[3] = static_cast<float>(q.z);
+    input.fresh = i % 7 != 6;
+    input.enabled = i < 2000;
+    return input;
+}
+
+void record_hand(const std::filesystem::path& file) {
+    auto writer = Writer::create(file, sample_header(1e-3));
+    REQUIRE(writer);
+    for (std::size_t i = 0; i < count; ++i) REQUIRE(writer->append(make_record(hand_at(i), servo::Output{})));
+    REQUIRE(writer->finish({}));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Replay device: a session's hand moves a station's tool again as it was moved, and holds and lets go as "
+    "it did") {
+    const Folder folder;
+    record_hand(folder / "a.session");
+    const auto reader = Reader::open(folder / "a.session");
+    REQUIRE(reader);
+    const auto hand = replay_device(*reader);
+    REQUIRE(hand);
+    CHECK(hand->description.rate == 1000.0);
+
+    device::VirtualTime time;
+    device::DeviceSupervisor supervisor(
+        device::recorded(hand->description, hand->recording, device::virtual_timer(time)),
+        device::virtual_timer(time));
+    device::DeviceMailboxes mailboxes;
+    device::DeviceSnapshot told;
+    station::Layout layout;
+    layout.mover = hand->description;
+    layout.mover_buttons = {button_held, 0, button_stop, button_reset};
+    layout.home = hand->first;
+    const servo::Setup setup = bolt::test::two_joints(station::limits_of(layout));
+    station::State state = station::initial_state(layout);
+    std::size_t next = 0;
+    while (time.now < 1e-3 * count) {
+        device::run_once(supervisor, mailboxes, told);
+        station::StationInputs heard;
+        mailboxes.snapshots.update();
+        heard.mover = mailboxes.snapshots.latest();
+        const servo::Input input = station::read_inputs(layout, setup, state, heard);
+        if (!input.fresh || next >= count) continue;
+        const servo::Input was = hand_at(next);
+        for (int k = 0; k < 3; ++k)
+            REQUIRE(std::abs(input.device.position[k] - was.device.position[k]) < 1e-6F);
+        for (int k = 0; k < 4; ++k)
+            REQUIRE(std::abs(input.device.orientation[k] - was.device.orientation[k]) < 1e-6F);
+        REQUIRE(input.enabled == was.enabled);
+        do {
+            ++next;
+        } while (!hand_at(next).fresh);
+    }
+    CHECK(next >= count);
+}
+
+TEST_CASE("Replay device: a session without a tick is no device") {
+    const Folder folder;
+    auto writer = Writer::create(folder / "a.session", sample_header(1e-3));
+    REQUIRE(writer);
+    REQUIRE(writer->finish({}));
+    const auto reader = Reader::open(folder / "a.session");
+    REQUIRE(reader);
+    const auto none = replay_device(*reader);
+    REQUIRE_FALSE(none);
+    CHECK(none.error().message().find("no ticks with a fresh device sample") != std::string::npos);
+}

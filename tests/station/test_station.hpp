@@ -1,0 +1,75 @@
+// A station without threads; tests set the samples of its devices.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "haptics/station/tick.hpp"
+#include "tests/station/support.hpp"
+
+namespace bolt::test {
+
+inline station::Layout with_arm() {
+    station::Layout layout;
+    layout.mover = arm();
+    layout.home.position = Vec3(0.1, 0.3, 0.0);
+    return layout;
+}
+
+// A station whose devices say what a test wants, every millisecond.
+struct Rig {
+    explicit Rig(const station::Layout& l)
+        : layout(l),
+          setup(two_joints(station::limits_of(l))),
+          servo(servo::initial_state(setup)),
+          state(station::initial_state(l)) {
+        for (device::DeviceSnapshot* snapshot : {&inputs.mover, &inputs.wheel}) {
+            snapshot->usable = true;
+            snapshot->opening = 1;
+        }
+        inputs.controls.dead_man = true;
+        inputs.controls.grip = servo::Grip::wrench;
+    }
+
+    station::Layout layout;
+    servo::Setup setup;
+    servo::State servo;
+    station::State state;
+    station::StationInputs inputs;
+    std::vector<station::StationCommand> commands;  // of the next tick
+    bool mover_speaks = true, wheel_speaks = true;
+
+    station::DeviceCommands tick() {
+        if (mover_speaks) ++inputs.mover.number;
+        if (wheel_speaks) ++inputs.wheel.number;
+        inputs.commands = commands;
+        const station::DeviceCommands output = station::tick(layout, setup, state, servo, inputs);
+        commands.clear();
+        return output;
+    }
+    station::DeviceCommands ticks(int count) {
+        station::DeviceCommands output;
+        for (int i = 0; i < count; ++i) output = tick();
+        return output;
+    }
+    Pose& hand() { return inputs.mover.sample.pose; }
+    [[nodiscard]] const Pose& tool() const { return state.workspace.tool; }
+};
+
+// The tool on the first nut, aligned; a puck moves it, if anything.
+inline Rig on_nut(station::Layout layout) {
+    const servo::Setup setup = two_joints(station::limits_of(layout));
+    const servo::NutGeometry& nut = setup.nuts[0];
+    const servo::DeviceSample at = tool_at(nut, servo::nut_centre(nut, 0.0), setup.wrench.head_angle);
+    const servo::ToolPose pose = servo::pose_of(at);
+    layout.home = {pose.position, pose.orientation};
+    Rig rig(layout);
+    rig.ticks(700);  // the ramp
+    REQUIRE(rig.state.output.joint == 0);
+    return rig;
+}
+
+inline bool nothing(const force::OutputCommand& c) { return c.force == Vec3(0.0) && c.torque == Vec3(0.0); }
+
+}  // namespace bolt::test

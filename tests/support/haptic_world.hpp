@@ -1,0 +1,44 @@
+// A world as haptic_system writes it, for tests that set the servo's values by hand.
+#pragma once
+
+#include "game/world/haptics.hpp"
+
+namespace bolt::test {
+
+class HapticWorld {
+  public:
+    explicit HapticWorld(std::size_t joints) {
+        state_.joints.resize(joints);
+        world::add_haptics(world_, state_);
+    }
+
+    // Writes an output, and into the joint that it engages what it says of that; all other joints stay.
+    const world::World& write(const servo::Output& output, bool wrench = true) {
+        if (output.joint >= 0) {
+            joint::JointState& joint = state_.joints.at(static_cast<std::size_t>(output.joint));
+            joint.nut.angle = output.nut_angle;
+            joint.torque = output.wrench_torque;
+            joint.clamp = output.clamp;
+            joint.stage = output.stage;
+        }
+        return write(state_.joints, {}, output, wrench);
+    }
+
+    const world::World& write(std::span<const joint::JointState> joints, std::span<const double> rounded,
+                              const servo::Output& output, bool wrench,
+                              double room = std::numeric_limits<double>::infinity()) {
+        world::write_joints(world_, joints, rounded);
+        world::write_output(world_, output);
+        world::Hand& hand = world_.only<world::Hand>();
+        hand.wrench = wrench;
+        hand.doing = world::Doing::holding;
+        hand.room = room;
+        return world_;
+    }
+
+  private:
+    servo::State state_;
+    world::World world_;
+};
+
+}  // namespace bolt::test

@@ -1,0 +1,43 @@
+#include "tests/tool_contact/support.hpp"
+
+namespace bolt::test {
+
+Workbench::Workbench(const char* name, const force::OutputLimits& limits) {
+    content::Loaded loaded = content::load_assembly(name);
+    REQUIRE(loaded.ok());
+    assembly = std::move(loaded.assembly);
+    setup = session::make_setup(assembly, joint::Law::mechanistic, limits, 1, 0.001);
+    state = servo::initial_state(setup);
+    Result<std::optional<servo::ToolContact>> touch = session::load_tool_contact(assembly, setup);
+    REQUIRE_MESSAGE(touch, (touch ? "" : touch.error().message()));
+    REQUIRE(touch->has_value());
+    state.tool_contact = std::move(*touch);
+}
+
+Pose Workbench::wrench(std::size_t joint, double above, double misfit, const Vec3& beside,
+                       const Vec3& towards) const {
+    const servo::NutGeometry& nut = setup.nuts[joint];
+    const double angle = state.joints[joint].nut.angle;
+    Pose best;
+    double nearest = -2.0;
+    for (int turn = 0; turn < 6; ++turn) {
+        const double head = -setup.wrench.head_angle;
+        const double handle = angle - head + misfit + static_cast<double>(turn) * pi / 3.0;
+        const Vec3 x = std::cos(-handle) * nut.e1 + std::sin(-handle) * nut.e2, z = nut.axis;
+        if (glm::dot(x, towards) <= nearest) continue;
+        nearest = glm::dot(x, towards);
+        best.orientation = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
+    }
+    best.position = servo::nut_centre(nut, angle) + above * nut.axis + beside.x * nut.e1 + beside.y * nut.e2;
+    return best;
+}
+
+servo::Output Workbench::step(const Pose& hand, servo::Grip grip) {
+    servo::Input input;
+    input.enabled = true;
+    input.grip = grip;
+    input.device = servo::sample_of(hand);
+    return servo::tick(setup, state, input);
+}
+
+}  // namespace bolt::test

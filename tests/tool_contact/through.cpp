@@ -1,0 +1,75 @@
+// No simulated hand pushes a wrench through something. The contact oracle measures the depth, not the contact
+// queries that hold the wrench back.
+#include <algorithm>
+
+#include "game/lesson/lesson.hpp"
+#include "game/trainees/trainee.hpp"
+#include "tests/support/sanitized.hpp"
+#include "tests/support/skip.hpp"
+#include "tests/tool_contact/support.hpp"
+#include "tools/verify/contact/scene.hpp"
+
+using namespace bolt;
+using namespace bolt::servo;
+
+namespace {
+
+// The greatest depth of the wrench in what stands still (m). The jaw replaces contact with nuts
+// (jaw_grip.hpp).
+double depth_in_casing(const contact_validation::Scene& scene, const ToolContact& touch, const Pose& wrench) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        if (scene.parts[i].body != 0) continue;
+        const Pose to_part = inverse(touch.world.bodies[0].pose) * wrench;
+        most = std::max(most, contact_oracle::depth(scene.parts[i].surface, scene.tool, to_part,
+                                                    contact_oracle::from_50_um));
+    }
+    return most;
+}
+
+// A corner of the wrench half a millimetre below the middle of the largest triangle of what stands still.
+Pose half_a_millimetre_in(const contact_validation::Scene& scene) {
+    const auto part = std::find_if(scene.parts.begin(), scene.parts.end(),
+                                   [](const contact_validation::Part& p) { return p.body == 0; });
+    const auto area = [](const geometry::Triangle& t) { return glm::length(geometry::normal_of(t)); };
+    const std::vector<geometry::Triangle>& triangles = part->surface.tree.triangles();
+    const geometry::Triangle& t = *std::max_element(
+        triangles.begin(), triangles.end(), [&](const auto& a, const auto& b) { return area(a) < area(b); });
+    const Vec3 at = (t.a + t.b + t.c) / 3.0 - 0.5e-3 * glm::normalize(geometry::normal_of(t));
+    return {at - scene.tool.tree.triangles()[0].a, Quat(1, 0, 0, 0)};
+}
+
+}  // namespace
+
+TEST_CASE("Tool contact: a clumsy hand never passes through the pipe flange, nor moves faster than a hand") {
+    if (test::sanitized) return test::skip_rest("a round of the flange takes minutes under a sanitizer");
+    test::Workbench bench("dn200-pn16");
+    lesson::Lesson lesson = lesson::begin(bench.assembly, lesson::Mode::guided, lesson::Task::tighten);
+    trainees::Operator hand(trainees::find_profile("clumsy").value(), 1, bench.setup);
+    const contact_validation::Scene scene =
+        contact_validation::make_scene(bench.state.tool_contact->world, bench.state.tool_contact->wrench);
+    double depth = 0.0, fastest = 0.0;
+    int asked = 0, faults = 0;
+    Vec3 before(0.0);
+    // Into the first round with the wrench; the nuts are run down by hand before.
+    while (lesson.due() != nullptr && asked < 500) {
+        const Input input = hand.act(bench.setup, bench.state, lesson);
+        const Output output = tick(bench.setup, bench.state, input);
+        lesson::observe(lesson, bench.state, output);
+        lesson.events.clear();
+        const Vec3 now(input.device.position[0], input.device.position[1], input.device.position[2]);
+        if (bench.state.tick > 1) fastest = std::max(fastest, glm::length(now - before) / bench.setup.dt);
+        before = now;
+        if (output.fault != force::Fault::none) ++faults;
+        if (!bench.state.tool_contact->in_hand || bench.state.tick % 100 != 0) continue;
+        ++asked;
+        depth = std::max(depth, depth_in_casing(scene, *bench.state.tool_contact, output.tool));
+    }
+    MESSAGE("deepest " << 1e6 * depth << " um, fastest " << fastest << " m/s");
+    CHECK(asked == 500);
+    CHECK(depth < 0.1e-3);
+    CHECK(depth_in_casing(scene, *bench.state.tool_contact, half_a_millimetre_in(scene)) >
+          0.4e-3);  // the check can fail
+    CHECK(fastest < 2.0);
+    CHECK(faults == 0);
+}

@@ -1,0 +1,173 @@
+// All of it in one: an emulated glove on a pseudo-terminal, the driver that reads it, the session that
+// calibrates it, the file that keeps that, and the hand that takes a wrench and keeps it while the glove is
+// gone. Waits are for things to happen, however long that takes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "content/trainee/glove_calibration.hpp"
+#include "haptics/hand/calibration_session.hpp"
+#include "haptics/hand/glove_driver.hpp"
+#include "haptics/hand/grasp.hpp"
+#include "haptics/hand/limits.hpp"
+#include "haptics/hand/measured_hand.hpp"
+#include "tests/hand/test_tools.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/folder.hpp"
+#include "tools/emulate/serial_glove.hpp"
+
+using namespace bolt;
+using hand::Sensor;
+
+namespace {
+
+// How this emulated glove's sensors bend: what the calibration is to find.
+constexpr hand::LinearFit truth(std::size_t sensor) {
+    const double gain = 0.0125 + 0.0002 * static_cast<double>(sensor % 7);
+    return sensor % 5 == 3 ? hand::LinearFit{-gain, 220.0}
+                           : hand::LinearFit{gain, 45.0 + static_cast<double>(sensor)};
+}
+
+std::uint8_t raw_of(std::size_t sensor, double angle) {
+    const hand::LinearFit line = truth(sensor);
+    return static_cast<std::uint8_t>(std::clamp(std::lround(angle / line.gain + line.offset), 1L, 255L));
+}
+
+hand::PerSensor<std::uint8_t> raw_of(hand::Posture posture) {
+    hand::PerSensor<std::uint8_t> raw{};
+    for (std::size_t i = 0; i < hand::sensor_count; ++i)
+        raw[i] = raw_of(i, hand::posture_angle(posture, static_cast<Sensor>(i)).value_or(0.1));
+    return raw;
+}
+
+hand::PerSensor<std::uint8_t> raw_of(const hand::Angles& angles) {
+    hand::PerSensor<hand::LinearFit> lines;
+    for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = truth(i);
+    return emulate::raw_values(angles, lines);
+}
+
+// Whoever reads the driver: every new sample once.
+struct Reader {
+    hand::GloveDriver driver;
+    std::uint64_t last = 0;
+    const hand::GloveSample* next() {
+        const hand::GloveSample& sample = driver.sample();
+        if (sample.number == last) return nullptr;
+        last = sample.number;
+        return &sample;
+    }
+};
+
+hand::CalibrationResult calibrated(emulate::SerialGlove& line, Reader& reader) {
+    hand::CalibrationSession session;
+    session.options.hold = 0.4;  // nobody's hand here trembles
+    session.options.settle = 0.1;
+    session.options.silence = 5.0;  // nor is a busy machine a silent glove
+    double now = 0.0;
+    REQUIRE(test::eventually([&] {
+        line.show(raw_of(session.requested));
+        const hand::GloveSample* sample = reader.next();
+        if (sample != nullptr) now = sample->time;
+        if (now > 0.0) update(session, sample == nullptr ? nullptr : &sample->frame, now);
+        return session.phase == hand::CalibrationPhase::done;
+    }));
+    return *session.result;
+}
+
+}  // namespace
+
+TEST_CASE("Glove to grasp: from an emulated glove to a wrench in the hand") {
+    for (const std::size_t sensors : {18U, 22U}) {
+        const bool right = sensors == 18;
+        auto line = emulate::SerialGlove::start(
+            {.sensors = sensors, .hand = right ? hand::Side::right : hand::Side::left});
+        REQUIRE(line);
+        Reader reader{hand::GloveDriver::start(line->port())};
+        REQUIRE(test::eventually([&] { return reader.next() != nullptr; }));
+        const hand::GloveIdentity identity = reader.driver.report().identity;
+        REQUIRE(identity.sensors == sensors);
+
+        // Calibrated and kept, and read again.
+        const hand::CalibrationResult made = calibrated(*line, reader);
+        CHECK(made.score > 0.5);
+        content::GloveCalibration kept;
+        kept.trainee = "Ada";
+        kept.hand = identity.hand;
+        kept.sensors = identity.sensors;
+        kept.date = "2026-11-22";
+        kept.quality = made.score;
+        kept.calibration = made.calibration;
+        const test::Folder folder;
+        const auto path = content::glove_calibration_path(folder.path(), kept.trainee, kept.hand);
+        REQUIRE(content::save_glove_calibration(path, kept));
+        const auto loaded = content::load_glove_calibration(path);
+        REQUIRE(loaded);
+        for (const Sensor sensor : hand::sensors_of(sensors)) {
+            const auto& found = loaded->calibration.fits[hand::index(sensor)];
+            if (sensor == Sensor::wrist_pitch || sensor == Sensor::wrist_yaw) continue;
+            REQUIRE(found);
+            CHECK(found->gain == doctest::Approx(truth(hand::index(sensor)).gain).epsilon(0.05));
+        }
+
+        // Worn: the hand closes on a bar, and the glove's cable is pulled.
+        hand::GloveWearer wearer;
+        wearer.calibration = loaded->calibration;
+        wearer.hand = hand::make_hand(loaded->hand, loaded->hand_length);
+        hand::MeasuredHand worn;
+        hand::GraspState grip;
+        const grasp_test::TestTool bar = grasp_test::bar();
+        Pose wrist = grasp_test::across_the_palm();
+        if (!right) {  // the bar is the same mirrored
+            const Quat& q = wrist.orientation;
+            wrist = {wrist.position * Vec3(-1.0, 1.0, 1.0), Quat(q.w, q.x, -q.y, -q.z)};
+        }
+        hand::GraspEvent told = hand::GraspEvent::none;
+        const auto turn = [&] {
+            const hand::GloveSample* sample = reader.next();
+            if (sample != nullptr) hand::update(worn, wearer, sample->frame, sample->time);
+            const hand::GraspEvent now =
+                update_grasp(grip, {}, bar.tool, wearer.hand, {sample != nullptr, worn.angles, wrist}, 0.01);
+            if (now != hand::GraspEvent::none) told = now;
+        };
+        line->show(raw_of(hand::Angles{}));
+        REQUIRE(test::eventually([&] {
+            turn();
+            return grip.has_frame && std::abs(worn.angles.fingers[1].pip) < 0.03;
+        }));
+        CHECK(!grip.held);
+        const hand::Angles fist = grasp_test::closed(1.0);
+        line->show(raw_of(fist));
+        REQUIRE(test::eventually([&] {
+            turn();
+            return grip.held && !grip.lost && worn.angles.fingers[1].pip > fist.fingers[1].pip - 0.05;
+        }));
+        // What was measured is what the hand does, to the glove's own width; what is shown stops at the bar.
+        CHECK(worn.angles.fingers[2].mcp == doctest::Approx(fist.fingers[2].mcp).epsilon(0.03));
+        CHECK(worn.angles.thumb.roll == doctest::Approx(fist.thumb.roll).epsilon(0.03));
+        for (std::size_t d = 1; d < hand::digit_count; ++d) {
+            CHECK(grip.closure.digits[d].touches);
+            CHECK(grip.closure.angles.fingers[d - 1].mcp < 0.8 * worn.angles.fingers[d - 1].mcp);
+        }
+        line->stall(true);
+        REQUIRE(test::eventually([&] {
+            turn();
+            return grip.lost;
+        }));
+        for (int i = 0; i < 100; ++i) turn();
+        CHECK(grip.held);
+        CHECK(told == hand::GraspEvent::glove_lost);
+        line->stall(false);
+        REQUIRE(test::eventually([&] {
+            turn();
+            return !grip.lost;
+        }));
+        CHECK(grip.held);
+        line->show(raw_of(hand::Angles{}));
+        REQUIRE(test::eventually([&] {
+            turn();
+            return !grip.held;
+        }));
+    }
+}

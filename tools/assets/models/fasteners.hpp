@@ -1,0 +1,93 @@
+// Bolts, nuts and washers as solids with helical threads, and the joint that they form.
+// Millimetres. Local +Z is the bolt axis, from head to nut. Threads are right-handed and in phase: in each
+// part's own frame a crest of the bolt, or a groove of the nut, passes z = 0 on the +X side.
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <string>
+#include <string_view>
+
+#include "engine/base/result.hpp"
+#include "tools/assets/models/document.hpp"
+
+namespace bolt::models {
+
+enum class ThreadDetail { helical, cosmetic };  // cosmetic: a plain cylinder of the nominal diameter
+
+// Hexagon bolt, ISO 4014 (l, b: threaded part). The origin is in the middle of the head's bearing face; the
+// head lies at z < 0, the point at z = length.
+struct BoltSpec {
+    double d = 0.0;
+    double pitch = 0.0;
+    double length = 0.0;
+    double thread_length = 0.0;
+    double across_flats = 0.0;
+    double head_height = 0.0;
+    double head_bearing = 0.0;  // diameter of the washer face
+    std::string grade;          // raised on the head, for example "8.8"; may be empty
+};
+
+// Hexagon nut, ISO 4032. The origin is in the middle of the bearing face; the nut lies at 0 < z < height.
+struct NutSpec {
+    double d = 0.0;
+    double pitch = 0.0;
+    double height = 0.0;
+    double across_flats = 0.0;
+    double bearing = 0.0;  // diameter where the chamfer meets the faces
+};
+
+// Plain washer, ISO 7089. The origin is in the middle of the lower face; the washer lies at 0 < z <
+// thickness.
+struct WasherSpec {
+    double inner = 0.0;
+    double outer = 0.0;
+    double thickness = 0.0;
+};
+
+// Hexagon socket head cap screw, ISO 4762. The origin is under the head, as for bolts.
+struct SocketScrewSpec {
+    double d = 0.0;
+    double pitch = 0.0;
+    double length = 0.0;
+    double thread_length = 0.0;
+    double head_diameter = 0.0;  // d_k
+    double head_height = 0.0;    // k
+    double socket = 0.0;         // s, across flats of the socket
+};
+
+// Dimensions from the tables of haptics/joint. `size` is a thread such as "M16" or "M16x1.5".
+Result<BoltSpec> iso_4014(std::string_view size, double length_mm);
+Result<NutSpec> iso_4032(std::string_view size);
+Result<WasherSpec> iso_7089(std::string_view size);
+Result<SocketScrewSpec> iso_4762(std::string_view size, double length_mm);  // M4 to M12
+
+// Each returns one closed, valid solid, or an error that names the part.
+Result<TopoDS_Shape> hex_bolt(const BoltSpec& spec, ThreadDetail detail = ThreadDetail::helical);
+Result<TopoDS_Shape> hex_nut(const NutSpec& spec, ThreadDetail detail = ThreadDetail::helical);
+Result<TopoDS_Shape> washer(const WasherSpec& spec);
+Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec, ThreadDetail detail = ThreadDetail::cosmetic);
+
+// Bolt, nut and washer as parts of a document. All joints of one type share them.
+struct FastenerParts {
+    Part bolt, nut, washer;
+    BoltSpec bolt_spec;
+    NutSpec nut_spec;
+    WasherSpec washer_spec;
+};
+
+// Adds the parts bolt_M16x180, nut_M16 and washer_M16. With `shared`, a set of the same size, only the bolt
+// is added and nut and washer are taken from that set.
+Result<FastenerParts> add_fasteners(Document& document, std::string_view size, double length_mm,
+                                    Finish finish, const FastenerParts* shared = nullptr,
+                                    std::string_view grade = {});
+
+// Adds the group joint_ID with ID_bolt, ID_washer_head, ID_washer_nut and ID_nut, with the nut seated. The
+// origin of `placement` is in the middle of the hole on the face under the nut's washer, its +Z points to the
+// nut. grip_mm is the thickness of the clamped members without washers.
+Group add_joint(Document& document, Group parent, std::string_view id, const FastenerParts& parts,
+                double grip_mm, const gp_Trsf& placement);
+
+// The angle (rad, about +Z) of a nut whose origin lies `dz` mm beyond the bolt's, so that the threads mesh.
+double nut_phase(double dz, double pitch);
+
+}  // namespace bolt::models

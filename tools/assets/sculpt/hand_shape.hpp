@@ -1,0 +1,58 @@
+// The shape of a gloved right hand as a field: bones clothed in blended round cones, palm, mounds, webs and
+// cuff, and the folds of the glove where it bends.
+#pragma once
+
+#include <array>
+
+#include "haptics/hand/skeleton.hpp"
+#include "tools/assets/sculpt/field.hpp"
+#include "tools/assets/sculpt/surface_nets.hpp"
+
+namespace bolt::sculpt {
+
+using namespace hand;  // the joints and their names
+
+// Where a point lies along a digit.
+struct Along {
+    double depth = 0.0;    // distance to the digit's skin, negative inside
+    double travel = 0.0;   // m from the metacarpal joint of the chain, measured along the bones
+    double height = 0.0;   // −1 on the side of the palm, +1 on the back
+    Vec3 axis{0.0};        // nearest point of the chain
+    std::size_t bone = 0;  // 0: metacarpal
+};
+
+class HandShape {
+  public:
+    HandShape();
+
+    [[nodiscard]] double operator()(const Vec3& p) const;
+    [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
+    [[nodiscard]] Box box() const;
+
+    // Along digit 0 (thumb) to 4 (little finger).
+    [[nodiscard]] Along along(std::size_t digit, const Vec3& p) const;
+    // The digit alone, from its first knuckle on.
+    [[nodiscard]] double finger(std::size_t digit, const Vec3& p) const;
+    // Travel of joint k of the digit (0: metacarpal).
+    [[nodiscard]] double travel(std::size_t digit, std::size_t k) const { return travel_[digit][k]; }
+
+    static constexpr double cuff_end = 64 * mm;
+    static constexpr double hem = 7 * mm;  // its height
+
+  private:
+    struct Bone {
+        Vec3 a, b;
+        Vec3 side, up, forward;
+        double length = 0.0, radius_a = 0.0, radius_b = 0.0;
+    };
+
+    [[nodiscard]] double palm_body(const Vec3& p) const;
+    [[nodiscard]] double folds(const Vec3& p) const;
+
+    Skeleton skeleton_;
+    std::array<std::array<Bone, 4>, 5> bones_{};
+    std::array<std::size_t, 5> bone_count_{};
+    std::array<std::array<double, 5>, 5> travel_{};
+};
+
+}  // namespace bolt::sculpt

@@ -1,0 +1,229 @@
+#include "tools/assets/sculpt/workshop.hpp"
+
+#include <array>
+
+#include "tools/assets/sculpt/quantise.hpp"
+#include "tools/assets/sculpt/room.hpp"
+#include "tools/assets/sculpt/solid.hpp"
+#include "tools/assets/sculpt/wall_tools.hpp"
+#include "tools/assets/sculpt/workshop_materials.hpp"
+
+namespace bolt::sculpt {
+namespace {
+
+constexpr double plate_thickness = 32 * mm;
+constexpr double plate_length = 1.00;
+constexpr double plate_depth = 0.62;
+constexpr double top_thickness = 45 * mm;
+constexpr double top_length = 1.9;
+constexpr double top_depth = 0.82;
+constexpr double top_z = 0.02;  // middle of the bench
+constexpr double under_top = -plate_thickness - top_thickness;
+constexpr Solid::Rounding crisp{0.8 * mm, 1};
+constexpr Solid::Rounding soft{3 * mm, 2};
+
+void add_room(assets::Model& model, Solid& solid) {
+    solid.box(concrete, {0.0, room::floor - 0.05, 1.6}, {6.4, 0.1, 4.6}, {1 * mm, 1});
+    solid.add_to(model, "floor");
+    for (const double x : {-1.45, 1.45}) {
+        solid.box(line_paint, {x, room::floor, 1.9}, {0.075, 0.8 * mm, 3.6}, {0.3 * mm, 1});
+    }
+    solid.box(line_paint, {0.0, room::floor, 1.35}, {2.825, 0.8 * mm, 0.075}, {0.3 * mm, 1});
+    solid.add_to(model, "floor_lines");
+    const double wall = room::back_wall - 0.05;
+    const double lower = room::dado - room::floor;
+    const double upper = 2.3 - room::dado;
+    solid.box(wall_lower, {0.0, room::floor + 0.5 * lower, wall}, {6.4, lower, 0.1}, crisp);
+    solid.box(wall_upper, {0.0, room::dado + 0.5 * upper, wall}, {6.4, upper, 0.1}, crisp);
+    // A skirting that the mop has met.
+    solid.box(frame_paint, {0.0, room::floor + 0.05, room::back_wall + 0.006}, {6.4, 0.1, 0.012}, soft);
+    solid.add_to(model, "back_wall");
+}
+
+void add_plate(assets::Model& model, Solid& solid) {
+    // Five bars on a base leave four T-slots; only their mouths are seen.
+    constexpr int bars = 5;
+    constexpr double slot = 16 * mm;
+    constexpr double bar = (plate_depth - (bars - 1) * slot) / bars;
+    solid.box(ground_steel, {0.0, -plate_thickness + 6 * mm, 0.0},
+              {plate_length - 2 * mm, 12 * mm, plate_depth - 2 * mm}, crisp);
+    for (int i = 0; i < bars; ++i) {
+        const double z = -0.5 * plate_depth + 0.5 * bar + i * (bar + slot);
+        const double height = plate_thickness - 8 * mm;
+        solid.box(ground_steel, {0.0, -0.5 * height, z}, {plate_length, height, bar}, {1.2 * mm, 2});
+    }
+    solid.add_to(model, "clamping_plate");
+}
+
+void add_drawers(Solid& solid, double x, double low, double high) {
+    constexpr double width = 0.46;
+    constexpr double depth = 0.62;
+    const double middle = 0.5 * (low + high);
+    solid.box(frame_paint, {x, middle, top_z}, {width, high - low, depth}, soft);
+    const double front = top_z + 0.5 * depth + 9 * mm;
+    const std::array<double, 3> heights{0.26, 0.32, 0.42};
+    double y = high - 12 * mm;
+    for (const double part : heights) {
+        const double height = part * (high - low - 24 * mm);
+        solid.box(drawer_paint, {x, y - 0.5 * height, front}, {width - 24 * mm, height - 7 * mm, 18 * mm},
+                  soft);
+        // A bent-sheet handle over the upper edge.
+        solid.box(zinc, {x, y - 26 * mm, front + 19 * mm}, {width - 150 * mm, 14 * mm, 5 * mm},
+                  {2.4 * mm, 2});
+        for (const double side : {-1.0, 1.0}) {
+            solid.box(zinc, {x + side * (0.5 * width - 84 * mm), y - 26 * mm, front + 13 * mm},
+                      {9 * mm, 14 * mm, 14 * mm}, {2 * mm, 2});
+        }
+        y -= height;
+    }
+}
+
+void add_bench(assets::Model& model, Solid& solid) {
+    solid.box(beech, {0.0, -plate_thickness - 0.5 * top_thickness, top_z},
+              {top_length, top_thickness, top_depth}, {4 * mm, 2});
+    solid.add_to(model, "bench_top");
+
+    constexpr double tube = 60 * mm;
+    const double leg_x = 0.5 * top_length - 0.09;
+    const double leg_z = 0.5 * top_depth - 0.07;
+    const double foot = room::floor + 45 * mm;
+    for (const double x : {-leg_x, leg_x}) {
+        for (const double z : {top_z - leg_z, top_z + leg_z}) {
+            solid.box(frame_paint, {x, 0.5 * (under_top + foot), z}, {tube, under_top - foot, tube},
+                      {6 * mm, 2});
+            const std::array<glm::dvec2, 6> leveller{{{0.0, 0.0},
+                                                      {34 * mm, 0.0},
+                                                      {34 * mm, 7 * mm},
+                                                      {13 * mm, 15 * mm},
+                                                      {9 * mm, 15 * mm},
+                                                      {9 * mm, 46 * mm}}};
+            solid.turned(zinc, {x, room::floor, z}, leveller, 24);
+        }
+        solid.box(frame_paint, {x, under_top - 0.5 * tube, top_z}, {tube, tube, 2 * leg_z - tube},
+                  {6 * mm, 2});
+        solid.box(frame_paint, {x, room::floor + 0.16, top_z}, {0.04, 0.04, 2 * leg_z - tube}, {4 * mm, 2});
+    }
+    for (const double z : {top_z - leg_z, top_z + leg_z}) {
+        solid.box(frame_paint, {0.0, under_top - 0.5 * tube, z}, {2 * leg_x - tube, tube, tube}, {6 * mm, 2});
+    }
+    solid.box(frame_paint, {0.0, room::floor + 0.16, top_z - leg_z}, {2 * leg_x - tube, 0.04, 0.04},
+              {4 * mm, 2});
+    // The shelf, a folded sheet.
+    solid.box(frame_paint, {-0.24, room::floor + 0.188, top_z},
+              {2 * leg_x - tube - 0.5, 16 * mm, 2 * leg_z - 0.06}, {3 * mm, 2});
+    solid.add_to(model, "bench_frame");
+    add_drawers(solid, leg_x - 0.5 * tube - 0.24, room::floor + 0.20, under_top - tube - 4 * mm);
+    solid.add_to(model, "bench_drawers");
+}
+
+void add_board(assets::Model& model, Solid& solid) {
+    const double z = room::back_wall + 30 * mm;
+    solid.box(board_steel, {0.0, 0.68, z}, {1.36, 0.48, 18 * mm}, soft);
+    for (const double x : {-0.6, 0.6}) {
+        solid.box(frame_paint, {x, 0.68, room::back_wall + 10 * mm}, {0.05, 0.4, 22 * mm}, crisp);
+    }
+    solid.add_to(model, "tool_board");
+
+    const double face = z + 9 * mm;
+    const std::array<double, 5> sizes{30, 24, 19, 17, 13};
+    double x = -0.60;
+    for (const double size : sizes) {
+        const Vec3 peg(x, 0.86, face);
+        hang_spanner(solid, peg, size);
+        x += 0.105 - 0.0012 * (30 - size);
+    }
+    const Vec3 hammer(0.11, 0.86, face);
+    hang_hammer(solid, hammer);
+    hang_screwdriver(solid, {0.34, 0.86, face}, 0.20);
+    hang_screwdriver(solid, {0.42, 0.86, face}, 0.15);
+    hang_screwdriver(solid, {0.50, 0.86, face}, 0.10);
+    solid.add_to(model, "tools");
+    // Pegs and clips.
+    const Quat forward = glm::angleAxis(0.5 * pi, Vec3(1, 0, 0));
+    const std::array<glm::dvec2, 4> pin{
+        {{3 * mm, 0.0}, {3 * mm, 30 * mm}, {2 * mm, 31 * mm}, {0.0, 31 * mm}}};
+    x = -0.60;
+    for (const double size : sizes) {
+        solid.turned(zinc, {x, 0.86 - 2 * mm, face}, pin, 12, forward);
+        x += 0.105 - 0.0012 * (30 - size);
+    }
+    for (const double side : {-20.0, 20.0})
+        solid.turned(zinc, hammer + Vec3(side * mm, -44 * mm, 0.0), pin, 12, forward);
+    for (const double holder : {0.34, 0.42, 0.50}) {
+        solid.box(zinc, {holder, 0.86 - 113 * mm, face + 14 * mm}, {0.05, 4 * mm, 28 * mm}, {1.5 * mm, 1});
+    }
+    solid.add_to(model, "tool_pegs");
+}
+
+void add_light(assets::Model& model, const std::string& name, const assets::Light& light, const Vec3& place,
+               const Vec3& direction) {
+    assets::Node node;
+    node.name = name;
+    node.translation = glm::vec3(rounded(place, micron));
+    const Vec3 z = -glm::normalize(direction);
+    const Vec3 across = std::abs(z.x) > 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
+    const Vec3 y = glm::normalize(glm::cross(z, across));
+    const Quat turn = glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z)));
+    node.rotation = glm::quat(
+        Quat(rounded(turn.w, 1e-7), rounded(turn.x, 1e-7), rounded(turn.y, 1e-7), rounded(turn.z, 1e-7)));
+    node.light = static_cast<int>(model.lights.size());
+    model.lights.push_back(light);
+    model.lights.back().name = name;
+    model.roots.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(std::move(node));
+}
+
+// Radiance times area is what a strip sends straight down; each has two lamps for it.
+void add_lights(assets::Model& model, Solid& solid) {
+    for (const room::Strip& s : room::strips) {
+        solid.box(lamp_housing, s.centre + Vec3(0, 0.045, 0), {s.length + 0.06, 0.07, s.width + 0.05},
+                  {6 * mm, 2});
+        solid.box(lamp_glow, s.centre + Vec3(0, 0.006, 0), {s.length, 0.014, s.width}, {3 * mm, 1});
+        for (const double side : {-0.4, 0.4}) {
+            const std::array<glm::dvec2, 2> cord{
+                {{2 * mm, 0.0}, {2 * mm, room::ceiling - s.centre.y - 0.08}}};
+            solid.turned(lamp_housing, s.centre + Vec3(side * s.length, 0.08, 0), cord, 8);
+        }
+    }
+    solid.add_to(model, "strip_lights");
+    for (std::size_t i = 0; i < room::strips.size(); ++i) {
+        const room::Strip& s = room::strips[i];
+        assets::Light light;
+        light.type = assets::LightType::spot;
+        light.color = glm::vec3(s.colour);
+        light.intensity = static_cast<float>(0.5 * s.radiance * s.length * s.width);
+        light.inner_cone = 0.6F;
+        light.outer_cone = 1.4F;
+        for (const double side : {-0.25, 0.25}) {
+            const std::string name =
+                "light_strip_" + std::to_string(i + 1) + (side < 0.0 ? "_left" : "_right");
+            add_light(model, name, light, s.centre + Vec3(side * s.length, -0.02, 0.0), {0.0, -1.0, 0.0});
+        }
+    }
+    assets::Light window;
+    window.type = assets::LightType::directional;
+    window.color = {0.72F, 0.86F, 1.0F};
+    window.intensity = 0.8F;
+    add_light(model, "light_window", window, {-3.0, 1.6, 1.6}, {0.86, -0.42, -0.30});
+}
+
+}  // namespace
+
+Result<assets::Model> make_workshop() {
+    assets::Model model;
+    model.generator = "bolt-sculpt";
+    if (Status s = add_workshop_materials(model); !s) return tl::unexpected(s.error());
+    Solid solid(workshop_repeats);
+    assets::Node mount;
+    mount.name = "machine_mount";
+    model.nodes.push_back(mount);
+    model.roots.push_back(0);
+    add_room(model, solid);
+    add_plate(model, solid);
+    add_bench(model, solid);
+    add_board(model, solid);
+    add_lights(model, solid);
+    return model;
+}
+
+}  // namespace bolt::sculpt

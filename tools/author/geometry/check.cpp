@@ -1,0 +1,105 @@
+#include "tools/author/geometry/check.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "content/format/json_pointer.hpp"
+#include "engine/assets/gltf.hpp"
+
+#include "tools/author/geometry/check_levels.hpp"
+#include "tools/author/geometry/check_nodes.hpp"
+#include "tools/author/geometry/check_stack.hpp"
+#include "tools/author/geometry/check_wrench.hpp"
+
+namespace bolt::geometry {
+
+namespace {
+
+std::optional<Scene> read_scene(const std::string& path, std::string_view pointer, const Messages& messages) {
+    if (path.empty()) return std::nullopt;
+    const auto model = assets::read_gltf(path);
+    if (!model) {
+        messages.error(pointer, fmt::format("the file cannot be used: {}", model.error().message()), {});
+        return std::nullopt;
+    }
+    check_file_size(path, pointer, messages);
+    Scene scene = flatten(*model);
+    if (scene.triangle_count() == 0) {
+        messages.error(pointer, "the file shows nothing", "expected triangles in its default scene");
+        return std::nullopt;
+    }
+    return scene;
+}
+
+// The author's wrench; what is wrong with it is said, and the envelope stands for it.
+Wrench wrench_of(const content::WrenchDesign& design, const std::string& pointer, const Messages& messages) {
+    if (const auto scene = read_scene(design.model, pointer, messages)) {
+        auto wrench = model_wrench(*scene, design);
+        if (wrench) return std::move(*wrench);
+        messages.error(pointer, wrench.error().what, wrench.error().expected);
+    }
+    return plain_wrench(design);
+}
+
+// The usual one first, then those to choose from.
+std::vector<Wrench> wrenches_of(const content::Assembly& assembly, const Messages& messages) {
+    std::vector<Wrench> wrenches;
+    for (const content::Tool& tool : assembly.tools) {
+        const bool usual = wrenches.empty();
+        const std::string at = usual ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
+        wrenches.push_back(wrench_of(tool.wrench, at + "/model", messages));
+        if (!usual) wrenches.back().name = "the tool " + content::in_quotes(tool.name);
+    }
+    return wrenches;
+}
+
+Bvh everything_of(const Scene& scene) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(scene.triangle_count());
+    for (const Part& part : scene.parts)
+        triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
+    return Bvh(std::move(triangles));
+}
+
+void check_model(const content::Assembly& assembly, const Scene& scene, const Messages& messages) {
+    check_triangles(scene, near_budget, "/model", messages);
+    const std::vector<Wrench> wrenches = wrenches_of(assembly, messages);
+
+    const std::vector<int> nodes = check_nodes(assembly, scene, messages);
+    const Bvh everything = everything_of(scene);
+    for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+        if (nodes[i] < 0) continue;
+        const content::AssemblyJoint& joint = assembly.joints[i];
+        const JointParts parts = find_joint_parts(scene, nodes[i], joint.design.id);
+        if (!check_stack(joint, i, parts, scene, everything, assembly.wrench.jaw, messages)) continue;
+        for (const Wrench& wrench : wrenches) check_wrench(joint, i, parts, scene, wrench, messages);
+    }
+}
+
+void sort_by_place(std::vector<Error>& errors) {
+    std::stable_sort(errors.begin(), errors.end(), [](const Error& a, const Error& b) {
+        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+    });
+}
+
+}  // namespace
+
+Findings check_geometry(const content::Assembly& assembly) {
+    Findings findings;
+    const auto document = content::JsonDocument::parse(assembly.text, assembly.file, findings.errors);
+    if (!document) return findings;
+    const Messages messages{*document, findings};
+    const auto model = read_scene(assembly.models.model, "/model", messages);
+    const auto far = read_scene(assembly.models.far_level, "/model_far", messages);
+    const auto contact = read_scene(assembly.models.contact, "/contact_model", messages);
+    if (model) check_model(assembly, *model, messages);
+    if (far) check_triangles(*far, far_budget, "/model_far", messages);
+    if (model && far) check_names(*model, *far, messages);
+    if (model && contact) check_contact(*contact, *model, messages);
+    sort_by_place(findings.errors);
+    sort_by_place(findings.notes);
+    return findings;
+}
+
+}  // namespace bolt::geometry

@@ -1,0 +1,153 @@
+#include "tools/author/geometry/wrench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::geometry {
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+struct Flat {
+    double x, y;
+};
+
+void quad(std::vector<Triangle>& out, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    out.push_back({a, b, c, 0});
+    out.push_back({a, c, d, 0});
+}
+
+// The upright block over a quadrangle that is given counterclockwise.
+void block(std::vector<Triangle>& out, const Flat (&base)[4], double half) {
+    const auto low = [&](int i) { return Vec3{base[i].x, base[i].y, -half}; };
+    const auto high = [&](int i) { return Vec3{base[i].x, base[i].y, half}; };
+    quad(out, high(0), high(1), high(2), high(3));
+    quad(out, low(3), low(2), low(1), low(0));
+    for (int i = 0; i < 4; ++i) {
+        const int k = (i + 1) % 4;
+        quad(out, low(i), low(k), high(k), high(i));
+    }
+}
+
+// Where a ray from the middle of the jaw leaves the slot: |y| = half opening, or the bottom at +x.
+double slot_exit(double angle, double half_jaw, double depth) {
+    const double c = std::cos(angle), s = std::abs(std::sin(angle));
+    const double side = s > 0.0 ? half_jaw / s : 1e9, bottom = c > 0.0 ? depth / c : 1e9;
+    return std::min(side, bottom);
+}
+
+Vec3 jaw_direction(double angle) { return {std::cos(angle), std::sin(angle), 0.0}; }
+
+// What rays from the middle of the jaw meet across it; nothing is met out of the mouth.
+struct Jaw {
+    double opening = 0.0, off_middle = 0.0;
+    bool found = false;
+};
+
+Jaw measure_jaw(const Bvh& bvh, double head_angle, double reach) {
+    Jaw jaw;
+    const Vec3 across = jaw_direction(head_angle + 0.5 * pi), mouth = -jaw_direction(head_angle);
+    const auto left = first_hit(bvh, Vec3{0.0}, across, reach),
+               right = first_hit(bvh, Vec3{0.0}, -across, reach);
+    if (!left || !right || first_hit(bvh, Vec3{0.0}, mouth, reach)) return jaw;
+    jaw.opening = left->distance + right->distance;
+    jaw.off_middle = 0.5 * (left->distance - right->distance);
+    jaw.found = true;
+    return jaw;
+}
+
+tl::unexpected<Error> unfit(std::string what, std::string expected) {
+    return fail(ErrorCode::bad_content, std::move(what), std::move(expected));
+}
+
+}  // namespace
+
+Wrench plain_wrench(const content::WrenchDesign& design) {
+    Wrench wrench;
+    const double s = design.jaw, radius = 0.5 * head_width_ratio * s, depth = jaw_depth_ratio * s;
+    wrench.head_angle = design.head_angle;
+    wrench.head_size = radius;
+    wrench.half_thickness = 0.5 * thickness_ratio * s;
+    wrench.reach = std::max(handle_beyond_grip * design.handle_length, radius);
+    // The head: the disc without the slot, in wedges from the slot's edge to the rim.
+    constexpr int wedges = 72;
+    const double prong = std::asin(0.5 * s / radius);  // half angle of the mouth
+    const double first = -pi + prong, step = 2.0 * (pi - prong) / wedges;
+    for (int i = 0; i < wedges; ++i) {
+        const double a = first + i * step, b = a + step;
+        const auto point = [&](double angle, double r) {
+            const double turned = angle + design.head_angle;
+            return Flat{r * std::cos(turned), r * std::sin(turned)};
+        };
+        const double inner_a = std::min(radius, slot_exit(a, 0.5 * s, depth));
+        const double inner_b = std::min(radius, slot_exit(b, 0.5 * s, depth));
+        block(wrench.triangles, {point(a, inner_a), point(a, radius), point(b, radius), point(b, inner_b)},
+              wrench.half_thickness);
+    }
+    const double half = 0.5 * handle_width_ratio * s;
+    block(wrench.triangles, {{0.8 * s, -half}, {wrench.reach, -half}, {wrench.reach, half}, {0.8 * s, half}},
+          wrench.half_thickness);
+    return wrench;
+}
+
+Result<Wrench> model_wrench(const Scene& scene, const content::WrenchDesign& design) {
+    Wrench wrench;
+    Box box;
+    for (const Part& part : scene.parts) {
+        wrench.triangles.insert(wrench.triangles.end(), part.triangles.begin(), part.triangles.end());
+        for (const Vec3& p : {part.box.low, part.box.high})
+            if (!part.box.empty()) box.add(p);
+    }
+    if (wrench.triangles.empty()) return unfit("the wrench has no triangles", "expected a mesh");
+    const bool lies = box.half().y < box.half().z;
+    for (Triangle& t : wrench.triangles) {
+        for (Vec3* p : {&t.a, &t.b, &t.c}) {
+            if (lies) *p = {p->x, -p->z, p->y};
+            wrench.reach = std::max(wrench.reach, std::hypot(p->x, p->y));
+        }
+        t.part = 0;
+    }
+    if (wrench.reach > 5.0 || wrench.reach < 0.02)
+        return unfit(fmt::format("the wrench is {:.4g} mm long", wrench.reach / mm),
+                     wrench.reach > 5.0 ? "expected metres: it looks like millimetres"
+                                        : "expected metres, as glTF has them");
+    const Bvh bvh(wrench.triangles);
+    // Which side the head points to is the modeller's choice: the wrench can be turned over.
+    const Jaw left = measure_jaw(bvh, design.head_angle, wrench.reach);
+    const Jaw right = measure_jaw(bvh, -design.head_angle, wrench.reach);
+    if (!left.found && !right.found)
+        return unfit("the wrench has no jaw about its origin that opens at -X, turned by the head angle",
+                     "expected the middle of the jaw at the origin, the handle along +X");
+    const bool is_left = left.found && (!right.found || left.opening <= right.opening);
+    const Jaw& jaw = is_left ? left : right;
+    wrench.head_angle = is_left ? design.head_angle : -design.head_angle;
+    if (std::abs(jaw.opening - design.jaw) > 0.05 * mm)
+        return unfit(fmt::format("the jaw of the wrench measures {:.2f} mm in its model, and jaw_mm is {:g}",
+                                 jaw.opening / mm, design.jaw / mm),
+                     "expected both within 0.05 mm");
+    if (std::abs(jaw.off_middle) > 0.05 * mm)
+        return unfit(fmt::format("the middle of the jaw is {:.2f} mm beside the origin of the wrench's model",
+                                 std::abs(jaw.off_middle) / mm),
+                     "expected the middle of the jaw at the origin");
+    const double near_head = 1.3 * design.jaw;
+    for (const Triangle& t : wrench.triangles)
+        for (const Vec3& p : {t.a, t.b, t.c})
+            if (std::hypot(p.x, p.y) < near_head) {
+                wrench.half_thickness = std::max(wrench.half_thickness, std::abs(p.z));
+                wrench.head_size = std::max(wrench.head_size, std::hypot(p.x, p.y));
+            }
+    return wrench;
+}
+
+Bvh posed(const Wrench& wrench, bool turned_over) {
+    std::vector<Triangle> triangles = wrench.triangles;
+    const double side = turned_over ? -1.0 : 1.0;
+    for (Triangle& t : triangles)
+        for (Vec3* p : {&t.a, &t.b, &t.c}) *p = {p->x, side * p->z, -side * p->y};
+    return Bvh(std::move(triangles));
+}
+
+}  // namespace bolt::geometry

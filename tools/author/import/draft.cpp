@@ -1,0 +1,307 @@
+#include "tools/author/import/draft.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "haptics/joint/fastener.hpp"
+#include "haptics/joint/torque.hpp"
+
+namespace bolt::step_import {
+
+namespace {
+
+constexpr double friction = 0.12;    // oiled, middle of VDI 2230 class B
+constexpr double utilisation = 0.9;  // of yield
+constexpr double share = 0.8;        // of the torque at that utilisation: room for a tolerance of 10 %
+constexpr std::array built_in = {"aluminium",    "bronze",          "cast_iron",
+                                 "ductile_iron", "stainless_steel", "steel"};
+
+std::string quoted(const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+double rounded(double value, double step) {
+    const double result = std::round(value / step) * step;
+    return result == 0.0 ? 0.0 : result;  // no −0
+}
+
+// Decimal millimetres without the tail of binary fractions.
+std::string in_mm(double metres, double step = 1e-4) {
+    std::string text = fmt::format("{:.4f}", rounded(metres / mm, step));
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
+std::string point_mm(const Vec3& p, double step = 1e-4) {
+    return fmt::format("[{}, {}, {}]", in_mm(p.x, step), in_mm(p.y, step), in_mm(p.z, step));
+}
+
+std::string axis_text(const Vec3& a) {
+    const auto part = [](double x) { return fmt::format("{:.10g}", rounded(x, 1e-10)); };
+    return fmt::format("[{}, {}, {}]", part(a.x), part(a.y), part(a.z));
+}
+
+// What two joints must have in common to be of one type.
+struct Type {
+    std::string size, property_class;
+    double length = 0.0;  // mm
+    bool washer_head = false, washer_nut = false;
+    std::vector<std::pair<double, std::string>> members;  // mm, material
+    friend bool operator==(const Type&, const Type&) = default;
+};
+
+struct NamedType {
+    std::string name;
+    Type type;
+    double torque = 0.0;  // N·m
+};
+
+double target_torque(const Type& type) {
+    const auto thread = joint::parse_thread(type.size);
+    if (!thread) return 0.0;
+    const auto bolt = joint::property_class(type.property_class, thread->size.d);
+    if (!bolt) return 0.0;
+    const double torque =
+        share * joint::assembly_preload(
+                    thread->thread, *bolt, friction, friction,
+                    joint::bearing_mean_diameter(thread->size.nut_bearing, thread->size.hole), utilisation)
+                    .torque;
+    const double step = std::pow(10.0, std::floor(std::log10(torque)) - 1.0);  // two digits
+    return std::floor(torque / step) * step;
+}
+
+class Writer {
+  public:
+    explicit Writer(const DraftInput& input) : in_(input) {}
+
+    Draft run() {
+        choose();
+        if (joints_.empty()) return std::move(draft_);
+        for (const JointCandidate* joint : joints_) type_of_.push_back(type_index(*joint));
+        draft_.joints = joints_.size();
+        write();
+        return std::move(draft_);
+    }
+
+  private:
+    const DraftInput& in_;
+    Draft draft_;
+    std::vector<const JointCandidate*> joints_;
+    std::vector<std::size_t> type_of_;
+    std::vector<NamedType> types_;
+    double flats_ = 0.0;  // m, of the nuts that the tool fits
+    bool gasket_ = false;
+    std::size_t unknown_members_ = 0;
+
+    // An assembly has one wrench: the joints of the most frequent width stay.
+    void choose() {
+        std::map<double, std::size_t> widths;
+        const auto width = [](const JointCandidate& joint) {
+            const auto thread = joint::parse_thread(joint.size);
+            return thread ? thread->size.across_flats : 0.0;
+        };
+        for (const JointCandidate& joint : in_.search->joints) ++widths[width(joint)];
+        std::size_t most = 0;
+        for (const auto& [flats, count] : widths)
+            if (count > most) {
+                most = count;
+                flats_ = flats;
+            }
+        std::map<std::string, std::size_t> left_out;
+        for (const JointCandidate& joint : in_.search->joints) {
+            if (width(joint) == flats_)
+                joints_.push_back(&joint);
+            else
+                ++left_out[joint.size];
+        }
+        for (const auto& [size, count] : left_out)
+            draft_.remarks.push_back(
+                fmt::format("{} joints {} are not in the draft: an assembly has one wrench, here {} mm",
+                            count, size, in_mm(flats_)));
+    }
+
+    std::string member_material(const ClampedMember& member) {
+        std::string material =
+            member.node >= 0 ? in_.member_of[static_cast<std::size_t>(member.node)] : std::string();
+        if (material == "gasket") {
+            gasket_ = true;
+            return material;
+        }
+        if (std::find(built_in.begin(), built_in.end(), material) != built_in.end()) return material;
+        ++unknown_members_;
+        return "steel";
+    }
+
+    std::size_t type_index(const JointCandidate& joint) {
+        Type type;
+        type.size = joint.size;
+        type.property_class = in_.stainless[static_cast<std::size_t>(joint.bolt)] ? "A2-70" : "8.8";
+        type.length = rounded(joint.bolt_length / mm, 0.1);
+        type.washer_head = !joint.head_washers.empty();
+        type.washer_nut = !joint.nut_washers.empty();
+        for (const ClampedMember& member : joint.members)
+            type.members.emplace_back(rounded(member.thickness / mm, 0.01), member_material(member));
+        for (std::size_t i = 0; i < types_.size(); ++i)
+            if (types_[i].type == type) return i;
+        std::string name = fmt::format("{}x{}", type.size, in_mm(type.length * mm));
+        const auto same = std::count_if(types_.begin(), types_.end(), [&](const NamedType& one) {
+            return one.type.size == type.size && one.type.length == type.length;
+        });
+        if (same > 0) name += fmt::format(" ({})", same + 1);
+        types_.push_back({name, type, target_torque(type)});
+        return types_.size() - 1;
+    }
+
+    // On a circle the next one is the farthest from all that are done, and of those the farthest from the
+    // last: a star. Else from the middle outward.
+    std::vector<std::size_t> order() const {
+        const std::size_t n = joints_.size();
+        const auto apart = [&](std::size_t i, std::size_t k) {
+            return glm::length(joints_[i]->seat - joints_[k]->seat);
+        };
+        Vec3 middle{0.0};
+        for (const JointCandidate* joint : joints_) middle += joint->seat / static_cast<double>(n);
+        std::vector<double> radius(n);
+        for (std::size_t i = 0; i < n; ++i) radius[i] = glm::length(joints_[i]->seat - middle);
+        const auto [least, most] = std::minmax_element(radius.begin(), radius.end());
+        const bool circle = *most - *least < 0.02 * *most;
+        std::vector<std::size_t> order;
+        // In tenths of a millimetre, so that what is equal is equal.
+        const auto rank = [&](std::size_t i) {
+            double nearest = circle ? 1e3 : -radius[i];
+            for (const std::size_t k : order) nearest = circle ? std::min(nearest, apart(i, k)) : nearest;
+            const double last = order.empty() ? 0.0 : apart(i, order.back());
+            return std::pair(std::lround(nearest * 1e4), std::lround(last * 1e4));
+        };
+        std::vector<std::size_t> left(n);
+        std::iota(left.begin(), left.end(), std::size_t{0});
+        while (!left.empty()) {
+            const auto next = std::max_element(
+                left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+            order.push_back(*next);
+            left.erase(next);
+        }
+        return order;
+    }
+
+    std::string type_text(const NamedType& named) const {
+        const Type& type = named.type;
+        std::vector<std::string> members;
+        for (const auto& [thickness, material] : type.members)
+            members.push_back(fmt::format(R"(        {{ "thickness_mm": {}, "material": {} }})",
+                                          in_mm(thickness * mm), quoted(material)));
+        return fmt::format(R"(    {}: {{
+      "size": {},
+      "class": {},
+      "bolt_length_mm": {},
+      "members": [
+{}
+      ],
+      "washer_under_head": {},
+      "washer_under_nut": {},
+      "friction_thread": {:g},
+      "friction_bearing": {:g},
+      "lubrication": "oiled",
+      "spec": {{ "strategy": "torque", "target_torque_Nm": {:g}, "torque_tolerance_percent": 10, "risk_class": "C" }}
+    }})",
+                           quoted(named.name), quoted(type.size), quoted(type.property_class),
+                           in_mm(type.length * mm), fmt::join(members, ",\n"), type.washer_head,
+                           type.washer_nut, friction, friction, named.torque);
+    }
+
+    std::string joint_text(std::size_t i) const {
+        const JointCandidate& joint = *joints_[i];
+        const bool upright = joint.axis.y > 1.0 - 1e-12;
+        return fmt::format(R"(    {{ "id": {}, "type": {}, "node": {}, "position_mm": {}{} }})",
+                           quoted(joint.id), quoted(types_[type_of_[i]].name), quoted("joint_" + joint.id),
+                           point_mm(joint.seat),
+                           upright ? "" : fmt::format(R"(, "axis": {})", axis_text(joint.axis)));
+    }
+
+    std::string views() const {
+        const Vec3 middle = 0.5 * (in_.low + in_.high);
+        const double r = std::max(0.5 * glm::length(in_.high - in_.low), 0.02);
+        const Vec3 eye = middle + 3.1 * r * glm::normalize(Vec3{0.55, 0.65, 0.85});
+        const Vec3 above = middle + Vec3{0.0, 3.1 * r, 0.01 * r};
+        const auto fits = [](const Vec3& p) {
+            return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 10.0;
+        };
+        if (!fits(eye) || !fits(above)) return {};
+        return fmt::format(R"(,
+  "views": [
+    {{ "name": "overview", "eye_mm": {}, "target_mm": {} }},
+    {{ "name": "top", "eye_mm": {}, "target_mm": {} }}
+  ])",
+                           point_mm(eye, 1.0), point_mm(middle, 1.0), point_mm(above, 1.0),
+                           point_mm(middle, 1.0));
+    }
+
+    std::string sources() const {
+        std::string text = fmt::format(
+            "Drafted from {} by bolt-author import-step. Read from the geometry: sizes, bolt lengths, "
+            "members and "
+            "their thickness, washers, positions and axes; the material of members by their colour or "
+            "name{}. "
+            "Defaults, to be replaced by what your drawing says: property class 8.8 (A2-70 where the bolt is "
+            "stainless), coarse thread unless the nut's hole shows a fine one, friction {:g} (oiled, VDI "
+            "2230 class "
+            "B), strategy torque with {:g} % of the torque at {:g} % of yield, tolerance 10 %, risk class C, "
+            "the "
+            "wrench, the order and the passes.",
+            in_.source,
+            unknown_members_ > 0 ? fmt::format(" (unknown for {}: steel is assumed)", unknown_members_) : "",
+            friction, 100.0 * share, 100.0 * utilisation);
+        if (gasket_) text += " The gasket's Young's modulus is a guess.";
+        return text;
+    }
+
+    void write() {
+        std::string& out = draft_.text;
+        out = fmt::format("{{\n  \"$schema\": {},\n  \"title\": {{ \"en\": {} }},\n", quoted(in_.schema),
+                          quoted(in_.title));
+        out += fmt::format(
+            "  \"lesson\": {{ \"en\": {} }},\n",
+            quoted(fmt::format(
+                "Assemble {}: run all {} nuts down by hand, then tighten them in rounds to 30, 70 and "
+                "100 % of the target torque, and check every one again.",
+                in_.title, joints_.size())));
+        out += fmt::format("  \"sources\": {},\n", quoted(sources()));
+        for (const auto& [key, file] : {std::pair{"model", &in_.model}, std::pair{"model_far", &in_.far},
+                                        std::pair{"contact_model", &in_.contact}})
+            if (!file->empty()) out += fmt::format("  \"{}\": {},\n", key, quoted(*file));
+        out += fmt::format(
+            "  \"tool\": {{ \"kind\": \"open_end_wrench\", \"jaw_mm\": {}, \"head_angle_deg\": 15, "
+            "\"handle_length_mm\": {} }},\n",
+            in_mm(flats_ + 0.2 * mm), in_mm((8.2 * flats_ + 33.0 * mm), 10.0));
+        if (gasket_) out += "  \"materials\": { \"gasket\": { \"E_GPa\": 1 } },\n";
+        std::vector<std::string> types, joints, ids;
+        for (const NamedType& type : types_) types.push_back(type_text(type));
+        for (std::size_t i = 0; i < joints_.size(); ++i) joints.push_back(joint_text(i));
+        for (const std::size_t i : order()) ids.push_back(quoted(joints_[i]->id));
+        out += fmt::format("  \"joint_types\": {{\n{}\n  }},\n", fmt::join(types, ",\n"));
+        out += fmt::format("  \"joints\": [\n{}\n  ],\n", fmt::join(joints, ",\n"));
+        out += fmt::format("  \"order\": [{}],\n", fmt::join(ids, ", "));
+        out += R"(  "passes": [
+    { "kind": "run_down" },
+    { "kind": "tighten", "percent": 30 },
+    { "kind": "tighten", "percent": 70 },
+    { "kind": "tighten", "percent": 100 },
+    { "kind": "recheck" }
+  ])" + views() +
+               "\n}\n";
+    }
+};
+
+}  // namespace
+
+Draft make_draft(const DraftInput& input) { return Writer(input).run(); }
+
+}  // namespace bolt::step_import

@@ -1,0 +1,368 @@
+#include "tools/author/import/fasteners.hpp"
+
+#include <fmt/format.h>
+
+#include <BRepAdaptor_Surface.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <gp_Cylinder.hxx>
+#include <gp_Pln.hxx>
+#include <limits>
+#include <optional>
+
+#include "tools/author/import/faces.hpp"
+#include "tools/author/import/frame.hpp"
+
+namespace bolt::step_import {
+
+namespace {
+
+constexpr std::size_t most_flats = 400;  // more than any fastener has: a casting is not looked through
+constexpr double parallel = 1e-6;        // 1 − cos of 0.08°
+constexpr double slack = 0.02 * mm;
+constexpr double largest_width =
+    1.3;  // distance of a fastener's points from its axis over the width across flats
+
+struct Flat {
+    Vec3 normal;            // outward
+    double distance = 0.0;  // along the normal
+    std::size_t face = 0;
+};
+
+std::vector<Flat> find_flats(const FaceMap& faces) {
+    std::vector<Flat> flats;
+    for (int f = 1; f <= faces.Extent(); ++f) {
+        const TopoDS_Face face = TopoDS::Face(faces(f));
+        const BRepAdaptor_Surface surface(face, false);
+        if (surface.GetType() != GeomAbs_Plane) continue;
+        const gp_Pln plane = surface.Plane();
+        gp_XYZ normal = plane.Axis().Direction().XYZ();
+        if (!plane.Direct()) normal.Reverse();
+        if (face.Orientation() == TopAbs_REVERSED) normal.Reverse();
+        Flat flat;
+        flat.normal = direction_to_scene(normal);
+        flat.distance = glm::dot(flat.normal, point_to_scene(plane.Location().XYZ()));
+        flat.face = static_cast<std::size_t>(f - 1);
+        flats.push_back(flat);
+    }
+    return flats;
+}
+
+struct Range {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+    void add(double x) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+};
+
+struct Axis {
+    Vec3 origin, direction;
+    [[nodiscard]] double height(const Vec3& p) const { return glm::dot(p - origin, direction); }
+    [[nodiscard]] double radius(const Vec3& p) const {
+        return glm::length(glm::cross(p - origin, direction));
+    }
+};
+
+struct Hexagon {
+    Axis axis;
+    double across_flats = 0.0;
+    Range height;
+};
+
+// Widths across flats that are looked for, m.
+struct WidthRange {
+    double low, high;
+};
+constexpr WidthRange fastener_widths{5.0 * mm, 65.0 * mm};
+constexpr WidthRange all_widths{0.05 * mm, 5000.0 * mm};  // a wrong unit shows as a width out of range
+
+// A pair of opposite flats that face away from each other.
+struct Pair {
+    std::size_t a, b;
+    double width;
+};
+
+std::vector<Pair> find_pairs(const std::vector<Flat>& flats, const WidthRange& widths) {
+    std::vector<Pair> pairs;
+    for (std::size_t a = 0; a < flats.size(); ++a)
+        for (std::size_t b = a + 1; b < flats.size(); ++b) {
+            const double width = flats[a].distance + flats[b].distance;
+            if (glm::dot(flats[a].normal, flats[b].normal) < -1.0 + parallel && width > widths.low &&
+                width < widths.high)
+                pairs.push_back({a, b, width});
+        }
+    return pairs;
+}
+
+std::optional<Hexagon> find_hexagon(const std::vector<Flat>& flats, const PartMesh& mesh,
+                                    const WidthRange& widths = fastener_widths) {
+    const std::vector<Pair> pairs = find_pairs(flats, widths);
+    const auto at_60 = [&](const Pair& p, const Pair& q) {
+        return std::abs(std::abs(glm::dot(flats[p.a].normal, flats[q.a].normal)) - 0.5) < 1e-4 &&
+               std::abs(p.width - q.width) < slack;
+    };
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        for (std::size_t k = i + 1; k < pairs.size(); ++k) {
+            const Pair &p = pairs[i], &q = pairs[k];
+            if (!at_60(p, q)) continue;
+            const Vec3 u = flats[p.a].normal, v = flats[q.a].normal;
+            const Vec3 axis = glm::normalize(glm::cross(u, v));
+            const auto middle = [&](const Pair& pair) {
+                return 0.5 * (flats[pair.a].distance - flats[pair.b].distance);
+            };
+            const double uv = glm::dot(u, v), mu = middle(p), mv = middle(q);
+            const double det = 1.0 - uv * uv;
+            const Vec3 centre = u * ((mu - uv * mv) / det) + v * ((mv - uv * mu) / det);
+            for (std::size_t l = k + 1; l < pairs.size(); ++l) {
+                const Pair& r = pairs[l];
+                if (!at_60(p, r) || !at_60(q, r)) continue;
+                const Vec3 w = flats[r.a].normal;
+                if (std::abs(glm::dot(w, axis)) > 1e-3 || std::abs(glm::dot(w, centre) - middle(r)) > slack)
+                    continue;
+                Hexagon hexagon{{centre, axis}, p.width, {}};
+                for (const std::size_t flat : {p.a, p.b, q.a, q.b, r.a, r.b})
+                    for (const std::uint32_t point : mesh.faces[flats[flat].face].points)
+                        hexagon.height.add(hexagon.axis.height(mesh.points[point]));
+                return hexagon;
+            }
+        }
+    return std::nullopt;
+}
+
+// Is the point inside the mesh? Solid angle of all triangles (van Oosterom and Strackee 1983).
+bool inside(const PartMesh& mesh, const Vec3& p) {
+    double sum = 0.0;
+    for (const FaceMesh& face : mesh.faces)
+        for (const auto& triangle : face.triangles) {
+            const Vec3 a = mesh.points[face.points[triangle[0]]] - p;
+            const Vec3 b = mesh.points[face.points[triangle[1]]] - p;
+            const Vec3 c = mesh.points[face.points[triangle[2]]] - p;
+            const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+            sum += std::atan2(glm::dot(a, glm::cross(b, c)),
+                              la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+        }
+    return std::abs(2.0 * sum) > 2.0 * pi;
+}
+
+double face_radius(const PartMesh& mesh, std::size_t face, const Axis& line) {
+    double radius = 0.0;
+    for (const std::uint32_t point : mesh.faces[face].points)
+        radius = std::max(radius, line.radius(mesh.points[point]));
+    return radius;
+}
+
+FastenerShape as_nut(const std::vector<Flat>& flats, const PartMesh& mesh, const Hexagon& hexagon,
+                     const Range& whole) {
+    FastenerShape nut;
+    nut.kind = FastenerKind::nut;
+    nut.origin = hexagon.axis.origin;
+    nut.axis = hexagon.axis.direction;
+    nut.across_flats = hexagon.across_flats;
+    nut.low = whole.low;
+    nut.high = whole.high;
+    // The faces that bear; the collar of a locking nut stands beyond one of them.
+    Range faces;
+    for (const Flat& flat : flats) {
+        const double along = glm::dot(flat.normal, nut.axis);
+        if (std::abs(along) < 1.0 - parallel) continue;
+        if (face_radius(mesh, flat.face, hexagon.axis) < 0.4 * nut.across_flats) continue;
+        faces.add(hexagon.axis.height(flat.normal * flat.distance));
+    }
+    if (faces.high - faces.low > 0.1 * nut.across_flats) {
+        nut.low = faces.low;
+        nut.high = faces.high;
+    }
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Vec3& point : mesh.points) smallest = std::min(smallest, hexagon.axis.radius(point));
+    nut.diameter = 2.0 * smallest;
+    const double height = whole.high - whole.low;
+    if (height > 1.2 * nut.across_flats || nut.diameter < 0.4 * nut.across_flats) {
+        nut.kind = FastenerKind::none;
+        nut.rejection = fmt::format(
+            "looks like a nut (hexagon {:.2f} mm across flats), but it is {:.2f} mm high and its hole is "
+            "{:.2f} mm "
+            "wide; expected at most {:.2f} mm high and a hole of at least {:.2f} mm",
+            nut.across_flats / mm, height / mm, nut.diameter / mm, 1.2 * nut.across_flats / mm,
+            0.4 * nut.across_flats / mm);
+    }
+    return nut;
+}
+
+FastenerShape as_bolt(const std::vector<Flat>& flats, const PartMesh& mesh, const Hexagon& hexagon,
+                      Range whole) {
+    FastenerShape bolt;
+    bolt.origin = hexagon.axis.origin;
+    bolt.axis = hexagon.axis.direction;
+    bolt.across_flats = hexagon.across_flats;
+    Range head = hexagon.height;
+    if (head.low - whole.low > whole.high - head.high) {  // the shank is on the other side
+        bolt.axis = -bolt.axis;
+        head = {-hexagon.height.high, -hexagon.height.low};
+        whole = {-whole.high, -whole.low};
+    }
+    const Axis line{bolt.origin, bolt.axis};
+    bolt.high = whole.high;
+    bolt.low = head.high;
+    // The bearing face: under the flats, or below them on a washer face, wider than any shank.
+    double best = -std::numeric_limits<double>::infinity();
+    for (const Flat& flat : flats) {
+        if (glm::dot(flat.normal, bolt.axis) < 1.0 - parallel) continue;
+        const double height = line.height(flat.normal * flat.distance);
+        if (height < head.high - slack || height > head.high + 0.2 * bolt.across_flats) continue;
+        if (face_radius(mesh, flat.face, line) < 0.4 * bolt.across_flats) continue;
+        best = std::max(best, height);
+    }
+    if (std::isfinite(best)) bolt.low = best;
+    const double length = bolt.high - bolt.low;
+    double crest = 0.0;
+    for (const Vec3& point : mesh.points)
+        if (line.height(point) > bolt.low + 0.15 * length) crest = std::max(crest, line.radius(point));
+    bolt.diameter = 2.0 * crest;
+    const bool shank = bolt.diameter > 0.4 * bolt.across_flats && bolt.diameter < 0.85 * bolt.across_flats;
+    if (shank && length > 0.5 * bolt.diameter)
+        bolt.kind = FastenerKind::bolt;
+    else
+        bolt.rejection = fmt::format(
+            "looks like a bolt (hexagon {:.2f} mm across flats), but its shank is {:.2f} mm wide and {:.2f} "
+            "mm long "
+            "under the head; expected a shank {:.2f} to {:.2f} mm wide and longer than half its width",
+            bolt.across_flats / mm, bolt.diameter / mm, std::max(length, 0.0) / mm,
+            0.4 * bolt.across_flats / mm, 0.85 * bolt.across_flats / mm);
+    return bolt;
+}
+
+// A flat ring: everything between two radii and two parallel faces.
+FastenerShape as_washer(const TopoDS_Shape& shape, const std::vector<Flat>& flats, const PartMesh& mesh) {
+    FastenerShape washer;
+    const std::vector<Hole> holes = find_holes(shape);
+    if (holes.empty() || flats.size() < 2) return washer;
+    const Axis line{holes.front().point, holes.front().axis};
+    Range heights, radii, faces;
+    for (const Vec3& point : mesh.points) {
+        heights.add(line.height(point));
+        radii.add(line.radius(point));
+    }
+    for (const Flat& flat : flats) {
+        if (std::abs(glm::dot(flat.normal, line.direction)) < 1.0 - parallel) return washer;
+        faces.add(line.height(flat.normal * flat.distance));
+    }
+    const double thickness = heights.high - heights.low;
+    const bool flat = faces.low < heights.low + slack && faces.high > heights.high - slack;
+    const bool ring = radii.low > 0.25 * radii.high && radii.low < 0.85 * radii.high;
+    if (!flat || !ring || thickness > 0.35 * radii.high || thickness < 0.1 * mm) return washer;
+    washer.kind = FastenerKind::washer;
+    washer.origin = line.origin;
+    washer.axis = line.direction;
+    washer.low = heights.low;
+    washer.high = heights.high;
+    washer.diameter = 2.0 * radii.low;
+    return washer;
+}
+
+double largest_radius(const PartMesh& mesh, const Axis& line) {
+    double radius = 0.0;
+    for (const Vec3& point : mesh.points) radius = std::max(radius, line.radius(point));
+    return radius;
+}
+
+int count_solids(const TopoDS_Shape& shape) {
+    int solids = 0;
+    for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) ++solids;
+    return solids;
+}
+
+void explain_missing_hexagon(const std::vector<Flat>& flats, const PartMesh& mesh, FastenerShape& none) {
+    const auto hexagon = find_hexagon(flats, mesh, all_widths);
+    if (hexagon && largest_radius(mesh, hexagon->axis) <= largest_width * hexagon->across_flats)
+        none.rejection = fmt::format(
+            "has a hexagon {:.3f} mm across flats; expected {:g} to {:g} mm: is the unit of the file right?",
+            hexagon->across_flats / mm, fastener_widths.low / mm, fastener_widths.high / mm);
+    else
+        none.without_hexagon = fmt::format(
+            "none of its {} plane faces form a hexagon; expected three pairs of opposite faces at 60 "
+            "degrees, {:g} to "
+            "{:g} mm apart and equal within {:g} mm",
+            flats.size(), fastener_widths.low / mm, fastener_widths.high / mm, slack / mm);
+}
+
+}  // namespace
+
+FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh) {
+    const FaceMap faces = faces_of(shape);
+    const std::vector<Flat> flats = find_flats(faces);
+    if (flats.size() > most_flats || mesh.points.empty()) return {};
+    const auto hexagon = find_hexagon(flats, mesh);
+    if (!hexagon) {
+        FastenerShape washer = as_washer(shape, flats, mesh);
+        if (washer.kind == FastenerKind::none) explain_missing_hexagon(flats, mesh, washer);
+        return washer;
+    }
+    Range whole;
+    for (const Vec3& point : mesh.points) whole.add(hexagon->axis.height(point));
+    const double widest = largest_radius(mesh, hexagon->axis);
+    if (widest > largest_width * hexagon->across_flats) {
+        FastenerShape other;
+        const int solids = count_solids(shape);
+        if (solids > 1 || widest < 3.0 * hexagon->across_flats)
+            other.rejection = fmt::format(
+                "has a hexagon {:.2f} mm across flats, but consists of {} and reaches {:.2f} mm from the "
+                "hexagon's "
+                "axis; expected every bolt and nut to be a part of its own, at most {:.2f} mm from its axis",
+                hexagon->across_flats / mm, solids == 1 ? "1 solid" : fmt::format("{} solids", solids),
+                widest / mm, largest_width * hexagon->across_flats / mm);
+        return other;
+    }
+    const double middle = 0.5 * (hexagon->height.low + hexagon->height.high);
+    return inside(mesh, hexagon->axis.origin + middle * hexagon->axis.direction)
+               ? as_bolt(flats, mesh, *hexagon, whole)
+               : as_nut(flats, mesh, *hexagon, whole);
+}
+
+std::vector<Hole> find_holes(const TopoDS_Shape& shape) {
+    std::vector<Hole> holes;
+    const FaceMap faces = faces_of(shape);
+    for (int f = 1; f <= faces.Extent(); ++f) {
+        const TopoDS_Face face = TopoDS::Face(faces(f));
+        const BRepAdaptor_Surface surface(face, false);
+        if (surface.GetType() != GeomAbs_Cylinder) continue;
+        const gp_Cylinder cylinder = surface.Cylinder();
+        // Outward is away from the material: towards the axis in a hole.
+        if ((face.Orientation() == TopAbs_REVERSED) != cylinder.Direct()) continue;
+        holes.push_back({point_to_scene(cylinder.Location().XYZ()),
+                         direction_to_scene(cylinder.Axis().Direction().XYZ()), cylinder.Radius() * mm});
+    }
+    return holes;
+}
+
+std::vector<double> crossings(const PartMesh& mesh, const Vec3& origin, const Vec3& direction) {
+    std::vector<double> all;
+    for (const FaceMesh& face : mesh.faces)
+        for (const auto& triangle : face.triangles) {
+            const Vec3 a = mesh.points[face.points[triangle[0]]];
+            const Vec3 ab = mesh.points[face.points[triangle[1]]] - a;
+            const Vec3 ac = mesh.points[face.points[triangle[2]]] - a;
+            const Vec3 p = glm::cross(direction, ac);
+            const double det = glm::dot(ab, p);
+            if (std::abs(det) < 1e-18) continue;
+            const Vec3 from = origin - a;
+            const double u = glm::dot(from, p) / det;
+            if (u < 0.0 || u > 1.0) continue;
+            const Vec3 q = glm::cross(from, ab);
+            const double v = glm::dot(direction, q) / det;
+            if (v < 0.0 || u + v > 1.0) continue;
+            all.push_back(glm::dot(ac, q) / det);
+        }
+    std::sort(all.begin(), all.end());
+    // A line through a common side meets both of its triangles.
+    all.erase(std::unique(all.begin(), all.end(), [](double x, double y) { return y - x < 1e-9; }),
+              all.end());
+    return all;
+}
+
+}  // namespace bolt::step_import

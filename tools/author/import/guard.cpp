@@ -1,0 +1,194 @@
+#include "tools/author/import/guard.hpp"
+
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <exception>
+#include <new>
+
+namespace bolt::step_import {
+
+namespace {
+
+constexpr int memory_exit_code =
+    250;  // of a child process that caught std::bad_alloc; no program of ours uses it
+constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+
+void set_limit(decltype(RLIMIT_CPU) resource, rlim_t value) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0) return;
+    limit.rlim_cur = std::min(limit.rlim_cur, value);
+    (void)setrlimit(resource, &limit);
+}
+
+[[noreturn]] void run_child(const GuardLimits& limits, const std::function<int(GuardChannel&)>& work,
+                            GuardChannel& channel) {
+    set_limit(RLIMIT_CPU, limits.processor_s);
+    set_limit(RLIMIT_CORE, 0);
+#ifndef __SANITIZE_ADDRESS__  // its shadow memory takes terabytes of address space
+    if (limits.memory_mib > 0) set_limit(RLIMIT_AS, limits.memory_mib << 20U);
+#endif
+    for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU})
+        (void)std::signal(number, SIG_DFL);
+    int code = 1;
+    try {
+        code = work(channel);
+    } catch (const std::bad_alloc&) {
+        code = memory_exit_code;
+    } catch (const std::exception& error) {
+        (void)std::fprintf(stderr, "error: %s\n", error.what());
+    }
+    (void)std::fflush(nullptr);
+    _exit(code);  // the parent runs the destructors of static objects
+}
+
+// Returns the first stop signal that waits for this process; 0 if there is none.
+int pending_stop_signal(const sigset_t& stop) {
+    const timespec no_time{};
+    const int number = sigtimedwait(&stop, nullptr, &no_time);
+    return std::max(number, 0);
+}
+
+// Waits until the child process ends or a stop signal arrives. Returns the stop signal, or 0; kills the child
+// process in the first case.
+int wait_for_child(pid_t child, const sigset_t& stop, const sigset_t& all, int& status) {
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        const int number = sigwaitinfo(&all, nullptr);
+        if (number <= 0 || number == SIGCHLD) continue;
+        (void)kill(child, SIGKILL);
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        }
+        return number;
+    }
+    // Ctrl-C in a terminal reaches both processes, and the child may be the first to end.
+    return pending_stop_signal(stop);
+}
+
+void classify(int status, GuardedRun& run) {
+    if (WIFEXITED(status)) {
+        run.code = WEXITSTATUS(status);
+        run.outcome = run.code == memory_exit_code ? GuardOutcome::out_of_memory : GuardOutcome::exited;
+        return;
+    }
+    run.code = WTERMSIG(status);
+    const bool is_stop = std::find(stop_signals.begin(), stop_signals.end(), run.code) != stop_signals.end();
+    run.outcome = run.code == SIGXCPU              ? GuardOutcome::out_of_time
+                  : run.code == SIGKILL || is_stop ? GuardOutcome::killed
+                                                   : GuardOutcome::crashed;
+}
+
+}  // namespace
+
+struct GuardChannel::SharedPage {
+    std::array<char, 201> phase;
+};
+
+GuardChannel::GuardChannel() {
+    void* page = mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (page != MAP_FAILED) page_ = static_cast<SharedPage*>(page);
+    result_file_ = memfd_create("guarded-result", MFD_CLOEXEC);
+}
+
+GuardChannel::~GuardChannel() {
+    if (page_ != nullptr) (void)munmap(page_, sizeof(SharedPage));
+    if (result_file_ >= 0) (void)close(result_file_);
+}
+
+void GuardChannel::set_phase(std::string_view phase) {
+    if (page_ == nullptr) return;
+    const std::size_t length = std::min(phase.size(), page_->phase.size() - 1);
+    std::memcpy(page_->phase.data(), phase.data(), length);
+    page_->phase[length] = '\0';
+}
+
+std::string GuardChannel::phase() const { return page_ == nullptr ? std::string() : page_->phase.data(); }
+
+bool GuardChannel::append_result(std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(result_file_, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return false;
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+std::string GuardChannel::result() const {
+    std::string text;
+    std::array<char, 4096> buffer{};
+    for (;;) {
+        const ssize_t count =
+            pread(result_file_, buffer.data(), buffer.size(), static_cast<off_t>(text.size()));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return text;
+        text.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+}
+
+GuardLimits default_limits(const std::filesystem::path& step) {
+    std::error_code problem;
+    const auto bytes = std::filesystem::file_size(step, problem);
+    GuardLimits limits;
+    if (!problem)
+        limits.processor_s += static_cast<unsigned>(std::min<std::uintmax_t>(bytes / 16384, 100000));
+    const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGE_SIZE);
+    if (pages > 0 && page_bytes > 0)
+        limits.memory_mib =
+            static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4 * 3 >> 20U;
+    return limits;
+}
+
+GuardedRun run_guarded(const GuardLimits& limits, const std::function<int(GuardChannel&)>& work) {
+    GuardChannel channel;
+    // Stop signals are blocked and polled, so that the caller can remove its files before it ends.
+    sigset_t stop, all, before;
+    sigemptyset(&stop);
+    for (const int number : stop_signals) {
+        struct sigaction action {};
+        if (sigaction(number, nullptr, &action) == 0 && action.sa_handler != SIG_IGN)
+            sigaddset(&stop, number);
+    }
+    all = stop;
+    sigaddset(&all, SIGCHLD);
+    const auto sigchld_before = std::signal(SIGCHLD, SIG_DFL);
+    sigprocmask(SIG_BLOCK, &all, &before);
+    (void)std::fflush(nullptr);
+
+    GuardedRun run;
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child == 0) {
+        (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (getppid() != parent) _exit(1);
+        sigprocmask(SIG_SETMASK, &before, nullptr);
+        run_child(limits, work, channel);
+    }
+    if (child < 0) {
+        run.code = errno;
+    } else {
+        int status = 0;
+        if (const int number = wait_for_child(child, stop, all, status); number != 0) {
+            run.outcome = GuardOutcome::interrupted;
+            run.code = number;
+        } else {
+            classify(status, run);
+        }
+    }
+    sigprocmask(SIG_SETMASK, &before, nullptr);
+    (void)std::signal(SIGCHLD, sigchld_before);
+    run.phase = channel.phase();
+    run.result = channel.result();
+    return run;
+}
+
+}  // namespace bolt::step_import

@@ -1,0 +1,464 @@
+#include "tools/author/import/joints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "haptics/joint/fastener.hpp"
+#include "tools/author/import/names.hpp"
+
+namespace bolt::step_import {
+
+namespace {
+
+constexpr double touching = 0.06 * mm;
+constexpr std::string_view joint_prefix = "joint_";
+
+struct Placed {
+    int node = -1;
+    const FastenerShape* shape = nullptr;
+    Vec3 origin, axis;
+    double scale = 1.0;
+};
+
+// Heights of a nut's or washer's faces along another axis.
+std::pair<double, double> along(const Placed& placed, const Vec3& origin, const Vec3& axis) {
+    const auto height = [&](double h) {
+        return glm::dot(placed.origin + h * placed.scale * placed.axis - origin, axis);
+    };
+    const double a = height(placed.shape->low), b = height(placed.shape->high);
+    return {std::min(a, b), std::max(a, b)};
+}
+
+constexpr double flats_slack = 0.5 * mm;
+
+const joint::FastenerSize& nearest_size(double diameter) {
+    const auto& sizes = joint::fastener_sizes();
+    return *std::min_element(sizes.begin(), sizes.end(),
+                             [&](const joint::FastenerSize& a, const joint::FastenerSize& b) {
+                                 return std::abs(a.d - diameter) < std::abs(b.d - diameter);
+                             });
+}
+
+double diameter_slack(const joint::FastenerSize& size) { return std::max(0.35 * mm, 0.04 * size.d); }
+
+// The width across flats of DIN 931 and 934, which differs from that of ISO 272 for four sizes.
+double din_across_flats(const joint::FastenerSize& size) {
+    if (size.name == "M10") return 17.0 * mm;
+    if (size.name == "M12") return 19.0 * mm;
+    if (size.name == "M14") return 22.0 * mm;
+    if (size.name == "M22") return 32.0 * mm;
+    return size.across_flats;
+}
+
+// Returns the metric size that has this bolt's diameter over the crests and its width across flats; null if
+// there is none.
+const joint::FastenerSize* size_of(const FastenerShape& bolt) {
+    const joint::FastenerSize& size = nearest_size(bolt.diameter);
+    if (std::abs(size.d - bolt.diameter) > diameter_slack(size)) return nullptr;
+    const auto fits = [&](double flats) { return std::abs(bolt.across_flats - flats) < flats_slack; };
+    return fits(size.across_flats) || fits(din_across_flats(size)) ? &size : nullptr;
+}
+
+// Nominal diameters of unified inch threads (ASME B1.1).
+constexpr std::array inch_diameters = {
+    std::pair{0.25, "1/4"},    std::pair{0.3125, "5/16"}, std::pair{0.375, "3/8"},
+    std::pair{0.4375, "7/16"}, std::pair{0.5, "1/2"},     std::pair{0.5625, "9/16"},
+    std::pair{0.625, "5/8"},   std::pair{0.75, "3/4"},    std::pair{0.875, "7/8"},
+    std::pair{1.0, "1"},       std::pair{1.125, "1 1/8"}, std::pair{1.25, "1 1/4"},
+    std::pair{1.375, "1 3/8"}, std::pair{1.5, "1 1/2"}};
+
+// Describes why size_of() finds no size.
+std::string explain_size(const FastenerShape& bolt) {
+    const joint::FastenerSize& size = nearest_size(bolt.diameter);
+    const double din = din_across_flats(size);
+    const std::string widths = din == size.across_flats
+                                   ? fmt::format("{:g} mm", size.across_flats / mm)
+                                   : fmt::format("{:g} or {:g} mm", size.across_flats / mm, din / mm);
+    std::string text = fmt::format(
+        "no metric size has both; expected {} with a cylinder {:.2f} to {:.2f} mm wide and a hexagon {} "
+        "across flats",
+        size.name, (size.d - diameter_slack(size)) / mm, (size.d + diameter_slack(size)) / mm, widths);
+    for (const auto& [inches, name] : inch_diameters)
+        if (std::abs(bolt.diameter - inches * 25.4 * mm) < 0.02 * mm)
+            text += fmt::format(" ({:.2f} mm is the inch thread {} in, which the joint laws do not cover)",
+                                bolt.diameter / mm, name);
+    return text;
+}
+
+// The pitch shows in the nut's hole where its thread is modelled: D1 = d − 1.0825 P (ISO 68-1). Else coarse.
+std::string thread_name(const joint::FastenerSize& size, double hole) {
+    const auto off = [&](double pitch) { return std::abs(size.d - 1.0825 * pitch - hole); };
+    double best = size.coarse_pitch;
+    for (const double fine : size.fine_pitches)
+        if (fine > 0.0 && off(fine) < 0.1 * mm && off(fine) + 0.1 * mm < off(best)) best = fine;
+    return best == size.coarse_pitch ? std::string(size.name)
+                                     : fmt::format("{}x{:g}", size.name, std::round(best / mm * 1e3) / 1e3);
+}
+
+bool named_like_fastener(const std::string& name) {
+    for (const char* pattern : {"*bolt*", "*screw*", "*nut*", "*hex*", "*stud*", "*fastener*", "*schraube*",
+                                "*mutter*", "*boulon*", "*ecrou*", "*tornillo*", "*tuerca*"})
+        if (matches(pattern, name)) return true;
+    return false;
+}
+
+class JointFinder {
+  public:
+    JointFinder(const Tree& tree, const std::vector<PartGeometry>& parts) : tree_(tree), parts_(parts) {
+        for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+            const int node = static_cast<int>(n);
+            poses_.push_back(world(tree, node));
+            const PartGeometry* part = part_of(node);
+            if (part == nullptr || part->fastener.kind == FastenerKind::none) continue;
+            const Pose& pose = poses_.back();
+            Placed placed{node, &part->fastener, pose.point(part->fastener.origin),
+                          pose.direction(part->fastener.axis), std::abs(pose.scale)};
+            of_kind_[part->fastener.kind].push_back(placed);
+        }
+    }
+
+    JointSearch run() {
+        for (const Placed& bolt : of_kind_[FastenerKind::bolt]) {
+            const auto nut = nut_on(bolt);
+            const joint::FastenerSize* size = nut ? size_of(*bolt.shape) : nullptr;
+            if (size == nullptr) {
+                unused_bolts_.push_back({bolt, nut});
+                continue;
+            }
+            bolt_of_nut_[nut->node] = bolt.node;
+            search_.joints.push_back(make(bolt, *nut, *size));
+        }
+        explain_unused();
+        number();
+        return std::move(search_);
+    }
+
+  private:
+    const Tree& tree_;
+    const std::vector<PartGeometry>& parts_;
+    std::vector<Pose> poses_;
+    std::map<FastenerKind, std::vector<Placed>> of_kind_;
+    JointSearch search_;
+    std::map<int, int> bolt_of_nut_;  // nodes
+    struct UnusedBolt {
+        Placed bolt;
+        std::optional<Placed> nut;  // that would fit it
+    };
+    std::vector<UnusedBolt> unused_bolts_;
+
+    const PartGeometry* part_of(int node) const {
+        const int shape = tree_.nodes[static_cast<std::size_t>(node)].shape;
+        if (shape < 0) return nullptr;
+        return &parts_[static_cast<std::size_t>(tree_.shapes[static_cast<std::size_t>(shape)].part)];
+    }
+
+    std::optional<Placed> nut_on(const Placed& bolt) const {
+        std::optional<Placed> best;
+        double nearest = 0.0;
+        const double low = bolt.shape->low * bolt.scale, high = bolt.shape->high * bolt.scale;
+        for (const Placed& nut : placed_of(FastenerKind::nut)) {
+            if (bolt_of_nut_.contains(nut.node) || !coaxial(bolt.origin, bolt.axis, nut.origin, nut.axis))
+                continue;
+            if (std::abs(nut.shape->across_flats - bolt.shape->across_flats) > flats_slack) continue;
+            const auto [seat, top] = along(nut, bolt.origin, bolt.axis);
+            if (seat < low || seat > high) continue;
+            if (!best || seat < nearest) {  // of two nuts locked against each other, the one that bears
+                best = nut;
+                nearest = seat;
+            }
+        }
+        return best;
+    }
+
+    const std::vector<Placed>& placed_of(FastenerKind kind) const {
+        static const std::vector<Placed> none;
+        const auto found = of_kind_.find(kind);
+        return found == of_kind_.end() ? none : found->second;
+    }
+
+    const std::string& name_of(int node) const { return tree_.nodes[static_cast<std::size_t>(node)].name; }
+
+    // Adds a remark for each part that is or resembles a bolt or a nut and is in no joint.
+    void explain_unused() {
+        const std::size_t before = search_.remarks.size();
+        std::set<int> explained;  // nuts
+        for (const UnusedBolt& unused : unused_bolts_) {
+            const FastenerShape& shape = *unused.bolt.shape;
+            search_.remarks.push_back(fmt::format(
+                "{}: looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
+                name_of(unused.bolt.node), shape.diameter * unused.bolt.scale / mm,
+                shape.across_flats * unused.bolt.scale / mm,
+                unused.nut ? explain_size(shape) : explain_missing_nut(unused.bolt)));
+            if (unused.nut) explained.insert(unused.nut->node);
+        }
+        for (const Placed& nut : placed_of(FastenerKind::nut))
+            if (!bolt_of_nut_.contains(nut.node) && !explained.contains(nut.node))
+                search_.remarks.push_back(fmt::format(
+                    "{}: looks like a nut (hole {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
+                    name_of(nut.node), nut.shape->diameter * nut.scale / mm,
+                    nut.shape->across_flats * nut.scale / mm, explain_missing_bolt(nut)));
+        for (std::size_t n = 0; n < tree_.nodes.size(); ++n) explain_rejected(static_cast<int>(n));
+        if (search_.joints.empty() && search_.remarks.size() == before)
+            search_.remarks.push_back(
+                "no part resembles a bolt or a nut; expected parts with a hexagon 5 to 65 mm across flats, "
+                "each bolt "
+                "and nut a part of its own");
+        else if (search_.remarks.size() > before)
+            search_.remarks.push_back(
+                "correct the parts above in CAD and import again, or write their joints into assembly.json "
+                "by hand");
+    }
+
+    std::string explain_missing_nut(const Placed& bolt) const {
+        const Placed* nearest = nullptr;
+        double distance = 0.0;
+        for (const Placed& nut : placed_of(FastenerKind::nut)) {
+            const double off = distance_from_axis(bolt, nut.origin);
+            if (nearest == nullptr || off < distance) {
+                nearest = &nut;
+                distance = off;
+            }
+        }
+        if (nearest == nullptr)
+            return "the file has no part with the shape of a nut; expected a nut on its axis, a hexagon with "
+                   "a hole";
+        const std::string& name = name_of(nearest->node);
+        const double cosine = std::min(std::abs(glm::dot(bolt.axis, nearest->axis)), 1.0);
+        if (!coaxial(bolt.origin, bolt.axis, nearest->origin, nearest->axis))
+            return fmt::format(
+                "no nut is coaxial with it: the nearest one, {}, is {:.2f} mm off its axis and {:.2f} "
+                "degrees turned "
+                "from it; expected at most {:g} mm and 0.5 degrees",
+                name, distance / mm, to_degrees(std::acos(cosine)), coaxial_distance / mm);
+        if (const auto used = bolt_of_nut_.find(nearest->node); used != bolt_of_nut_.end())
+            return fmt::format(
+                "the nut on its axis, {}, is already that of the bolt {}; expected a nut of its own", name,
+                name_of(used->second));
+        const double flats = nearest->shape->across_flats, own_flats = bolt.shape->across_flats;
+        if (std::abs(flats - own_flats) > flats_slack)
+            return fmt::format(
+                "the nut on its axis, {}, is {:.2f} mm across flats; expected the bolt's width within {:g} "
+                "mm",
+                name, flats / mm, flats_slack / mm);
+        const double seat = along(*nearest, bolt.origin, bolt.axis).first;
+        return fmt::format(
+            "the nut on its axis, {}, begins {:.2f} mm from the bearing face of the head, and the shank is "
+            "{:.2f} mm "
+            "long; expected the nut on the shank",
+            name, (seat - bolt.shape->low * bolt.scale) / mm,
+            (bolt.shape->high - bolt.shape->low) * bolt.scale / mm);
+    }
+
+    std::string explain_missing_bolt(const Placed& nut) const {
+        const Placed* nearest = nullptr;
+        double distance = 0.0;
+        for (const Placed& bolt : placed_of(FastenerKind::bolt)) {
+            const double off = distance_from_axis(bolt, nut.origin);
+            if (nearest == nullptr || off < distance) {
+                nearest = &bolt;
+                distance = off;
+            }
+        }
+        if (nearest == nullptr)
+            return "the file has no part with the shape of a bolt; expected a bolt on its axis, a hexagon "
+                   "with a "
+                   "cylinder";
+        return fmt::format(
+            "no bolt is paired with it: the nearest one, {}, has its axis {:.2f} mm away; expected a bolt of "
+            "the same "
+            "width across flats within {:g} mm of its axis",
+            name_of(nearest->node), distance / mm, coaxial_distance / mm);
+    }
+
+    static double distance_from_axis(const Placed& placed, const Vec3& point) {
+        return glm::length(glm::cross(point - placed.origin, placed.axis));
+    }
+
+    void explain_rejected(int node) {
+        const PartGeometry* part = part_of(node);
+        if (part == nullptr || part->fastener.kind != FastenerKind::none) return;
+        const FastenerShape& shape = part->fastener;
+        if (!shape.rejection.empty())
+            search_.remarks.push_back(fmt::format("{}: {}", name_of(node), shape.rejection));
+        else if (!shape.without_hexagon.empty() && named_like_fastener(name_of(node)))
+            search_.remarks.push_back(fmt::format("{}: is named like a bolt or a nut, but {}", name_of(node),
+                                                  shape.without_hexagon));
+    }
+
+    // Washers stacked from `face` in the direction `way` (+1: along the axis); moves `face` to the last one's
+    // far side.
+    std::vector<int> washers_from(const Placed& bolt, double& face, double way) {
+        std::vector<int> found;
+        for (bool more = true; more;) {
+            more = false;
+            for (const Placed& washer : of_kind_[FastenerKind::washer]) {
+                if (std::find(found.begin(), found.end(), washer.node) != found.end()) continue;
+                if (!coaxial(bolt.origin, bolt.axis, washer.origin, washer.axis)) continue;
+                const double hole = washer.shape->diameter * washer.scale, d = bolt.shape->diameter;
+                if (hole < 0.98 * d || hole > 1.3 * d) continue;
+                const auto [low, high] = along(washer, bolt.origin, bolt.axis);
+                const double near = way > 0.0 ? low : high;
+                if (std::abs(near - face) > touching) continue;
+                face = way > 0.0 ? high : low;
+                found.push_back(washer.node);
+                more = true;
+                break;
+            }
+        }
+        return found;
+    }
+
+    JointCandidate make(const Placed& bolt, const Placed& nut, const joint::FastenerSize& size) {
+        JointCandidate joint;
+        joint.bolt = bolt.node;
+        joint.nut = nut.node;
+        joint.axis = bolt.axis;
+        joint.size = thread_name(size, nut.shape->diameter);
+        double head = bolt.shape->low * bolt.scale;
+        double seat = along(nut, bolt.origin, bolt.axis).first;
+        joint.bolt_length = bolt.shape->high * bolt.scale - head;
+        joint.head_washers = washers_from(bolt, head, 1.0);
+        joint.nut_washers = washers_from(bolt, seat, -1.0);
+        joint.grip = seat - head;
+        joint.members = members_of(bolt, joint, head, seat);
+        // What is clamped says better than the nut where the seat is: a CAD nut may stand off it.
+        double sum = 0.0;
+        for (const ClampedMember& member : joint.members) sum += member.thickness;
+        joint.seat = bolt.origin + seat * bolt.axis;
+        if (joint.members.empty()) {
+            joint.members.push_back({-1, joint.grip});
+            note(joint, "no part with a hole was found between head and nut: one member fills the grip");
+        } else if (std::abs(sum - joint.grip) > 0.02 * mm) {
+            note(joint,
+                 fmt::format("the parts between head and nut are {:.2f} mm, the room for them is {:.2f} mm",
+                             sum / mm, joint.grip / mm));
+        }
+        joint.group = group_of(joint);
+        return joint;
+    }
+
+    std::vector<ClampedMember> members_of(const Placed& bolt, const JointCandidate& joint, double head,
+                                          double seat) const {
+        std::vector<const PartGeometry*> parts;
+        for (std::size_t n = 0; n < tree_.nodes.size(); ++n) parts.push_back(part_of(static_cast<int>(n)));
+        for (const auto& list : {joint.head_washers, joint.nut_washers, std::vector{joint.bolt, joint.nut}})
+            for (const int node : list) parts[static_cast<std::size_t>(node)] = nullptr;
+        return find_members(parts, poses_, {bolt.origin, bolt.axis, bolt.shape->diameter, head, seat});
+    }
+
+    void note(const JointCandidate& joint, const std::string& what) {
+        search_.remarks.push_back(
+            fmt::format("{}: {}", tree_.nodes[static_cast<std::size_t>(joint.bolt)].name, what));
+    }
+
+    // The group that the author made for this joint.
+    int group_of(const JointCandidate& joint) const {
+        const auto name = [&](int node) -> const std::string& {
+            return tree_.nodes[static_cast<std::size_t>(node)].name;
+        };
+        for (int up = common_parent(tree_, joint.bolt, joint.nut); up >= 0;
+             up = tree_.nodes[static_cast<std::size_t>(up)].parent)
+            if (name(up).starts_with(joint_prefix) && name(up).size() > joint_prefix.size()) return up;
+        return -1;
+    }
+
+    // Ids of the author's groups as they are, others by position: along x, then z, then y, in millimetres.
+    void number() {
+        std::map<int, int> members;
+        for (const JointCandidate& joint : search_.joints)
+            if (joint.group >= 0) ++members[joint.group];
+        std::set<std::string> taken;
+        for (JointCandidate& joint : search_.joints) {
+            if (joint.group >= 0 && members[joint.group] > 1) joint.group = -1;  // a group of several joints
+            if (joint.group < 0) continue;
+            joint.id = tree_.nodes[static_cast<std::size_t>(joint.group)].name.substr(joint_prefix.size());
+            if (!taken.insert(joint.id).second) joint.group = -1;
+        }
+        const auto key = [](const JointCandidate& joint) {
+            return std::array{std::lround(joint.seat.x / mm), std::lround(joint.seat.z / mm),
+                              std::lround(joint.seat.y / mm)};
+        };
+        std::stable_sort(search_.joints.begin(), search_.joints.end(),
+                         [&](const JointCandidate& a, const JointCandidate& b) { return key(a) < key(b); });
+        int next = 1;
+        for (JointCandidate& joint : search_.joints) {
+            if (joint.group >= 0) continue;
+            do joint.id = fmt::format("J{}", next++);
+            while (!taken.insert(joint.id).second);
+        }
+        std::stable_sort(search_.joints.begin(), search_.joints.end(),
+                         [](const JointCandidate& a, const JointCandidate& b) {
+                             return std::pair(a.id.size(), a.id) < std::pair(b.id.size(), b.id);
+                         });
+    }
+};
+
+// The shortest turn of +Y into the axis.
+Quat turn_to(const Vec3& axis) {
+    const Vec3 up{0.0, 1.0, 0.0};
+    const double cos = glm::dot(up, axis);
+    if (cos > 1.0 - 1e-12) return {1.0, 0.0, 0.0, 0.0};
+    if (cos < -1.0 + 1e-12) return {0.0, 1.0, 0.0, 0.0};
+    const Vec3 cross = glm::cross(up, axis);
+    return glm::normalize(Quat{1.0 + cos, cross.x, cross.y, cross.z});
+}
+
+int make_group(Tree& tree, const JointCandidate& joint) {
+    const int node = static_cast<int>(tree.nodes.size());
+    TreeNode group;
+    group.local = {turn_to(joint.axis), joint.seat, 1.0};
+    tree.nodes.push_back(group);
+    tree.roots.push_back(node);
+    if (const int parent = common_parent(tree, joint.bolt, joint.nut); parent >= 0)
+        move_under(tree, node, parent);
+    return node;
+}
+
+// The group of the author's own should stand where the geometry says.
+void check_group(const Tree& tree, const JointCandidate& joint, std::vector<std::string>& remarks) {
+    const Pose pose = world(tree, joint.group);
+    const double off = glm::length(pose.position - joint.seat) / mm;
+    const double turn = glm::dot(pose.direction({0.0, 1.0, 0.0}), joint.axis);
+    const std::string& name = tree.nodes[static_cast<std::size_t>(joint.group)].name;
+    if (off > 0.01)
+        remarks.push_back(
+            fmt::format("{}: its origin is {:.3f} mm from the centre of the hole under the nut", name, off));
+    if (turn < 1.0 - 1e-6)
+        remarks.push_back(fmt::format("{}: its +Z axis is {:.2f} degrees off the bolt's", name,
+                                      to_degrees(std::acos(std::clamp(turn, -1.0, 1.0)))));
+}
+
+}  // namespace
+
+JointSearch find_joints(const Tree& tree, const std::vector<PartGeometry>& parts) {
+    return JointFinder(tree, parts).run();
+}
+
+void group_joints(Tree& tree, JointSearch& search) {
+    for (JointCandidate& joint : search.joints) {
+        if (joint.group >= 0)
+            check_group(tree, joint, search.remarks);
+        else
+            joint.group = make_group(tree, joint);
+        const auto put = [&](int node, const std::string& name) {
+            if (tree.nodes[static_cast<std::size_t>(node)].parent != joint.group)
+                move_under(tree, node, joint.group);
+            tree.nodes[static_cast<std::size_t>(node)].name = joint.id + "_" + name;
+            tree.nodes[static_cast<std::size_t>(node)].fixed = true;
+        };
+        tree.nodes[static_cast<std::size_t>(joint.group)].name = std::string(joint_prefix) + joint.id;
+        tree.nodes[static_cast<std::size_t>(joint.group)].fixed = true;
+        put(joint.bolt, "bolt");
+        for (const int washer : joint.head_washers) put(washer, "washer_head");
+        for (const int washer : joint.nut_washers) put(washer, "washer_nut");
+        put(joint.nut, "nut");
+    }
+}
+
+}  // namespace bolt::step_import

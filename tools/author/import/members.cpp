@@ -1,0 +1,132 @@
+#include "tools/author/import/members.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace bolt::step_import {
+
+namespace {
+
+constexpr double touching = 0.06 * mm;
+
+struct Span {
+    int node = -1;
+    double from = 0.0, to = 0.0;  // heights along the bolt
+    double solid = 0.0;           // thickness, less what is hollow
+};
+
+// Radius of the part's hole around the bolt; 0: it has none.
+double hole_around(const PartGeometry& part, const Pose& pose, const Clamping& bolt) {
+    double hole = 0.0;
+    for (const Hole& one : part.holes) {
+        const double radius = one.radius * std::abs(pose.scale);
+        if (2.0 * radius < 0.98 * bolt.diameter || 2.0 * radius > 1.5 * bolt.diameter) continue;
+        if (coaxial(bolt.origin, bolt.axis, pose.point(one.point), pose.direction(one.axis)))
+            hole = std::max(hole, radius);
+    }
+    return hole;
+}
+
+// The median of eight lines around the bolt, beside the hole's chamfer.
+std::optional<Span> measure(const PartGeometry& part, const Pose& pose, const Clamping& bolt, double radius) {
+    const Pose local = inverse(pose);
+    const Vec3 aside = std::abs(bolt.axis.y) < 0.9 ? Vec3{0.0, 1.0, 0.0} : Vec3{1.0, 0.0, 0.0};
+    const Vec3 u = glm::normalize(glm::cross(bolt.axis, aside)), v = glm::cross(bolt.axis, u);
+    std::array<Span, 8> spans;
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        // Not on the seams that CAD programs put at round angles.
+        const double angle = (static_cast<double>(i) + 0.37) * pi / 4.0;
+        const Vec3 start = bolt.origin + radius * (std::cos(angle) * u + std::sin(angle) * v);
+        const auto cuts = crossings(part.mesh, local.point(start), local.direction(bolt.axis));
+        Span& span = spans[i];
+        span.from = bolt.seat;
+        span.to = bolt.head;
+        for (std::size_t c = 0; c + 1 < cuts.size(); c += 2) {
+            const double low = std::max(cuts[c] * std::abs(pose.scale), bolt.head - touching);
+            const double high = std::min(cuts[c + 1] * std::abs(pose.scale), bolt.seat + touching);
+            if (high <= low) continue;
+            span.solid += high - low;
+            span.from = std::min(span.from, low);
+            span.to = std::max(span.to, high);
+        }
+    }
+    std::nth_element(spans.begin(), spans.begin() + 4, spans.end(),
+                     [](const Span& a, const Span& b) { return a.solid < b.solid; });
+    if (spans[4].solid < 0.2 * mm) return std::nullopt;
+    return spans[4];
+}
+
+// Heights of the whole part along the bolt.
+std::pair<double, double> extent(const PartGeometry& part, const Pose& pose, const Clamping& bolt) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& point : part.mesh.points) {
+        const double height = glm::dot(pose.point(point) - bolt.origin, bolt.axis);
+        low = std::min(low, height);
+        high = std::max(high, height);
+    }
+    return {low, high};
+}
+
+// Between two members that do not meet at the bolt: their raised faces, then a part that fills what is left.
+void close_gap(const std::vector<const PartGeometry*>& parts, const std::vector<Pose>& poses,
+               const Clamping& bolt, Span& below, Span& above, std::vector<Span>& spans) {
+    const auto of = [&](int node) {
+        const auto n = static_cast<std::size_t>(node);
+        return extent(*parts[n], poses[n], bolt);
+    };
+    const double top = of(below.node).second, bottom = of(above.node).first;
+    if (top > below.to && bottom < above.from && top <= bottom + touching) {
+        below.solid += top - below.to;
+        above.solid += above.from - bottom;
+        below.to = top;
+        above.from = bottom;
+    }
+    if (above.from - below.to < touching) return;
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        if (parts[n] == nullptr) continue;
+        const auto [low, high] = extent(*parts[n], poses[n], bolt);
+        if (std::abs(low - below.to) > touching || std::abs(high - above.from) > touching) continue;
+        spans.push_back({static_cast<int>(n), low, high, high - low});
+        return;
+    }
+}
+
+}  // namespace
+
+bool coaxial(const Vec3& p, const Vec3& a, const Vec3& q, const Vec3& b) {
+    constexpr double turn = 4e-5;  // 1 − cos of 0.5°
+    return std::abs(glm::dot(a, b)) > 1.0 - turn && glm::length(glm::cross(q - p, a)) < coaxial_distance;
+}
+
+std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& parts,
+                                        const std::vector<Pose>& poses, const Clamping& bolt) {
+    std::vector<Span> spans;
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        if (parts[n] == nullptr) continue;
+        const double hole = hole_around(*parts[n], poses[n], bolt);
+        if (hole == 0.0) continue;
+        if (auto span = measure(*parts[n], poses[n], bolt, 0.5 * (hole + 0.8 * bolt.diameter))) {
+            span->node = static_cast<int>(n);
+            spans.push_back(*span);
+        }
+    }
+    const auto order = [&] {
+        std::stable_sort(spans.begin(), spans.end(),
+                         [](const Span& a, const Span& b) { return a.from < b.from; });
+    };
+    order();
+    std::vector<Span> fillers;
+    for (std::size_t i = 0; i + 1 < spans.size(); ++i)
+        if (spans[i + 1].from - spans[i].to > touching)
+            close_gap(parts, poses, bolt, spans[i], spans[i + 1], fillers);
+    spans.insert(spans.end(), fillers.begin(), fillers.end());
+    order();
+    std::vector<ClampedMember> members;
+    for (const Span& span : spans) members.push_back({span.node, span.solid});
+    return members;
+}
+
+}  // namespace bolt::step_import

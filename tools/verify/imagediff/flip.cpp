@@ -1,0 +1,224 @@
+#include "tools/verify/imagediff/flip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+
+namespace bolt::imagediff {
+
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+// sRGB's primaries and D65 in XYZ; the white point is the sum of the columns.
+const glm::mat3 xyz_from_rgb(0.4124564F, 0.2126729F, 0.0193339F, 0.3575761F, 0.7151522F, 0.1191920F,
+                             0.1804375F, 0.0721750F, 0.9503041F);
+const glm::vec3 white = xyz_from_rgb * glm::vec3(1.0F);
+
+float linear(std::uint8_t encoded) {
+    const float x = static_cast<float>(encoded) / 255.0F;
+    return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F);
+}
+
+// The opponent space in which the eye's contrast sensitivity is modelled: CIELAB's axes without its curve.
+glm::vec3 opponent(const glm::vec3& rgb) {
+    const glm::vec3 n = xyz_from_rgb * rgb / white;
+    return {116.0F * n.y - 16.0F, 500.0F * (n.x - n.y), 200.0F * (n.y - n.z)};
+}
+
+glm::vec3 rgb_of_opponent(const glm::vec3& c) {
+    const float y = (c.x + 16.0F) / 116.0F;
+    return glm::inverse(xyz_from_rgb) * (glm::vec3(y + c.y / 500.0F, y, y - c.z / 200.0F) * white);
+}
+
+// CIELAB with Hunt's effect: colours look less colourful where it is dark.
+glm::vec3 hunt_lab(const glm::vec3& rgb) {
+    const glm::vec3 n = xyz_from_rgb * rgb / white;
+    const auto f = [](float t) {
+        constexpr float d = 6.0F / 29.0F;
+        return t > d * d * d ? std::cbrt(t) : t / (3.0F * d * d) + 4.0F / 29.0F;
+    };
+    const float l = 116.0F * f(n.y) - 16.0F;
+    return {l, 0.01F * l * 500.0F * (f(n.x) - f(n.y)), 0.01F * l * 200.0F * (f(n.y) - f(n.z))};
+}
+
+float hyab(const glm::vec3& a, const glm::vec3& b) {
+    return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
+}
+
+using Kernel = std::vector<float>;  // odd length, middle in the middle
+
+// One channel of a picture.
+struct Plane {
+    int width = 0, height = 0;
+    std::vector<float> values;
+
+    [[nodiscard]] float at(int x, int y) const {
+        return values[static_cast<std::size_t>(std::clamp(y, 0, height - 1)) *
+                          static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(std::clamp(x, 0, width - 1))];
+    }
+};
+
+// In x with one kernel and in y with another; edges repeat.
+Plane filtered(const Plane& plane, const Kernel& in_x, const Kernel& in_y) {
+    const auto pass = [](const Plane& from, const Kernel& kernel, int dx, int dy) {
+        Plane to{from.width, from.height, {}};
+        to.values.reserve(from.values.size());
+        const int radius = static_cast<int>(kernel.size() / 2);
+        for (int y = 0; y < from.height; ++y) {
+            for (int x = 0; x < from.width; ++x) {
+                float sum = 0.0F;
+                for (int k = -radius; k <= radius; ++k)
+                    sum += kernel[static_cast<std::size_t>(k + radius)] * from.at(x + k * dx, y + k * dy);
+                to.values.push_back(sum);
+            }
+        }
+        return to;
+    };
+    return pass(pass(plane, in_x, 1, 0), in_y, 0, 1);
+}
+
+Kernel gaussian(float b, int radius, float pixels_per_degree) {
+    Kernel kernel;
+    float sum = 0.0F;
+    for (int k = -radius; k <= radius; ++k) {
+        const float x = static_cast<float>(k) / pixels_per_degree;
+        kernel.push_back(std::exp(-pi * pi * x * x / b));
+        sum += kernel.back();
+    }
+    for (float& value : kernel) value /= sum;
+    return kernel;
+}
+
+// One channel of the contrast sensitivity: a sum of Gaussians a √(π/b) e^{−π² x²/b}, normalised to keep grey
+// grey.
+struct Sensitivity {
+    float a1, b1, a2, b2;
+};
+constexpr Sensitivity sensitivities[] = {{1.0F, 0.0047F, 0.0F, 1e-5F},    // light
+                                         {1.0F, 0.0053F, 0.0F, 1e-5F},    // red to green
+                                         {34.1F, 0.04F, 13.5F, 0.025F}};  // blue to yellow
+
+Plane seen(const Plane& plane, const Sensitivity& s, float pixels_per_degree) {
+    const float widest = std::max(s.b1, s.a2 > 0.0F ? s.b2 : 0.0F);
+    const int radius =
+        static_cast<int>(std::ceil(3.0F * std::sqrt(widest / (2.0F * pi * pi)) * pixels_per_degree));
+    const Kernel first = gaussian(s.b1, radius, pixels_per_degree);
+    Plane sum = filtered(plane, first, first);
+    if (s.a2 <= 0.0F) return sum;
+    // Over the plane a Gaussian sums to b/π: a √(π/b) of it has the weight a √(b/π).
+    const Kernel second = gaussian(s.b2, radius, pixels_per_degree);
+    const Plane other = filtered(plane, second, second);
+    const float weight = s.a1 * std::sqrt(s.b1), share = weight / (weight + s.a2 * std::sqrt(s.b2));
+    for (std::size_t i = 0; i < sum.values.size(); ++i)
+        sum.values[i] = share * sum.values[i] + (1.0F - share) * other.values[i];
+    return sum;
+}
+
+struct Planes {
+    Plane channels[3];
+};
+
+Planes opponents(const Picture& picture) {
+    Planes planes;
+    for (Plane& plane : planes.channels) plane = {picture.width, picture.height, {}};
+    for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+        const glm::vec3 c =
+            opponent({linear(picture.rgb[i]), linear(picture.rgb[i + 1]), linear(picture.rgb[i + 2])});
+        for (int k = 0; k < 3; ++k) planes.channels[k].values.push_back(c[k]);
+    }
+    return planes;
+}
+
+// As the eye sees it from that distance, in Hunt-adjusted CIELAB.
+std::vector<glm::vec3> perceived(const Planes& planes, float pixels_per_degree) {
+    Plane blurred[3];
+    for (int k = 0; k < 3; ++k) blurred[k] = seen(planes.channels[k], sensitivities[k], pixels_per_degree);
+    std::vector<glm::vec3> lab;
+    lab.reserve(blurred[0].values.size());
+    for (std::size_t i = 0; i < blurred[0].values.size(); ++i) {
+        const glm::vec3 c(blurred[0].values[i], blurred[1].values[i], blurred[2].values[i]);
+        lab.push_back(hunt_lab(glm::clamp(rgb_of_opponent(c), 0.0F, 1.0F)));
+    }
+    return lab;
+}
+
+// Small differences matter more than their share of the largest one (green against blue).
+float colour_difference(const glm::vec3& a, const glm::vec3& b) {
+    constexpr float exponent = 0.7F, knee = 0.4F, at_knee = 0.95F;
+    static const float largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), exponent);
+    const float e = std::pow(hyab(a, b), exponent);
+    const float limit = knee * largest;
+    const float value =
+        e < limit ? at_knee / limit * e : at_knee + (e - limit) / (largest - limit) * (1.0F - at_knee);
+    return std::min(value, 1.0F);
+}
+
+struct Features {
+    Plane edge_x, edge_y, point_x, point_y;
+};
+
+// The first and second derivative of a Gaussian as wide as the finest detail that is noticed; each side sums
+// to one.
+Features features(const Plane& light, float pixels_per_degree) {
+    const float sigma = 0.5F * 0.082F * pixels_per_degree;
+    const int radius = static_cast<int>(std::ceil(3.0F * sigma));
+    Kernel smooth, first, second;
+    for (int k = -radius; k <= radius; ++k) {
+        const float x = static_cast<float>(k);
+        const float g = std::exp(-x * x / (2.0F * sigma * sigma));
+        smooth.push_back(g);
+        first.push_back(-x * g);
+        second.push_back((x * x / (sigma * sigma) - 1.0F) * g);
+    }
+    const auto balance = [](Kernel& kernel) {
+        float up = 0.0F, down = 0.0F;
+        for (const float value : kernel) (value > 0.0F ? up : down) += value;
+        for (float& value : kernel) value /= value > 0.0F ? up : down != 0.0F ? -down : 1.0F;
+    };
+    for (Kernel* kernel : {&smooth, &first, &second}) balance(*kernel);
+    return {filtered(light, first, smooth), filtered(light, smooth, first), filtered(light, second, smooth),
+            filtered(light, smooth, second)};
+}
+
+Plane lightness(const Plane& achromatic) {
+    Plane plane = achromatic;
+    for (float& value : plane.values) value = (value + 16.0F) / 116.0F;
+    return plane;
+}
+
+}  // namespace
+
+std::vector<float> flip(const Picture& reference, const Picture& test, float pixels_per_degree) {
+    const Planes a = opponents(reference), b = opponents(test);
+    const std::vector<glm::vec3> seen_a = perceived(a, pixels_per_degree),
+                                 seen_b = perceived(b, pixels_per_degree);
+    const Features fa = features(lightness(a.channels[0]), pixels_per_degree);
+    const Features fb = features(lightness(b.channels[0]), pixels_per_degree);
+    std::vector<float> values;
+    values.reserve(seen_a.size());
+    for (std::size_t i = 0; i < seen_a.size(); ++i) {
+        const float colour = colour_difference(seen_a[i], seen_b[i]);
+        const auto strength = [&](const Plane& x, const Plane& y) {
+            return std::hypot(x.values[i], y.values[i]);
+        };
+        const float edges = std::abs(strength(fa.edge_x, fa.edge_y) - strength(fb.edge_x, fb.edge_y));
+        const float points = std::abs(strength(fa.point_x, fa.point_y) - strength(fb.point_x, fb.point_y));
+        const float feature = std::sqrt(std::max(edges, points) / std::numbers::sqrt2_v<float>);
+        values.push_back(std::pow(colour, 1.0F - std::min(feature, 1.0F)));
+    }
+    return values;
+}
+
+double mean(std::span<const float> values) {
+    double sum = 0.0;
+    for (const float value : values) sum += static_cast<double>(value);
+    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+}  // namespace bolt::imagediff

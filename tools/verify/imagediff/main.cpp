@@ -1,0 +1,52 @@
+// bolt-imagediff: how far a picture is from its reference.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/base/console.hpp"
+#include "engine/base/program.hpp"
+#include "tools/verify/imagediff/compare.hpp"
+
+namespace {
+
+using namespace bolt;
+
+struct Options {
+    std::string reference, test, flips;
+    double most_flip = 1.0;
+    int most_channel = 255;
+};
+
+Status run(const Options& options) {
+    BOLT_TRY_ASSIGN(const auto reference, imagediff::read_png(options.reference));
+    BOLT_TRY_ASSIGN(const auto test, imagediff::read_png(options.test));
+    BOLT_TRY_ASSIGN(const auto difference, imagediff::compare(reference, test));
+    if (!options.flips.empty()) BOLT_TRY(imagediff::write_flips(options.flips, reference, difference.flips));
+    const std::string text = fmt::format(
+        "mean FLIP {:.4f}, largest difference of a channel {} of 255, {:.2f} % of the pixels differ\n",
+        difference.mean_flip, difference.largest, 100.0 * difference.changed);
+    BOLT_TRY(print(text));
+    if (difference.mean_flip > options.most_flip || difference.largest > options.most_channel)
+        return fail(ErrorCode::failed,
+                    fmt::format("{}: differs too much from {}", options.test, options.reference));
+    return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Compares a picture with its reference.", "bolt-imagediff");
+    Options options;
+    int exit_code = 0;
+    app.add_option("reference", options.reference, "PNG")->required();
+    app.add_option("test", options.test, "PNG of the same size")->required();
+    app.add_option("--most-flip", options.most_flip, "Fail above this mean FLIP (0 … 1)");
+    app.add_option("--most-channel", options.most_channel,
+                   "Fail above this difference of a channel (0 … 255)");
+    app.add_option("--flips", options.flips, "Write the FLIP of every pixel to this PNG");
+    app.callback([&] {
+        const Status done = run(options);
+        exit_code = done ? 0 : print_error(done.error());
+    });
+    return run_command_line(app, argc, argv, exit_code);
+}
