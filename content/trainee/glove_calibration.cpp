@@ -62,7 +62,7 @@ void read_lines(Members& members, const json& root, GloveCalibration& to) {
         members.only(*line, at, {"offset", "gain"});
         to.calibration.fits[hand::index(sensor)] =
             hand::LinearFit{members.number(*line, at, "gain", -steepest, steepest),
-                       members.number(*line, at, "offset", -1e4, 1e4)};
+                            members.number(*line, at, "offset", -1e4, 1e4)};
     }
 }
 

@@ -19,7 +19,8 @@ struct CompareOptions {
 
 int run_compare(const CompareOptions& options) {
     for (const std::string& input : {options.session, options.measured})
-        if (Status apart = require_different_files(input, options.html); !apart) return print_error(apart.error());
+        if (Status apart = require_different_files(input, options.html); !apart)
+            return print_error(apart.error());
     Result<session::Reader> reader = session::Reader::open(options.session);
     if (!reader) return print_error(reader.error());
     Result<analysis::Measured> measured = analysis::read_measured(options.measured);

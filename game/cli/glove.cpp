@@ -102,19 +102,21 @@ Result<hand::CalibrationResult> ask_for_postures(Reader& reader) {
     while (session.phase != hand::CalibrationPhase::done && session.phase != hand::CalibrationPhase::failed) {
         if (asked != session.requested) {
             asked = session.requested;
-            const std::string text =
-                fmt::format("{}/{}  {}\n", static_cast<int>(*asked) + 1, hand::posture_count, hand::prompt(*asked));
+            const std::string text = fmt::format("{}/{}  {}\n", static_cast<int>(*asked) + 1,
+                                                 hand::posture_count, hand::prompt(*asked));
             BOLT_TRY(print(text));
         }
         if (told != session.trouble) {
             told = session.trouble;
-            if (told != hand::CalibrationTrouble::none) BOLT_TRY(print(fmt::format("     {}\n", hand::message_for(told))));
+            if (told != hand::CalibrationTrouble::none)
+                BOLT_TRY(print(fmt::format("     {}\n", hand::message_for(told))));
         }
         std::this_thread::sleep_for(look_again);
         const hand::GloveSample* sample = reader.next();
         update(session, sample == nullptr ? nullptr : &sample->frame, now());
     }
-    if (!session.result) return fail(ErrorCode::failed, hand::message_for(session.trouble), "a new calibration");
+    if (!session.result)
+        return fail(ErrorCode::failed, hand::message_for(session.trouble), "a new calibration");
     return std::move(*session.result);
 }
 
@@ -123,7 +125,7 @@ Status calibrate(GloveOptions options) {
     const hand::GloveIdentity identity = reader.driver.report().identity;
     if (Status said =
             print(fmt::format("A {} glove of {} sensors. Hold each posture still until the next.\n",
-                            identity.hand == hand::Side::left ? "left" : "right", identity.sensors));
+                              identity.hand == hand::Side::left ? "left" : "right", identity.sensors));
         !said)
         return said;
     BOLT_TRY_ASSIGN(const auto made, ask_for_postures(reader));

@@ -228,7 +228,8 @@ Status render_all(RenderOptions options) {
     std::vector<render::Inset> insets;
     if (!options.inset.empty()) {
         BOLT_TRY_ASSIGN(const auto view, view::named_view(subject.subject, options.inset));
-        insets.push_back({eye_of(options, view, (stage)->box, aspect), render::inset_rectangle(extent, 0.28F)});
+        insets.push_back(
+            {eye_of(options, view, (stage)->box, aspect), render::inset_rectangle(extent, 0.28F)});
     }
     for (const view::Viewpoint& view : views) {
         if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");

@@ -7,8 +7,8 @@
 #include "engine/base/console.hpp"
 #include "game/cli/interruption.hpp"
 #include "game/station/trial.hpp"
-#include "haptics/device/virtual_puck.hpp"
 #include "haptics/device/timer.hpp"
+#include "haptics/device/virtual_puck.hpp"
 #include "haptics/hand/serial_port.hpp"
 
 namespace bolt::cli {
@@ -59,15 +59,16 @@ int try_station(const StationOptions& options) {
     const std::vector<std::string> against = station_setup::against(trial);
     if (said)
         said = print(station_setup::report(trial) +
-                   (against.empty() ? "This station is good enough\n"
-                                    : fmt::format("This station is not good enough, because\n  {}\n",
-                                                  fmt::join(against, "\n  "))));
+                     (against.empty() ? "This station is good enough\n"
+                                      : fmt::format("This station is not good enough, because\n  {}\n",
+                                                    fmt::join(against, "\n  "))));
     if (!said) return print_error(said.error());
     return against.empty() ? 0 : static_cast<int>(ErrorCode::failed);
 }
 
 std::string what_to_try() {
-    const std::vector<std::string> ids = station_setup::ids_of(station_setup::choose_any(device::list_devices()));
+    const std::vector<std::string> ids =
+        station_setup::ids_of(station_setup::choose_any(device::list_devices()));
     std::string text;
     if (!ids.empty())
         text = fmt::format("  boltwright doctor --device {} tries {}\n", fmt::join(ids, " --device "),

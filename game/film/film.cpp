@@ -70,8 +70,9 @@ Result<std::unique_ptr<Film>> Film::create(const session::Prepared& at, const Fi
     if (!place) return fail(place.error());
     film->place_ = std::move(*place);
     film->scene_ = scene::lit(film->place_, on.shelf->light);
-    film->postures_ = scene::make_postures(at.state.tool_contact ? &at.state.tool_contact->wrench : nullptr,
-                                           at.setup.wrench.handle_length, options.hand, scene::widest_nut(at.setup));
+    film->postures_ =
+        scene::make_postures(at.state.tool_contact ? &at.state.tool_contact->wrench : nullptr,
+                             at.setup.wrench.handle_length, options.hand, scene::widest_nut(at.setup));
     film->place_.world.only<world::Hand>().rest =
         scene::resting_place(film->place_.machine, at.assembly.wrench.head_thickness, options.hand);
     if (options.view.empty() && shelf->machine.views.empty())
@@ -86,8 +87,8 @@ Result<std::unique_ptr<Film>> Film::create(const session::Prepared& at, const Fi
 void Film::follow(const session::Moment& moment) {
     const auto joint = at_work(place_.world, moment.lesson);
     if (!options_.view.empty() || !joint || followed_ == joint) return;
-    const view::ViewOf of{moment.setup, moment.state.tool_contact ? &*moment.state.tool_contact : nullptr, *joint,
-                          world::nut_centre(place_.world, moment.setup, *joint), std::nullopt};
+    const view::ViewOf of{moment.setup, moment.state.tool_contact ? &*moment.state.tool_contact : nullptr,
+                          *joint, world::nut_centre(place_.world, moment.setup, *joint), std::nullopt};
     camera_.go(view::find_view(of, sight_, camera_.goal));
     followed_ = joint;
 }

@@ -93,7 +93,7 @@ struct Seen {
             for (const double height : {-0.35, 0.0, 0.35}) {
                 const Vec3 beside = side * across + height * nut.height * nut.axis;
                 if (servo::occluded(touch, centre + nut.across_flats * out + beside,
-                                  centre + length * out + beside, static_cast<int>(joint)))
+                                    centre + length * out + beside, static_cast<int>(joint)))
                     return false;
             }
         return true;
@@ -198,8 +198,8 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* touch
     return best;
 }
 
-double room_above(const servo::Setup& setup, const servo::ToolContact& touch, std::size_t joint, double nut_angle,
-                  const GripAngle& grip, double most) {
+double room_above(const servo::Setup& setup, const servo::ToolContact& touch, std::size_t joint,
+                  double nut_angle, const GripAngle& grip, double most) {
     const Seen seen(setup, touch);
     const servo::NutGeometry& nut = setup.nuts[joint];
     const Quat held = orientation_of(nut, grip.handle, grip.flipped);

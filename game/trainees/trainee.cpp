@@ -135,7 +135,8 @@ Operator::Operator(const Profile& profile, std::uint64_t seed, const servo::Setu
     Mind& mind = *mind_;
     mind.view_help = std::move(help);
     Vec3 centre(0.0);
-    for (const servo::NutGeometry& nut : setup.nuts) centre += nut.seat / static_cast<double>(setup.nuts.size());
+    for (const servo::NutGeometry& nut : setup.nuts)
+        centre += nut.seat / static_cast<double>(setup.nuts.size());
     mind.from.position = centre + Vec3(0.0, 0.3, 0.4);  // the hand rests in front of the assembly
     mind.to = mind.rest = mind.hand = mind.from;
     mind.sight.eye = centre + Vec3(0.0, 0.45, 0.6);  // and the head above it

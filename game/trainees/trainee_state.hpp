@@ -68,7 +68,9 @@ struct Mind {
 
     [[nodiscard]] const servo::NutGeometry& nut() const { return setup->nuts[intent.joint]; }
     [[nodiscard]] const joint::JointState& joint() const { return state->joints[intent.joint]; }
-    [[nodiscard]] const servo::ToolContact* obstacles() const { return state->tool_contact ? &*state->tool_contact : nullptr; }
+    [[nodiscard]] const servo::ToolContact* obstacles() const {
+        return state->tool_contact ? &*state->tool_contact : nullptr;
+    }
     [[nodiscard]] double elapsed() const { return time - begun; }
     [[nodiscard]] double progress() const { return length > 0.0 ? elapsed() / length : 1.0; }
     [[nodiscard]] bool over() const { return progress() >= 1.0; }

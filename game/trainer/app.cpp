@@ -150,8 +150,8 @@ Status App::place_on_gpu() {
 namespace {
 
 // The wrench is in the first picture too: it is what one reaches for. Who sits sees it from lower.
-view::Orbit first_view(const ActiveLesson& p, const view::Subject& machine, double handle_length, float aspect,
-                       const scene::Worker& worker) {
+view::Orbit first_view(const ActiveLesson& p, const view::Subject& machine, double handle_length,
+                       float aspect, const scene::Worker& worker) {
     const view::Viewpoint first = machine.views.empty()
                                       ? view::framed(p.place.machine, view::usual_fov, aspect)
                                       : machine.views.front();

@@ -43,7 +43,8 @@ Status Backdrop::put_up(gpu::Device& device, const view::Subject& subject) {
     return {};
 }
 
-Status Backdrop::draw(gpu::Device& device, render::Renderer& renderer, gpu::FrameContext& frame, VkExtent2D size) {
+Status Backdrop::draw(gpu::Device& device, render::Renderer& renderer, gpu::FrameContext& frame,
+                      VkExtent2D size) {
     using namespace std::chrono_literals;
     if (coming_.valid() && coming_.wait_for(0s) == std::future_status::ready) {
         const view::LoadedSubject loaded = coming_.get();

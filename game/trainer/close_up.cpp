@@ -72,8 +72,8 @@ render::Eye eye_of(const ActiveLesson& p, float aspect) {
     lens.aspect = aspect;
     lens.znear = static_cast<float>(0.2 * size);
     lens.zfar = 1.0F;  // what is far is no part of a close-up
-    return render::make_eye(glm::vec3(p.view.close_up.tool * p.view.close_up.eye), glm::vec3(p.view.close_up.tool.position),
-                            lens);
+    return render::make_eye(glm::vec3(p.view.close_up.tool * p.view.close_up.eye),
+                            glm::vec3(p.view.close_up.tool.position), lens);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ const Pose& wrench_for(ActiveLesson& p, const lesson::Step& due) {
     const std::size_t step = p.course->lesson().current;
     if (!p.coaching.ghost || p.coaching.ghost->first != step)
         p.coaching.ghost = {step, wrench_on(hand_of(p).rest, p.course->setup(), p.course->state(), due.joint,
-                                   due.kind == lesson::StepKind::loosen)};
+                                            due.kind == lesson::StepKind::loosen)};
     return p.coaching.ghost->second;
 }
 

@@ -177,7 +177,8 @@ void draw_hint(const ActiveLesson& p, const Said& said, const glm::dvec2& size, 
     }
     if (p.coaching.hints.shown) {
         lines.push_back({lesson::say(w, *p.coaching.hints.shown), white});
-        if (std::string motion = lesson::say_motion(w, *p.coaching.hints.shown, *said.controls); !motion.empty())
+        if (std::string motion = lesson::say_motion(w, *p.coaching.hints.shown, *said.controls);
+            !motion.empty())
             lines.push_back({std::move(motion), pale});
     }
     plate_of("##hint", {narrow ? whole - 12.0F * scale : 0.5F * whole, 12.0F * scale},

@@ -85,14 +85,14 @@ void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State&
     const double aside = (hand.misses % 2 == 1 ? 1.0 : -1.0) * to_radians(60.0) * (hand.misses / 2);
     const double wanted =
         -std::atan2(glm::dot(out, nut.e2), glm::dot(out, nut.e1)) - 0.5 * sign * stroke + aside;
-    const auto grip = motion::choose_grip(setup, state.tool_contact ? &*state.tool_contact : nullptr, *hand.nut,
-                                          state.joints[*hand.nut].nut.angle, wanted, sign, stroke);
+    const auto grip = motion::choose_grip(setup, state.tool_contact ? &*state.tool_contact : nullptr,
+                                          *hand.nut, state.joints[*hand.nut].nut.angle, wanted, sign, stroke);
     hand.handle = grip.handle;
     hand.flipped = grip.flipped;
     hand.room = grip.room;
     hand.above = state.tool_contact ? motion::room_above(setup, *state.tool_contact, *hand.nut,
-                                                  state.joints[*hand.nut].nut.angle, grip, hover)
-                             : hover;
+                                                         state.joints[*hand.nut].nut.angle, grip, hover)
+                                    : hover;
 }
 
 void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
@@ -110,7 +110,9 @@ void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& s
 }
 
 void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
-    hand.pose = hand.wrench && state.tool_contact && state.tool_contact->in_hand ? state.tool_contact->god_object.tool : hand.pose;
+    hand.pose = hand.wrench && state.tool_contact && state.tool_contact->in_hand
+                    ? state.tool_contact->god_object.tool
+                    : hand.pose;
     Pose up = at_nut(hand, setup, state, hand.above);
     up.orientation = hand.pose.orientation;
     // Caught on the way there: off what holds it, not on through that.

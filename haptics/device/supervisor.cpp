@@ -21,7 +21,8 @@ force::OutputCommand within(const Description& d, force::OutputCommand command) 
         if (!d.renders[static_cast<std::size_t>(i)]) command.force[i] = 0.0;
         if (!d.renders[static_cast<std::size_t>(i) + 3]) command.torque[i] = 0.0;
     }
-    return {force::clamp_length(command.force, d.limits.force), force::clamp_length(command.torque, d.limits.torque)};
+    return {force::clamp_length(command.force, d.limits.force),
+            force::clamp_length(command.torque, d.limits.torque)};
 }
 
 }  // namespace

@@ -124,7 +124,8 @@ TEST_CASE("where the wrench first touches the reducer it is found, and deeper") 
             (crosses(middle) ? in : free) = middle;
         }
         std::array<Contact, 32> contacts;
-        const ContactQueryResult touch = find_contacts(reducer.world, reducer.tool, at(free), 0.5 * mm, state, contacts);
+        const ContactQueryResult touch =
+            find_contacts(reducer.world, reducer.tool, at(free), 0.5 * mm, state, contacts);
         REQUIRE(touch.count > 0);
         // Later by no more than leaves the god-object, which keeps its skin, 0.1 mm deep.
         CHECK(contacts[0].distance < GodObjectParameters{}.skin + 0.1 * mm);

@@ -24,7 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (value && write_value(field, *value, report) && *value >= field.low && *value <= field.high &&
             value_of(field, report) != value)
             std::abort();
-        if (value && !(normalized_value(field, *value) >= -1.0 && normalized_value(field, *value) <= 1.0)) std::abort();
+        if (value && !(normalized_value(field, *value) >= -1.0 && normalized_value(field, *value) <= 1.0))
+            std::abort();
     }
     if (const auto layout = six_axis_layout(*descriptor)) {
         SixAxisState state;

@@ -22,7 +22,7 @@ Script script(const std::string& name, std::vector<Obstacle> obstacles, std::vec
         if (const Rod* rod = std::get_if<Rod>(&obstacle)) s.scene.pins.push_back({rod->b, rod->radius});
         for (std::size_t i = first; i < s.scene.pins.size(); ++i)
             s.scene.pins[i].obstacle =
-                    collision::ObstacleId::fixed(static_cast<std::size_t>(&obstacle - obstacles.data()));
+                collision::ObstacleId::fixed(static_cast<std::size_t>(&obstacle - obstacles.data()));
     }
     s.scene.obstacles = std::move(obstacles);
     return s;

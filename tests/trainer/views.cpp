@@ -36,13 +36,15 @@ TEST_CASE(
     const servo::Setup& setup = (*begun)->setup();
     const servo::State& state = (*begun)->state();
     const Pose rest{Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)};
-    const scene::Postures postures = scene::make_postures(&state.tool_contact->wrench, setup.wrench.handle_length);
+    const scene::Postures postures =
+        scene::make_postures(&state.tool_contact->wrench, setup.wrench.handle_length);
     const Vec3 shoulder(0.6, 0.6, 0.7);
     motion::Sight sight;
     int outside_before = 0;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
-        view::ViewOf of{setup, &*state.tool_contact, i, nut, trainer::wrench_on(rest, setup, state, i, false)};
+        view::ViewOf of{setup, &*state.tool_contact, i, nut,
+                        trainer::wrench_on(rest, setup, state, i, false)};
         const std::size_t grip = scene::natural_grip(postures, *of.wrench, Vec3(0, 1, 0), shoulder);
         const Vec3 wrist = *of.wrench * postures.on_handle.at(grip).position[hand::wrist];
         view::Orbit from;

@@ -20,7 +20,7 @@ int run_new(const std::string& given, const std::string& title) {
     const std::string name = title.empty() ? last.string() : title;
     if (Status made = content::create_assembly(folder, name); !made) return print_error(made.error());
     const Status said = print(fmt::format("{}\nCheck it with: bolt-author validate {}\n",
-                                        (folder / "assembly.json").string(), given));
+                                          (folder / "assembly.json").string(), given));
     return said ? 0 : print_error(said.error());
 }
 

@@ -67,8 +67,8 @@ int run(const std::string& name, bool as_json) {
     if (!touch) return print_error(touch.error());
     if (!*touch)
         return print_error({ErrorCode::bad_content,
-                         fmt::format("{} has no contact model, so nothing tells what hides what", name),
-                         "\"contact\" under \"models\", and a wrench with a model"});
+                            fmt::format("{} has no contact model, so nothing tells what hides what", name),
+                            "\"contact\" under \"models\", and a wrench with a model"});
     session::seat_nuts(setup, **touch);
     std::vector<Row> rows;
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {

@@ -48,7 +48,8 @@ int run_words(std::vector<std::string> files) {
             worst = std::max(worst, print_error(errors));
             continue;
         }
-        const Status said = print(fmt::format("{}: {}, {} texts\n", file, loaded.words.name, words::key_count));
+        const Status said =
+            print(fmt::format("{}: {}, {} texts\n", file, loaded.words.name, words::key_count));
         if (!said) return print_error(said.error());
     }
     return worst;

@@ -67,10 +67,12 @@ Result<BareRenderer> BareRenderer::create(gpu::Device& device, VkExtent2D extent
 Status BareRenderer::render(gpu::FrameContext& frame, const render::Scene& scene, const render::Eye& eye) {
     const VkCommandBuffer commands = frame.commands();
     frame.begin_timing("bare");
-    gpu::image_barrier_discarding(commands, drawn_.get(), ResourceUse::color_target, ResourceUse::color_target);
-    gpu::image_barrier_discarding(commands, depth_.get(), ResourceUse::depth_target, ResourceUse::depth_target,
-                                  {VK_IMAGE_ASPECT_DEPTH_BIT});
-    gpu::image_barrier_discarding(commands, picture_.get(), ResourceUse::transfer_from, ResourceUse::color_target);
+    gpu::image_barrier_discarding(commands, drawn_.get(), ResourceUse::color_target,
+                                  ResourceUse::color_target);
+    gpu::image_barrier_discarding(commands, depth_.get(), ResourceUse::depth_target,
+                                  ResourceUse::depth_target, {VK_IMAGE_ASPECT_DEPTH_BIT});
+    gpu::image_barrier_discarding(commands, picture_.get(), ResourceUse::transfer_from,
+                                  ResourceUse::color_target);
     VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     color.imageView = drawn_.view();
     color.imageLayout = color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/base/minimum_jerk.hpp"
 #include "content/format/load.hpp"
+#include "engine/base/minimum_jerk.hpp"
 #include "engine/base/random.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/servo_setup.hpp"

@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
-#include "engine/base/minimum_jerk.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/topology.hpp"
+#include "engine/base/minimum_jerk.hpp"
 #include "engine/base/random.hpp"
 #include "haptics/collision/narrow_phase.hpp"
 
@@ -143,7 +143,8 @@ std::vector<Pose> make_sweep(const collision::World& world, const collision::Sol
         pose.position += shift;
         for (int i = 0; i < 60; ++i) {
             std::array<collision::Contact, 32> contacts;
-            const collision::ContactQueryResult found = find_contacts(world, tool, pose, 1e-4, state, contacts);
+            const collision::ContactQueryResult found =
+                find_contacts(world, tool, pose, 1e-4, state, contacts);
             if (found.count == 0 || contacts[0].distance >= -deepest) return pose;
             const Vec3 out = (-contacts[0].distance - 0.5 * deepest) * contacts[0].normal;
             shift += out;

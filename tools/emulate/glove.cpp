@@ -31,7 +31,8 @@ hand::PerSensor<std::uint8_t> raw_values(hand::Posture posture) {
     return raw;
 }
 
-hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::PerSensor<hand::LinearFit>& lines) {
+hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand,
+                                         const hand::PerSensor<hand::LinearFit>& lines) {
     using hand::Sensor;
     hand::PerSensor<double> angle{};
     const auto set = [&](Sensor sensor, double value) { angle[hand::index(sensor)] = value; };

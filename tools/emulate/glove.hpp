@@ -33,7 +33,8 @@ hand::PerSensor<std::uint8_t> raw_values(hand::Posture posture);
 constexpr hand::LinearFit sensor_fit{0.013, 50.0};
 
 // What sensors give while the hand is bent like this: 1 … 255 each.
-hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::PerSensor<hand::LinearFit>& lines);
+hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand,
+                                         const hand::PerSensor<hand::LinearFit>& lines);
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::LinearFit& all = sensor_fit);
 
 class Glove {

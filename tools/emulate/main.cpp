@@ -14,8 +14,8 @@
 #include "engine/base/console.hpp"
 #include "engine/base/program.hpp"
 #include "haptics/hand/closed_hand.hpp"
-#include "tools/emulate/serial_glove.hpp"
 #include "tools/emulate/play_hid.hpp"
+#include "tools/emulate/serial_glove.hpp"
 
 using namespace bolt;
 
@@ -24,12 +24,13 @@ namespace {
 volatile std::sig_atomic_t ended = 0;
 
 // As hand::Posture has them, and a hand around a handle.
-constexpr std::array<const char*, hand::posture_count + 1> postures{"flat", "fist", "spread", "across", "grip"};
+constexpr std::array<const char*, hand::posture_count + 1> postures{"flat", "fist", "spread", "across",
+                                                                    "grip"};
 constexpr double gripping = 0.9;  // hand::closing's share
 
 hand::PerSensor<std::uint8_t> raw_in(std::size_t posture) {
     return posture < hand::posture_count ? emulate::raw_values(static_cast<hand::Posture>(posture))
-                                 : emulate::raw_values(hand::closed_hand_angles(gripping));
+                                         : emulate::raw_values(hand::closed_hand_angles(gripping));
 }
 
 // Takes the postures that are named on the standard input, a line each, until it ends.

@@ -30,9 +30,9 @@ Bytes descriptor(bool in_one) {
 
 Puck::Puck(const PuckOptions& design)
     : in_one_(design.in_one), faults_(design.faults), random_(design.faults.seed) {
-    design_ = in_one_
-                  ? HidDescription{0x256f, 0xc62e, "Emulated SpaceMouse", design.serial, descriptor(true)}
-                  : HidDescription{0x046d, 0xc626, "Emulated SpaceNavigator", design.serial, descriptor(false)};
+    design_ =
+        in_one_ ? HidDescription{0x256f, 0xc62e, "Emulated SpaceMouse", design.serial, descriptor(true)}
+                : HidDescription{0x046d, 0xc626, "Emulated SpaceNavigator", design.serial, descriptor(false)};
 }
 
 std::vector<Bytes> Puck::advance(double now) {

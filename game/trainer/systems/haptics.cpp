@@ -23,7 +23,8 @@ void say(ActiveLesson& p, std::span<const lesson::Event> events) {
 }
 
 // After each tick: the components first, then whatever follows the work tick by tick.
-void write_tick(scene::World& world, ActiveLesson& p, const servo::Input& input, const servo::Output& output) {
+void write_tick(scene::World& world, ActiveLesson& p, const servo::Input& input,
+                const servo::Output& output) {
     const session::Course& course = *p.course;
     world::write_snapshot(world, {course.state(), input, output});
     if (input.grip == servo::Grip::wrench) note(p.plot, course.lesson(), world);
@@ -31,7 +32,8 @@ void write_tick(scene::World& world, ActiveLesson& p, const servo::Input& input,
     say(p, course.events());
     const sound::Cues cues = sound::cues_of(course.events());
     if (p.sound.live) p.sound.live->tick(world, cues);
-    if (p.sound.captions) note(*p.sound.captions, sound::hear(p.sound.ear, course.setup(), world, cues), course.setup().dt);
+    if (p.sound.captions)
+        note(*p.sound.captions, sound::hear(p.sound.ear, course.setup(), world, cues), course.setup().dt);
 }
 
 bool goes_on(const ActiveLesson& p) { return goes_on(p.undo, *p.course); }
@@ -55,7 +57,8 @@ void step_ticks(scene::World& world, Frame& frame) {
     ActiveLesson& p = frame.playing;
     session::Course& course = *p.course;
     if (!p.pace.paused && !p.pace.finished) p.pace.owed += frame.seconds;
-    if (!p.pace.paused && !p.pace.finished) p.pace.lagged += frame.late + std::max(0.0, p.pace.owed - longest_step);
+    if (!p.pace.paused && !p.pace.finished)
+        p.pace.lagged += frame.late + std::max(0.0, p.pace.owed - longest_step);
     p.pace.owed = std::min(p.pace.owed, longest_step);
     const servo::Setup& setup = course.setup();
     for (; p.pace.owed >= setup.dt && goes_on(p) && frame.status; p.pace.owed -= setup.dt) {
@@ -91,10 +94,11 @@ void follow_station(scene::World& world, Frame& frame) {
                             fmt::format("pictures took so long that {} ticks of the servo could not be kept",
                                         at.bench->lost_ticks()),
                             "the session until then is whole");
-    const Status sent = wish(at, *p.course,
-                             {p.pace.paused || p.pace.finished || !goes_on(p), frame.wanted.wants(Action::tool),
-                              frame.wanted.wants(Action::recentre), steps_back(p.undo, p.course->lesson()),
-                              glm::angleAxis(p.view.camera.shown.yaw, Vec3(0, 1, 0))});
+    const Status sent =
+        wish(at, *p.course,
+             {p.pace.paused || p.pace.finished || !goes_on(p), frame.wanted.wants(Action::tool),
+              frame.wanted.wants(Action::recentre), steps_back(p.undo, p.course->lesson()),
+              glm::angleAxis(p.view.camera.shown.yaw, Vec3(0, 1, 0))});
     if (frame.status && !sent) frame.status = sent;
     const Hand hand = write_hand(world, hand_of(at));
     if (hand.wrench && !had)

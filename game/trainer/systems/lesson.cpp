@@ -28,7 +28,8 @@ void lesson_system(scene::World& world, Frame& frame) {
             p.coaching.hints.shown.reset();
         lesson::update(p.coaching.mistakes, p.undo.by_mistake ? 0.0 : frame.seconds);
     }
-    const lesson::Hint* hint = p.coaching.hints.shown && !p.pace.finished ? &*p.coaching.hints.shown : nullptr;
+    const lesson::Hint* hint =
+        p.coaching.hints.shown && !p.pace.finished ? &*p.coaching.hints.shown : nullptr;
     const int outlined = hint != nullptr ? hint->outlined() : -1;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         glm::vec4 color = nothing;

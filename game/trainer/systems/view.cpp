@@ -55,7 +55,8 @@ void look_at_work(ActiveLesson& p, const glm::dvec2& picture) {
 // What is due has been out of the picture or hidden for a while. Not in an assessment: nobody helps there.
 bool lost(ActiveLesson& p, const Frame& frame) {
     const auto joint = at_work(p);
-    if (!joint || p.course->lesson().mode == lesson::Mode::assessment || p.pace.finished || p.pace.paused) return false;
+    if (!joint || p.course->lesson().mode == lesson::Mode::assessment || p.pace.finished || p.pace.paused)
+        return false;
     const view::ViewOf of = view_of(p, *joint);
     const Screen screen = screen_of(p, frame.size);
     const auto at = project(screen, of.nut);
@@ -70,14 +71,15 @@ bool lost(ActiveLesson& p, const Frame& frame) {
 }  // namespace
 
 Screen screen_of(const ActiveLesson& p, const glm::dvec2& size) {
-    return {view::eye_of(p.view.camera.shown, render::bounds(p.scene), static_cast<float>(size.x / size.y)), size};
+    return {view::eye_of(p.view.camera.shown, render::bounds(p.scene), static_cast<float>(size.x / size.y)),
+            size};
 }
 
 void view_system(scene::World& world, Frame& frame) {
     ActiveLesson& p = frame.playing;
     if (frame.wanted.wants(Action::whole_view))
-        p.view.camera.go(
-            view::framing(p.view.camera.goal, p.place.machine, static_cast<float>(frame.size.x / frame.size.y)));
+        p.view.camera.go(view::framing(p.view.camera.goal, p.place.machine,
+                                       static_cast<float>(frame.size.x / frame.size.y)));
     if (frame.wanted.wants(Action::find_view) || lost(p, frame)) look_at_work(p, frame.size);
     (void)p.view.camera.advance(frame.seconds);
     scene::thin_near_arms(world, Vec3(view::viewpoint_of(p.view.camera.shown).eye));

@@ -64,13 +64,13 @@ void say_misplaced(const Placement& p, const std::string& name, std::size_t join
     }
     const double angle =
         std::atan2(glm::length(glm::cross(p.model_axis, p.file_axis)), glm::dot(p.model_axis, p.file_axis));
-    messages.error(
-        joint_pointer(joint, "axis"),
-        fmt::format("the axis is [{:.4g}, {:.4g}, {:.4g}] here, but +Y of its node {} is [{:.4g}, "
-                    "{:.4g}, {:.4g}], {:.3g} degrees off",
-                    p.file_axis.x, p.file_axis.y, p.file_axis.z, content::in_quotes(name), p.model_axis.x,
-                    p.model_axis.y, p.model_axis.z, to_degrees(angle)),
-        angle > to_radians(179.0) ? "expected the opposite direction of the bolt" : "expected both within 0.1 degrees");
+    messages.error(joint_pointer(joint, "axis"),
+                   fmt::format("the axis is [{:.4g}, {:.4g}, {:.4g}] here, but +Y of its node {} is [{:.4g}, "
+                               "{:.4g}, {:.4g}], {:.3g} degrees off",
+                               p.file_axis.x, p.file_axis.y, p.file_axis.z, content::in_quotes(name),
+                               p.model_axis.x, p.model_axis.y, p.model_axis.z, to_degrees(angle)),
+                   angle > to_radians(179.0) ? "expected the opposite direction of the bolt"
+                                             : "expected both within 0.1 degrees");
 }
 
 }  // namespace
