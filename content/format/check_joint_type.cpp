@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "content/format/read_joint_type.hpp"
-#include "haptics/joint/torque.hpp"
+#include "content/format/read_joints.hpp"
+#include "haptics/joint/design.hpp"
 
 namespace bolt::content {
 

@@ -1,10 +1,10 @@
-// A JSON text that remembers where every key and value stands, so that a mistake found later can be pointed
-// at.
+// JSON pointers (RFC 6901): "/joints/3/id".
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +12,29 @@
 #include "engine/base/error.hpp"
 
 namespace bolt::content {
+
+// One reference token, escaped: "a/b" becomes "a~1b".
+std::string pointer_token(std::string_view key);
+
+// All reference tokens, unescaped.
+std::vector<std::string> pointer_tokens(std::string_view pointer);
+
+// The last reference token, unescaped; empty for the whole document.
+std::string last_token(std::string_view pointer);
+
+// How messages show the names of a file, and what an author may have meant by one that is not there.
+
+// A text of the file as a message shows it: quoted, cut when long, without control characters.
+std::string in_quotes(std::string_view text);
+
+// The one known name that is near enough to be what was meant; empty if none is, or several are as near.
+std::string meant(std::string_view name, std::span<const std::string> known);
+
+// "did you mean "x"?", or "expected one of a, b, c".
+std::string suggest(std::string_view name, std::span<const std::string> known);
+
+// A JSON text that remembers where every key and value stands, so that a mistake found later can be pointed
+// at.
 
 // What a content file may be at most: bounds that no author meets, and that keep a hostile file cheap.
 inline constexpr std::size_t json_size_limit = 4U << 20U;  // bytes

@@ -6,7 +6,6 @@
 #include <cctype>
 
 #include "content/format/json_document.hpp"
-#include "content/format/wording.hpp"
 #include "engine/base/nearest.hpp"
 
 namespace bolt::content {

@@ -10,8 +10,6 @@
 #include <optional>
 
 #include "content/format/json_document.hpp"
-#include "content/format/json_pointer.hpp"
-#include "content/format/wording.hpp"
 
 namespace bolt::content {
 

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "content/format/json_document.hpp"
 #include "content/format/read_assembly.hpp"
-#include "content/format/wording.hpp"
 
 namespace bolt::content {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "content/format/json_pointer.hpp"
+#include "content/format/json_document.hpp"
 
 namespace bolt::content {
 

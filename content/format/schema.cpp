@@ -1,17 +1,259 @@
 #include "content/format/schema.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
 
 #include "content/format/embedded.hpp"
-#include "content/format/json_pointer.hpp"
-#include "content/format/schema_explain.hpp"
-#include "content/format/schema_validator.hpp"
+#include "content/format/json_document.hpp"
 
 namespace bolt::content {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_mistakes = 200;  // of one value
+
+const json& resolved(const json& schema, const json& node) {
+    const json* at = &node;
+    while (at->contains("$ref"))
+        at = &schema.at(json::json_pointer((*at)["$ref"].get_ref<const std::string&>().substr(1)));
+    return *at;
+}
+
+std::string type_in_words(const json& value) {
+    if (value.is_object()) return "an object {...}";
+    if (value.is_array()) return "a list [...]";
+    if (value.is_string()) return fmt::format("the text {}", in_quotes(value.get_ref<const std::string&>()));
+    if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+    if (value.is_null()) return "null";
+    return fmt::format("the number {:g}", value.get<double>());
+}
+
+// What a member is for, in the schema's own words.
+std::string purpose(const json& node) {
+    for (const char* key : {"description", "title"})
+        if (node.contains(key)) return node[key].get<std::string>();
+    return {};
+}
+
+std::string unit_of(const std::string& name) {
+    const std::size_t bar = name.rfind('_');
+    if (bar == std::string::npos) return {};
+    const std::string unit = name.substr(bar + 1);
+    for (const std::string_view known :
+         {"mm", "um", "Nm", "deg", "GPa", "MPa", "g", "s", "kN", "percent", "turns"})
+        if (unit == known) return unit == "Nm" ? " (N·m)" : unit == "um" ? " (µm)" : " (" + unit + ")";
+    return {};
+}
+
+std::string number_in_words(const json& node, const std::string& name) {
+    std::vector<std::string> bounds;
+    if (node.contains("exclusiveMinimum"))
+        bounds.push_back(fmt::format("> {:g}", node["exclusiveMinimum"].get<double>()));
+    if (node.contains("minimum")) bounds.push_back(fmt::format(">= {:g}", node["minimum"].get<double>()));
+    if (node.contains("maximum")) bounds.push_back(fmt::format("<= {:g}", node["maximum"].get<double>()));
+    return fmt::format("a number {}{}", fmt::join(bounds, " and "), unit_of(name));
+}
+
+std::string list_in_words(const json& node) {
+    const std::size_t least = node.value("minItems", std::size_t{0});
+    const std::size_t most = node.value("maxItems", std::size_t{0});
+    if (least > 0 && least == most) return fmt::format("a list of {} values", least);
+    if (least > 0) return fmt::format("a list of {} to {} values", least, most);
+    return fmt::format("a list of at most {} values", most);
+}
+
+std::string wanted(const json& node, const std::string& name) {
+    if (node.contains("enum")) {
+        std::vector<std::string> names;
+        for (const json& option : node["enum"]) names.push_back(option.get<std::string>());
+        return names.size() == 1 ? in_quotes(names[0]) : fmt::format("one of {}", fmt::join(names, ", "));
+    }
+    const std::string type = node.value("type", std::string{});
+    if (type == "number") return number_in_words(node, name);
+    if (type == "array") return list_in_words(node);
+    if (type == "string") return "a text in double quotes";
+    if (type == "boolean") return "true or false";
+    return "an object {...}";
+}
+
+std::vector<std::string> member_names(const json& node) {
+    std::vector<std::string> names;
+    if (node.contains("properties"))
+        for (const auto& [name, sub] : node["properties"].items()) names.push_back(name);
+    return names;
+}
+
+bool right_type(const json& node, const json& value) {
+    const std::string type = node.value("type", std::string(node.contains("enum") ? "string" : ""));
+    return (type == "number" && value.is_number()) || (type == "array" && value.is_array()) ||
+           (type == "string" && value.is_string()) || (type == "boolean" && value.is_boolean()) ||
+           (type == "object" && value.is_object()) || type.empty();
+}
+
+void explain_number(const json& node, double value, const std::string& name,
+                    std::vector<SchemaMistake>& out) {
+    const bool low = (node.contains("minimum") && value < node["minimum"].get<double>()) ||
+                     (node.contains("exclusiveMinimum") && value <= node["exclusiveMinimum"].get<double>());
+    const bool high = node.contains("maximum") && value > node["maximum"].get<double>();
+    if (!low && !high) return;
+    SchemaMistake mistake;
+    mistake.what = fmt::format("{:g} is too {}", value, low ? "small" : "large");
+    mistake.expected = "expected " + number_in_words(node, name);
+    out.push_back(std::move(mistake));
+}
+
+void explain_text(const json& node, const std::string& text, std::vector<SchemaMistake>& out) {
+    SchemaMistake mistake;
+    if (node.contains("enum")) {
+        std::vector<std::string> names;
+        for (const json& option : node["enum"]) names.push_back(option.get<std::string>());
+        if (std::find(names.begin(), names.end(), text) != names.end()) return;
+        mistake.what = fmt::format("{} is not known here", in_quotes(text));
+        mistake.expected = suggest(text, names);
+    } else {
+        std::size_t length = 0;  // characters, not bytes
+        for (const char c : text) length += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1U : 0U;
+        const std::size_t least = node.value("minLength", std::size_t{0});
+        const std::size_t most = node.value("maxLength", length);
+        if (length >= least && length <= most) return;
+        mistake.what = length < least ? "this text is empty" : fmt::format("{} is too long", in_quotes(text));
+        mistake.expected = length < least ? "expected at least one letter"
+                                          : fmt::format("expected at most {} letters", most);
+    }
+    out.push_back(std::move(mistake));
+}
+
+void explain_count(const json& node, std::size_t count, const char* least_key, const char* most_key,
+                   std::vector<SchemaMistake>& out) {
+    const std::size_t least = node.value(least_key, std::size_t{0});
+    const std::size_t most = node.value(most_key, count);
+    if (count >= least && count <= most) return;
+    SchemaMistake mistake;
+    mistake.what = count == 0 ? "this is empty" : fmt::format("{} values", count);
+    mistake.expected = least == most   ? fmt::format("expected {}", least)
+                       : count < least ? fmt::format("expected at least {}", least)
+                                       : fmt::format("expected at most {}", most);
+    out.push_back(std::move(mistake));
+}
+
+// Unknown names first: one that is near a missing name explains both.
+void explain_members(const json& schema, const json& node, const json& value,
+                     std::vector<SchemaMistake>& out) {
+    const std::vector<std::string> names = member_names(node);
+    std::vector<std::string> absent;
+    for (const std::string& name : names)
+        if (!value.contains(name)) absent.push_back(name);
+    std::vector<std::string> explained;
+    if (node.contains("additionalProperties") && node["additionalProperties"] == false) {
+        for (const auto& [key, member] : value.items()) {
+            if (std::find(names.begin(), names.end(), key) != names.end()) continue;
+            if (out.size() >= most_mistakes) break;
+            std::string best = meant(key, absent);
+            if (best.empty()) best = meant(key, names);
+            SchemaMistake mistake;
+            mistake.key = key;
+            mistake.at_key = true;
+            mistake.what = fmt::format("unknown property {}", in_quotes(key));
+            mistake.expected = best.empty() ? suggest({}, absent.empty() ? names : absent)
+                                            : fmt::format("did you mean {}?", in_quotes(best));
+            mistake.unusable = best;
+            if (!best.empty()) explained.push_back(best);
+            out.push_back(std::move(mistake));
+        }
+    }
+    for (const json& entry : node.value("required", json::array())) {
+        const auto& name = entry.get_ref<const std::string&>();
+        if (value.contains(name) || std::find(explained.begin(), explained.end(), name) != explained.end())
+            continue;
+        const json& member = node["properties"][name];
+        std::string why = purpose(member);
+        if (why.empty()) why = purpose(resolved(schema, member));
+        SchemaMistake mistake;
+        mistake.what = fmt::format("required property {} is missing", in_quotes(name));
+        mistake.expected = fmt::format("expected {}: {}", wanted(resolved(schema, member), {}), why);
+        mistake.unusable = name;
+        out.push_back(std::move(mistake));
+    }
+}
+
+}  // namespace
+
+const json* schema_of(const json& schema, const std::vector<std::string>& tokens) {
+    const json* at = &resolved(schema, schema);
+    for (const std::string& token : tokens) {
+        if (at->contains("properties") && (*at)["properties"].contains(token))
+            at = &(*at)["properties"][token];
+        else if (at->contains("items"))
+            at = &(*at)["items"];
+        else if (at->contains("additionalProperties") && (*at)["additionalProperties"].is_object())
+            at = &(*at)["additionalProperties"];
+        else
+            return nullptr;
+        at = &resolved(schema, *at);
+    }
+    return at;
+}
+
+std::vector<SchemaMistake> explain_value(const json& schema, const json& node, const json& value,
+                                         const std::string& name) {
+    std::vector<SchemaMistake> out;
+    if (!right_type(node, value)) {
+        SchemaMistake mistake;
+        mistake.what = type_in_words(value) + " cannot stand here";
+        mistake.expected = "expected " + wanted(node, name);
+        out.push_back(std::move(mistake));
+    } else if (value.is_number()) {
+        explain_number(node, value.get<double>(), name, out);
+    } else if (value.is_string()) {
+        explain_text(node, value.get_ref<const std::string&>(), out);
+    } else if (value.is_array()) {
+        explain_count(node, value.size(), "minItems", "maxItems", out);
+    } else if (value.is_object()) {
+        explain_count(node, value.size(), "minProperties", "maxProperties", out);
+        explain_members(schema, node, value, out);
+    }
+    return out;
+}
+
+using valijson::adapters::NlohmannJsonAdapter;
+
+namespace {
+
+struct CompiledSchema {
+    valijson::Schema schema;  // cannot be moved
+    CompiledSchema() { valijson::SchemaParser().populateSchema(NlohmannJsonAdapter(schema_json()), schema); }
+};
+
+}  // namespace
+
+std::map<std::vector<std::string>, std::string> schema_complaints(const nlohmann::json& document) {
+    static const CompiledSchema compiled;
+    valijson::Validator validator;
+    valijson::ValidationResults results;
+    validator.validate(compiled.schema, NlohmannJsonAdapter(document), &results);
+    std::map<std::vector<std::string>, std::string> complaints;
+    for (const auto& error : results) {
+        // The context is "<root>", "[joints]", "[3]", ...
+        std::vector<std::string> tokens;
+        for (std::size_t i = 1; i < error.context.size(); ++i)
+            tokens.push_back(error.context[i].substr(1, error.context[i].size() - 2));
+        complaints.emplace(std::move(tokens), error.description);
+    }
+    return complaints;
+}
 
 using nlohmann::json;
 

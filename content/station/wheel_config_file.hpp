@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "engine/base/result.hpp"
-#include "haptics/device/wheel_config.hpp"
+#include "haptics/device/device.hpp"
 
 namespace bolt::content {
 

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "content/format/json_document.hpp"
 #include "content/format/members.hpp"
-#include "content/format/wording.hpp"
-#include "content/trainee/data_folder.hpp"
+#include "content/trainee/settings.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::content {

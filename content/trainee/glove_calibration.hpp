@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "haptics/hand/hand_angles.hpp"
+#include "haptics/hand/measured_hand.hpp"
 
 namespace bolt::content {
 

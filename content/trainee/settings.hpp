@@ -1,10 +1,4 @@
-// How a trainee wants the program to be, kept as a JSON file:
-//
-//   {"format": "boltwright settings 1", "trainee": "Ada", "language": "de", "volume": 0.8, "captions": true,
-//    "palette": "distinct", "left_handed": false, "force_scale": 0.5, "seated_height_m": 1.2,
-//    "law": "published", "keys": {"tool": "T", "hint": "F1"}}
-//
-// "law" is left out while the trainee has chosen none.
+// Where a program keeps what belongs to its user.
 #pragma once
 
 #include <filesystem>
@@ -17,6 +11,20 @@
 #include "engine/base/result.hpp"
 
 namespace bolt::content {
+
+// By the XDG base directory specification; it need not be there yet. An error: the environment names none.
+Result<std::filesystem::path> data_folder();
+
+// A trainee's name as a file's: another for every name, of letters that every file system takes.
+std::string file_name_of(std::string_view trainee);
+
+// How a trainee wants the program to be, kept as a JSON file:
+//
+//   {"format": "boltwright settings 1", "trainee": "Ada", "language": "de", "volume": 0.8, "captions": true,
+//    "palette": "distinct", "left_handed": false, "force_scale": 0.5, "seated_height_m": 1.2,
+//    "law": "published", "keys": {"tool": "T", "hint": "F1"}}
+//
+// "law" is left out while the trainee has chosen none.
 
 // `distinct`: colours that stay apart for those who do not tell red from green.
 enum class PaletteKind : std::uint8_t { usual, distinct };

@@ -1,17 +1,14 @@
 #include "content/words/words.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "content/format/assembly.hpp"
 #include "content/format/json_document.hpp"
-#include "content/format/json_pointer.hpp"
-#include "content/format/load.hpp"
-#include "content/format/wording.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::words {

@@ -1,10 +1,10 @@
-// One language: a text for every key, read from content/words/LANGUAGE.json:
-//
-//   {"format": "boltwright words 1", "language": "de", "name": "Deutsch", "decimal": ",",
-//    "words": {"hint.next": "Als Nächstes {joint}.", ...}}
+// Names a text that the program says to people. Code that names one that is not in the table does not
+// compile.
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <span>
@@ -12,10 +12,35 @@
 #include <variant>
 #include <vector>
 
-#include "content/words/key.hpp"
+#include "content/words/key_rows.hpp"
 #include "engine/base/error.hpp"
 
 namespace bolt::words {
+
+class Key {
+  public:
+    // Implicit: a key is written as its name.
+    consteval Key(const char* name) : index_(find(name)) {}  // NOLINT(google-explicit-constructor)
+    static constexpr Key at(std::size_t index) { return Key(static_cast<std::uint16_t>(index)); }
+
+    [[nodiscard]] constexpr std::size_t index() const { return index_; }
+    [[nodiscard]] constexpr const KeyRow& row() const { return key_rows[index_]; }
+    friend constexpr bool operator==(const Key&, const Key&) = default;
+
+  private:
+    constexpr explicit Key(std::uint16_t index) : index_(index) {}
+    static consteval std::uint16_t find(std::string_view name) {
+        for (std::size_t i = 0; i < key_count; ++i)
+            if (key_rows[i].name == name) return static_cast<std::uint16_t>(i);
+        throw "there is no such key in content/words/key_rows.hpp";
+    }
+    std::uint16_t index_ = 0;
+};
+
+// One language: a text for every key, read from content/words/LANGUAGE.json:
+//
+//   {"format": "boltwright words 1", "language": "de", "name": "Deutsch", "decimal": ",",
+//    "words": {"hint.next": "Als Nächstes {joint}.", ...}}
 
 // A number that is written as the language writes it.
 struct Number {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/lesson/plan.hpp"
-#include "haptics/joint/torque.hpp"
+#include "haptics/joint/design.hpp"
 
 namespace bolt::analysis {
 

@@ -14,12 +14,10 @@
 #include "game/cli/commands.hpp"
 #include "game/station/choice.hpp"
 #include "game/station/wearer.hpp"
-#include "haptics/device/describe.hpp"
+#include "haptics/device/device.hpp"
 #include "haptics/device/device_thread.hpp"
 #include "haptics/device/hid_devices.hpp"
-#include "haptics/hand/glove_adapter.hpp"
 #include "haptics/hand/glove_driver.hpp"
-#include "haptics/hand/serial_port.hpp"
 
 namespace bolt::cli {
 

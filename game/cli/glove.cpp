@@ -14,11 +14,9 @@
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/wearer.hpp"
-#include "haptics/hand/cal_file.hpp"
-#include "haptics/hand/calibration_session.hpp"
+#include "haptics/hand/glove_calibration.hpp"
 #include "haptics/hand/glove_driver.hpp"
 #include "haptics/hand/measured_hand.hpp"
-#include "haptics/hand/serial_port.hpp"
 
 namespace bolt::cli {
 

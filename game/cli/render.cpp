@@ -9,7 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/assets/pose.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"

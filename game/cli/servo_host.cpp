@@ -6,7 +6,7 @@
 #include <cmath>
 #include <thread>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/servo_setup.hpp"
 #include "haptics/servo/thread.hpp"

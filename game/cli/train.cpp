@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "content/format/load.hpp"
-#include "content/trainee/data_folder.hpp"
+#include "content/format/assembly.hpp"
+#include "content/trainee/settings.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "game/cli/commands.hpp"
@@ -22,8 +22,7 @@
 #include "game/view/result_pictures.hpp"
 #include "game/view/size.hpp"
 #include "game/view/view_help.hpp"
-#include "haptics/hand/glove_adapter.hpp"
-#include "haptics/hand/serial_port.hpp"
+#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/console.hpp"
 #include "game/cli/interruption.hpp"
 #include "game/station/trial.hpp"
-#include "haptics/device/timer.hpp"
-#include "haptics/device/virtual_puck.hpp"
-#include "haptics/hand/serial_port.hpp"
+#include "haptics/device/device.hpp"
+#include "haptics/device/virtual_devices.hpp"
+#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
 

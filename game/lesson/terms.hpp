@@ -1,10 +1,10 @@
 // Text keys for the names of enumeration values.
 #pragma once
 
-#include "content/words/key.hpp"
+#include "content/words/words.hpp"
 #include "game/lesson/plan.hpp"
 #include "game/lesson/result.hpp"
-#include "haptics/force/watchdog.hpp"
+#include "haptics/force/output_stage.hpp"
 
 namespace bolt::lesson {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/random.hpp"
-#include "haptics/collision/visibility.hpp"
+#include "haptics/collision/world.hpp"
 #include "haptics/servo/setup.hpp"
 #include "haptics/servo/tool_contact.hpp"
 

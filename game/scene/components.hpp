@@ -8,7 +8,7 @@
 #include "engine/render/scene.hpp"
 #include "game/scene/hand_clearance.hpp"
 #include "game/world/components.hpp"
-#include "haptics/hand/skeleton.hpp"
+#include "haptics/hand/kinematics.hpp"
 
 namespace bolt::scene {
 

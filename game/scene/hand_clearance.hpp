@@ -12,7 +12,7 @@
 
 #include "engine/assets/model.hpp"
 #include "haptics/collision/world.hpp"
-#include "haptics/hand/skeleton.hpp"
+#include "haptics/hand/kinematics.hpp"
 
 namespace bolt::scene {
 

@@ -1,6 +1,6 @@
 #include "game/scene/lesson_models.hpp"
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/radiance_file.hpp"
 #include "game/scene/arrow.hpp"

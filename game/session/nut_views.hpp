@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "content/format/assembly.hpp"
-#include "haptics/collision/visibility.hpp"
+#include "haptics/collision/world.hpp"
 #include "haptics/servo/tool_contact.hpp"
 
 namespace bolt::session {

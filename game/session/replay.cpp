@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/device_text.hpp"
 
 namespace bolt::session {

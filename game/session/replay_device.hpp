@@ -1,9 +1,9 @@
-// The recorded hand of a session as a device that repeats its motion (haptics/device/recorded.hpp), in the
+// The recorded hand of a session as a device that repeats its motion (haptics/device/virtual_devices.hpp), in the
 // assembly's frame. For a station with an identity workspace mapping whose tool starts at `first`.
 #pragma once
 
 #include "game/session/session_file.hpp"
-#include "haptics/device/recorded.hpp"
+#include "haptics/device/virtual_devices.hpp"
 
 namespace bolt::session {
 

@@ -26,7 +26,7 @@
 #include "engine/base/result.hpp"
 #include "game/lesson/result.hpp"
 #include "game/session/tick.hpp"
-#include "haptics/servo/timing.hpp"
+#include "haptics/servo/thread.hpp"
 
 namespace bolt::session {
 

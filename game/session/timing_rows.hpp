@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "haptics/servo/timing.hpp"
+#include "haptics/servo/thread.hpp"
 
 namespace bolt::session {
 

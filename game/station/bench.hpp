@@ -2,7 +2,7 @@
 // tests implement one in virtual time.
 #pragma once
 
-#include "haptics/device/virtual_puck.hpp"
+#include "haptics/device/virtual_devices.hpp"
 #include "haptics/station/station.hpp"
 
 namespace bolt::station_setup {

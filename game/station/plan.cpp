@@ -8,8 +8,8 @@
 #include "game/session/contact_models.hpp"
 #include "game/session/nut_views.hpp"
 #include "game/session/servo_setup.hpp"
-#include "haptics/force/scaled.hpp"
-#include "haptics/hand/glove_adapter.hpp"
+#include "haptics/force/output_limits.hpp"
+#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::station_setup {
 

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "haptics/device/describe.hpp"
-#include "haptics/device/timer.hpp"
+#include "haptics/device/device.hpp"
 
 namespace bolt::station_setup {
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include "content/trainee/data_folder.hpp"
+#include "content/trainee/settings.hpp"
 #include "game/session/contact_models.hpp"
-#include "haptics/device/timer.hpp"
-#include "haptics/hand/closed_hand.hpp"
-#include "haptics/hand/glove_adapter.hpp"
+#include "haptics/device/device.hpp"
+#include "haptics/hand/kinematics.hpp"
+#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::station_setup {
 

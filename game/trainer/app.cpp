@@ -7,13 +7,13 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/scene/resting_place.hpp"
 #include "game/sound/materials.hpp"
 #include "game/trainer/hud.hpp"
 #include "game/trainer/occupied_areas.hpp"
 #include "game/trainer/ui_input.hpp"
-#include "haptics/force/scaled.hpp"
+#include "haptics/force/output_limits.hpp"
 
 namespace bolt::trainer {
 

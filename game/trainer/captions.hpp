@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "content/words/key.hpp"
+#include "content/words/words.hpp"
 #include "game/sound/sound_cues.hpp"
 
 namespace bolt::trainer {

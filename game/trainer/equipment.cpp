@@ -1,8 +1,8 @@
 #include "game/trainer/equipment.hpp"
 
 #include "game/station/plan.hpp"
-#include "haptics/device/timer.hpp"
-#include "haptics/hand/serial_port.hpp"
+#include "haptics/device/device.hpp"
+#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::trainer {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/platform/input.hpp"
-#include "haptics/device/virtual_puck.hpp"
+#include "haptics/device/virtual_devices.hpp"
 
 namespace bolt::trainer {
 

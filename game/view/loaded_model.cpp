@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/radiance_file.hpp"
 #include "engine/base/nearest.hpp"

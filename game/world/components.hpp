@@ -11,8 +11,8 @@
 #include "engine/base/pose.hpp"
 #include "engine/ecs/access.hpp"
 #include "engine/ecs/registry.hpp"
-#include "haptics/force/watchdog.hpp"
-#include "haptics/hand/skeleton.hpp"
+#include "haptics/force/output_stage.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "haptics/joint/stage.hpp"
 #include "haptics/servo/io.hpp"
 

@@ -2,8 +2,10 @@
 // (2005), 5.1.
 #pragma once
 
+#include <embree3/rtcore.h>
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cstdint>
 #include <glm/geometric.hpp>
 
@@ -73,6 +75,26 @@ inline OnSegments closest_on_segments(const Vec3& middle_a, const Vec3& half_a, 
     const double on_b = std::clamp((ab * on_a - b) / bb, -1.0, 1.0);
     on_a = std::clamp((ab * on_b + a) / aa, -1.0, 1.0);
     return {on_a, on_b, false};
+}
+
+// Point queries of Embree, which looks in float: what is within a radius in double is surely found.
+
+// Surfaces that are no further apart are in one place (m).
+inline constexpr double one_place = 1e-7;
+
+inline float with_margin(double radius, const Vec3& p) {
+    if (!(radius < 1e30)) return FLT_MAX;
+    const double size = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + radius;
+    return static_cast<float>(radius + 1e-6 * size + 2.0 * one_place);
+}
+
+inline RTCPointQuery make_query(const Vec3& p, double radius) {
+    RTCPointQuery query{};
+    query.x = static_cast<float>(p.x);
+    query.y = static_cast<float>(p.y);
+    query.z = static_cast<float>(p.z);
+    query.radius = with_margin(radius, p);
+    return query;
 }
 
 }  // namespace bolt::collision

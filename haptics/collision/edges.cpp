@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 
 #include "haptics/collision/closest.hpp"
-#include "haptics/collision/embree_query.hpp"
 
 namespace bolt::collision {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "haptics/collision/contact_reduction.hpp"
+#include "haptics/collision/contact.hpp"
 #include "haptics/collision/edges.hpp"
 #include "haptics/collision/world.hpp"
 

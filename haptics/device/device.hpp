@@ -1,8 +1,5 @@
-// The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
-// lost device (DeviceSupervisor does) nor talks to the servo (DeviceThread does).
-//
-// Device frame: x to the right, y up, z towards the user, origin in the middle of the reach. All calls come
-// from one thread.
+// A clock and a wait function for device threads: the machine's steady clock, or virtual time that advances
+// only by waiting, so that tests are fast and repeatable.
 #pragma once
 
 #include <array>
@@ -13,11 +10,31 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/math.hpp"
 #include "engine/base/pose.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/force/output_limits.hpp"
 
 namespace bolt::device {
+
+struct Timer {
+    std::function<double()> now;  // s, monotonic
+    std::function<void(double seconds)> wait;
+};
+
+Timer steady_timer();
+
+struct VirtualTime {
+    double now = 0.0;  // s
+};
+
+Timer virtual_timer(VirtualTime& time);  // `time` must outlive the timer
+
+// The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
+// lost device (DeviceSupervisor does) nor talks to the servo (DeviceThread does).
+//
+// Device frame: x to the right, y up, z towards the user, origin in the middle of the reach. All calls come
+// from one thread.
 
 enum class Sensing : std::uint8_t {
     pose,  // the pose of the hand
@@ -69,5 +86,35 @@ class Device {
 
 // Opens the device; called again after each loss. The error tells the user what to do.
 using DeviceFactory = std::function<Result<std::unique_ptr<Device>>()>;
+
+// Properties that a wheel does not report: the builder of the station enters them.
+
+struct WheelConfig {
+    // Motor torque at full drive, N·m. Overestimating it weakens the rendered torque, which is the safe side;
+    // the default is that of the strongest wheels on the market.
+    double full_torque = 25.0;
+    double max_torque = 2.0;  // N·m, limit of the rendered torque
+
+    // Encoder counts per turn, for boards that report counts. 0: unknown, the angle follows from `range`.
+    double counts_per_turn = 0.0;
+    // rad from stop to stop, for wheels that do not report it.
+    double range = to_radians(900.0);
+
+    bool reversed = false;      // the motor pulls in the opposite direction
+    Vec3 axis{0.0, 0.0, -1.0};  // unit, device frame: clockwise as the user sees it is positive
+};
+
+// Maps the deflection of a puck to velocity. Quadratic, for fine control at low speed.
+struct PuckResponse {
+    double speed = 0.25;      // m/s at full deflection
+    double turn_speed = 1.5;  // rad/s at full deflection
+    double dead_zone = 0.04;  // deflection that counts as zero: pucks do not centre exactly
+    double silence = 0.1;     // s without a report while deflected until the velocity becomes zero
+};
+
+// Describes a device in plain text for `boltwright devices`.
+
+// One line each for what it senses, what it renders, and its remarks.
+std::vector<std::string> summary_lines(const Description& description);
 
 }  // namespace bolt::device

@@ -3,11 +3,175 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
-
+#include <algorithm>
+#include <cmath>
 #include <system_error>
 #include <thread>
 
 namespace bolt::device {
+
+namespace {
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool finite(const force::OutputCommand& c) { return finite(c.force) && finite(c.torque); }
+
+bool renders(const Description& d) {
+    return std::any_of(d.renders.begin(), d.renders.end(), [](bool axis) { return axis; });
+}
+
+// Clamps a command to the limits of the device.
+force::OutputCommand within(const Description& d, force::OutputCommand command) {
+    for (int i = 0; i < 3; ++i) {
+        if (!d.renders[static_cast<std::size_t>(i)]) command.force[i] = 0.0;
+        if (!d.renders[static_cast<std::size_t>(i) + 3]) command.torque[i] = 0.0;
+    }
+    return {force::clamp_length(command.force, d.limits.force),
+            force::clamp_length(command.torque, d.limits.torque)};
+}
+
+}  // namespace
+
+DeviceSupervisor::DeviceSupervisor(DeviceFactory open, Timer timer, const SupervisorOptions& options)
+    : open_(std::move(open)),
+      timer_(std::move(timer)),
+      options_(options),
+      retry_delay_(options.first_retry_delay) {
+    next_try_ = timer_.now();
+}
+
+DeviceSupervisor::~DeviceSupervisor() { close(); }
+
+bool DeviceSupervisor::expects_samples() const {
+    return report_.description->sensing != Sensing::rate && !report_.description->silent_at_rest;
+}
+
+bool DeviceSupervisor::is_valid(const Sample& s) const {
+    switch (report_.description->sensing) {
+        case Sensing::pose:
+            return finite(s.pose.position) &&
+                   std::abs(glm::dot(s.pose.orientation, s.pose.orientation) - 1.0) < 1e-2;
+        case Sensing::rate:
+            return finite(s.velocity) && finite(s.angular_velocity);
+        case Sensing::turn:
+            return std::isfinite(s.turn);
+    }
+    return false;
+}
+
+bool DeviceSupervisor::try_open(std::uint64_t number) {
+    Result<std::unique_ptr<Device>> opened = open_();
+    const double now = timer_.now();
+    next_try_ = now + retry_delay_;
+    retry_delay_ = std::min(2.0 * retry_delay_, options_.max_retry_delay);
+    if (!opened) {
+        ++report_.refusals;
+        report_.trouble = opened.error().message();
+        return false;
+    }
+    ++report_.openings;
+    device_ = std::move(*opened);
+    report_.description = std::make_shared<const Description>(device_->describe());
+    // One sample period, so that reading does not delay the next command.
+    const double period = 1.0 / std::clamp(report_.description->rate, 1.0, 1e4);
+    read_timeout_ = std::clamp(period, 1e-3, renders(*report_.description) ? 2e-3 : 10e-3);
+    last_sample_ = now;
+    command_number_ = number;
+    command_time_ = now - options_.command_timeout;
+    may_hold_force_ = true;  // whoever had it before may have left it so
+    rendering_ = false;
+    report_.state = DeviceState::silent;
+    if (!expects_samples()) {
+        report_.state = DeviceState::usable;
+        report_.trouble.clear();
+    }
+    return true;
+}
+
+void DeviceSupervisor::close() {
+    if (!device_) return;
+    // An error means that the device is already lost.
+    if (renders(*report_.description) && device_->write({})) ++report_.writes;
+    device_.reset();
+    report_.state = DeviceState::absent;
+}
+
+void DeviceSupervisor::handle_loss(const Error& error) {
+    ++report_.losses;
+    report_.trouble = error.message();
+    device_.reset();
+    report_.state = DeviceState::absent;
+    next_try_ = timer_.now() + retry_delay_;
+}
+
+Status DeviceSupervisor::write(const ForceCommand& order, double now) {
+    if (!renders(*report_.description)) return {};
+    const bool is_new = order.number != command_number_;
+    if (is_new) {
+        command_number_ = order.number;
+        command_time_ = now;
+    }
+    const bool stale = now - command_time_ >= options_.command_timeout;
+    force::OutputCommand command;
+    if (order.enabled && !stale && finite(order.command))
+        command = within(*report_.description, order.command);
+    const bool forces = command.force != Vec3(0.0) || command.torque != Vec3(0.0);
+    // Repeat an unchanged force: some devices drop it when writes stop.
+    if (!(forces && is_new) && !(!forces && may_hold_force_)) return {};
+    if (stale && order.enabled && rendering_) ++report_.lapses;
+    BOLT_TRY(device_->write(command));
+    ++report_.writes;
+    may_hold_force_ = rendering_ = forces;
+    return {};
+}
+
+void DeviceSupervisor::track_silence(bool heard, double now) {
+    if (heard) {
+        ++report_.samples;
+        last_sample_ = now;
+        retry_delay_ =
+            options_.first_retry_delay;  // opening alone proves nothing: some are lost at the first word
+        report_.state = DeviceState::usable;
+        report_.trouble.clear();
+        return;
+    }
+    if (!expects_samples() || now - last_sample_ < options_.silence) return;
+    report_.state = DeviceState::silent;
+    const std::string trouble = report_.description->name + " is plugged in and says nothing of sense";
+    if (report_.trouble != trouble) report_.trouble = trouble;
+    if (now - last_sample_ < options_.reopen_after) return;
+    ++report_.silences;
+    close();
+    next_try_ = now + retry_delay_;
+}
+
+std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> order) {
+    if (!device_) {
+        const double now = timer_.now();
+        if (now < next_try_) {
+            timer_.wait(std::min(next_try_ - now, 5e-3));
+            return {};
+        }
+        if (!try_open(order().number)) return {};
+    }
+    Result<std::optional<Sample>> read = device_->read(read_timeout_);
+    if (!read) {
+        handle_loss(read.error());
+        return {};
+    }
+    const double now = timer_.now();
+    std::optional<Sample> sample = *read;
+    if (sample && !is_valid(*sample)) {
+        ++report_.malformed;
+        sample.reset();
+    }
+    if (Status written = write(order(), now); !written) {
+        handle_loss(written.error());
+        return sample;
+    }
+    track_silence(sample.has_value(), now);
+    return sample;
+}
 
 namespace {
 

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <map>
 
-#include "haptics/device/hidapi_lock.hpp"
-#include "haptics/device/hidapi_transport.hpp"
+#include "haptics/device/hid_transport.hpp"
 #include "haptics/device/pid.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/wheel.hpp"
-#include "haptics/device/wheel_axis.hpp"
 
 namespace bolt::device {
 

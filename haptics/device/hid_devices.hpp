@@ -8,7 +8,6 @@
 
 #include "haptics/device/device.hpp"
 #include "haptics/device/report_descriptor.hpp"
-#include "haptics/device/wheel_config.hpp"
 
 namespace bolt::device {
 

@@ -3,8 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <span>
+#include <vector>
 
 #include "engine/base/result.hpp"
 
@@ -33,5 +37,21 @@ class HidTransport {
 using Clock = std::function<double()>;
 
 double steady_seconds();
+
+// hidapi has one global error string and frees it in every call without an open device. Hold this lock during
+// such calls; two threads that enumerate at once crash without it.
+
+std::mutex& hidapi_lock();
+
+// HidTransport for the kernel's hidraw nodes, through hidapi.
+
+// Errors: not permitted (names the udev rule), disconnected.
+Result<std::unique_ptr<HidTransport>> open_hid(const std::filesystem::path& node);
+
+// Checks that the node can be opened for reading and writing, with the same errors.
+Status can_open_hid(const std::filesystem::path& node);
+
+// Reads the report descriptor from sysfs, because hidapi 0.13 does not return it.
+Result<std::vector<std::uint8_t>> descriptor_of(const std::filesystem::path& node);
 
 }  // namespace bolt::device

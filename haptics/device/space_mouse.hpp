@@ -1,12 +1,37 @@
-// A puck as a Device: deflection becomes velocity (Sensing::rate). It renders no force.
+// Decodes a spring-centred puck with six axes (SpaceMouse class). The report descriptor locates the axes;
+// some devices send all six in one report, others translation and rotation in two.
 #pragma once
+
+#include <array>
+#include <vector>
 
 #include "haptics/device/device.hpp"
 #include "haptics/device/hid_transport.hpp"
-#include "haptics/device/six_axis.hpp"
-#include "haptics/device/wheel_config.hpp"
+#include "haptics/device/report_descriptor.hpp"
 
 namespace bolt::device {
+
+struct SixAxisLayout {
+    std::array<Field, 6> axes;   // x, y, z, then rotations about them
+    std::vector<Field> buttons;  // sorted by button number
+    bool numbered = false;
+};
+
+// Deflection, −1 … 1 each, in the puck's own frame (3Dconnexion: x right, y towards the user, z down;
+// rotations right-handed).
+struct SixAxisState {
+    std::array<double, 6> share{};
+    std::uint32_t buttons = 0;  // bit i: button i is pressed
+};
+
+// Error: the device does not have six such axes.
+Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor);
+
+// Decodes an input report from hidapi (numbered reports begin with their id) into `state`. Returns false if
+// it has none of these fields or is too short.
+bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state);
+
+// A puck as a Device: deflection becomes velocity (Sensing::rate). It renders no force.
 
 // A puck at rest sends nothing, so read() then returns zero velocity. If reports stop while it is deflected,
 // the velocity becomes zero after response.silence.

@@ -1,15 +1,92 @@
+// The law of the guiding force: towards the target and inversely proportional to its distance, as in the
+// paper of 2018, but bounded and with limited stiffness; and the torque that aligns a jaw with a hexagon.
+// guide.hpp plans the path.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/base/function_ref.hpp"
+#include "engine/base/math.hpp"
+#include "haptics/force/output_stage.hpp"
+
+namespace bolt::force {
+
+struct GuidingParameters {
+    double gain = 0.1;         // k of F = k/d, N·m: 1 N at 10 cm
+    double stiffness = 500.0;  // K_max, N/m, that the device renders stably
+    double reach = 1.0;        // m; between reach and 2 · reach the force fades to zero
+    double greatest = 3.0;     // N, largest force
+    double torque = 0.2;       // N·m, largest aligning torque
+    double near = 0.08;        // m to the target within which the torque acts
+    double strength = 1.0;     // 0 … 1, share of the force that the lesson's mode allows
+    double slew = 4.0;         // 1/s, rate at which the force fades in and out
+};
+
+// k/d has the local stiffness k/d². Below d_min = √(k/K_max) the spring K_max d replaces it, and both are
+// capped. Force and potential are continuous; the largest force is √(k K_max) or the cap. `distance` in m.
+double guiding_pull(const GuidingParameters& guiding, double distance);  // N
+Vec3 guiding_force(const GuidingParameters& guiding, const Vec3& tool, const Vec3& target);
+
+// Potential of guiding_pull, J, 0 at the target.
+double guiding_potential(const GuidingParameters& guiding, double distance);
+
+// Orientation of a nut's hexagon: orthogonal unit vectors. A jaw fits with its direction along `flat` or
+// turned from it about `axis` by a multiple of 60°.
+struct Hexagon {
+    Vec3 axis{0.0, 1.0, 0.0};
+    Vec3 flat{1.0, 0.0, 0.0};
+    Vec3 across{0.0, 0.0, -1.0};
+};
+
+// The torque, N·m, that turns the jaw to the nearest of the six orientations and its normal parallel or
+// antiparallel to the axis. Gradient of a smooth potential, so it is continuous where the nearest orientation
+// changes: with z the jaw's direction projected along the axis as a complex number, n the normal and a the
+// axis, V = greatest/6 (1 − Re z⁶) + greatest (1 − (n·a)²).
+Vec3 aligning_torque(double greatest, const Hexagon& hexagon, const Vec3& jaw, const Vec3& normal);
+double aligning_potential(double greatest, const Hexagon& hexagon, const Vec3& jaw, const Vec3& normal);
+
+// Plans a path for the guiding force around obstacles. The caller supplies the line-of-sight query (Embree,
+// in the servo), so the force never pulls through a housing.
+
+// Returns true if the straight segment is free. It may include a margin as wide as the tool.
+using IsSegmentFree = FunctionRef<bool(const Vec3& from, const Vec3& to)>;
+
+struct GuideTarget {
+    Vec3 point{0.0};           // m, goal of the tool
+    Vec3 axis{0.0, 1.0, 0.0};  // unit, towards the accessible side
+    double approach = 0.08;    // m above the point at which the last segment begins
+    double shell = 0.03;       // m, radius of the ball that the target's nut and bolt fill; not an obstacle
+};
+
+struct GuidePath {
+    std::array<Vec3, 5> points{};  // from the tool to the target
+    std::size_t count = 0;         // 0: no path found
+};
+
+// Candidates: straight, if that arrives along the axis or level from the side; via the approach point; over
+// the target at several heights; around one side. Returns the shortest free candidate. If none is free,
+// returns the straight segment if that is free, else an empty path. Queries `free` at most 100 times.
+GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
+
+// The lowest height above the target, m, to which the tool may be led from its present position. The queries
+// treat the tool as a line, but it is wide: near the target it is known to fit only along the axis. So it is
+// led level until it is inside a cone about the axis, then down.
+double lowest_ahead(const GuideTarget& target, const Vec3& tool);
+
+// Moves the end of the path, and the approach point if there is one, to the target's present position.
+void move_end(GuidePath& path, const GuideTarget& target);
+
+double length(const GuidePath& path);
+Vec3 point_at(const GuidePath& path, double along);  // `along` in m from the start, clamped
+
+// `free` for the segment without the ball of the target's own nut and bolt.
+bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegmentFree free);
+
 // The guiding force: plans a path to a nut, pulls the tool towards the farthest point of the path in its line
 // of sight and aligns the jaw at the end. The force fades in and out, and goal or path change only while it
 // is zero, so it is continuous.
-#pragma once
-
-#include <cstdint>
-
-#include "haptics/force/guide_path.hpp"
-#include "haptics/force/guiding.hpp"
-#include "haptics/force/passivity.hpp"
-
-namespace bolt::force {
 
 struct GuidedTool {
     Vec3 position{0.0};

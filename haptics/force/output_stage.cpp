@@ -7,6 +7,215 @@ namespace bolt::force {
 
 namespace {
 
+constexpr double speed_smoothing = 0.005;  // s, of the velocity that the speed limits check
+constexpr double smoothing =
+    0.0015;  // s, of the velocity that damping uses; unfiltered encoder steps would be felt as noise
+
+bool is_pose(const PortInput& input) {
+    const Pose& p = input.pose;
+    // False for NaN too. No device moves a kilometre.
+    for (int i = 0; i < 3; ++i)
+        if (!(std::abs(p.position[i]) < 1e3)) return false;
+    return input.valid && std::abs(glm::dot(p.orientation, p.orientation) - 1.0) < 1e-2;
+}
+
+// Updates the motion from the sample. Returns false if it is farther from the last one than a hand can move.
+bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pose, double dt) {
+    const auto ticks = static_cast<double>(s.quiet);
+    Motion& m = s.motion;
+    m.shift = pose.position - s.last.position;
+    m.turn = rotation_vector(glm::normalize(pose.orientation * glm::conjugate(s.last.orientation)));
+    s.last = pose;
+    if (glm::length(m.shift) > limits.jump * ticks || glm::length(m.turn) > limits.angular_jump * ticks) {
+        m = {};
+        return false;
+    }
+    const double elapsed = ticks * dt;
+    const Vec3 velocity = m.shift / elapsed, angular_velocity = m.turn / elapsed;
+    const double smooth = 1.0 - std::exp(-elapsed / smoothing);
+    m.velocity += smooth * (velocity - m.velocity);
+    m.angular_velocity += smooth * (angular_velocity - m.angular_velocity);
+    const double share = 1.0 - std::exp(-elapsed / speed_smoothing);
+    s.mean_velocity += share * (velocity - s.mean_velocity);
+    s.mean_angular_velocity += share * (angular_velocity - s.mean_angular_velocity);
+    m.fresh = true;
+    return true;
+}
+
+Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
+                   bool request_is_sound, double dt) {
+    s.quiet += 1 + input.missed;
+    s.motion.fresh = s.motion.begins = false;
+    if (input.fresh) {
+        if (!is_pose(input)) {
+            s.known = false;  // the next pose starts a new motion
+            s.motion = {};
+            s.quiet = 0;
+            return Fault::no_pose;
+        }
+        if (s.known && !update_motion(limits, s, input.pose, dt)) {
+            s.quiet = 0;
+            return Fault::jumped;
+        }
+        s.motion.begins = !s.known;
+        s.last = input.pose;
+        s.known = true;
+        s.quiet = 0;
+    } else if (static_cast<double>(s.quiet) * dt > limits.silence) {
+        s.motion = {};
+        return Fault::silent;
+    }
+    // Hysteresis: after a fault the speed must fall below half the limit.
+    const double share = s.fault == Fault::too_fast ? 0.5 : 1.0;
+    if (glm::length(s.mean_velocity) > share * limits.speed ||
+        glm::length(s.mean_angular_velocity) > share * limits.angular_speed)
+        return Fault::too_fast;
+    return request_is_sound ? Fault::none : Fault::bad_request;
+}
+
+}  // namespace
+
+const char* name(Fault fault) {
+    switch (fault) {
+        case Fault::none:
+            return "none";
+        case Fault::silent:
+            return "the device is silent";
+        case Fault::no_pose:
+            return "the device's sample is not a pose";
+        case Fault::jumped:
+            return "the device's pose jumped";
+        case Fault::too_fast:
+            return "the device moves too fast";
+        case Fault::bad_request:
+            return "the requested force is not finite";
+        case Fault::stopped:
+            return "emergency stop";
+    }
+    return "";
+}
+
+bool watch(const OutputLimits& limits, WatchdogState& s, const PortInput& input, bool request_is_sound,
+           double dt) {
+    const Fault before = s.fault;
+    const Fault now = check_sample(limits, s, input, request_is_sound, dt);
+    // ISO 13850: the stop overrides everything, lasts until a deliberate reset, and the reset starts nothing
+    // by itself.
+    if (input.stop || (before == Fault::stopped && !(input.reset && !input.enabled))) {
+        s.fault = Fault::stopped;
+        s.sound = 0;
+    } else if (now != Fault::none) {
+        s.fault = now;
+        s.sound = 0;
+    } else if (before == Fault::stopped) {
+        s.fault = Fault::none;
+    } else if (before != Fault::none && static_cast<double>(++s.sound) * dt >= limits.recovery * (1 - 1e-9)) {
+        s.fault = Fault::none;
+    }
+    if (s.fault != before && s.fault != Fault::none) ++s.counts[static_cast<std::size_t>(s.fault)];
+    return s.fault == Fault::none;
+}
+
+namespace {
+
+// The share of the requested wrench that the device can render, common to force and torque: it preserves the
+// line of action of a contact force. Separate clamps would produce a field that is not conservative, in which
+// a hand gains energy on a closed path. A component that the device does not render at all is ignored.
+double renderable_share(const OutputLimits& limits, const OutputCommand& request) {
+    const double force = glm::length(request.force), torque = glm::length(request.torque);
+    double share = 1.0;
+    if (limits.force > 0.0 && force > limits.force) share = limits.force / force;
+    if (limits.torque > 0.0 && torque > limits.torque) share = std::min(share, limits.torque / torque);
+    return share;
+}
+
+}  // namespace
+
+void observe(const OutputLimits& limits, PassivityState& s, const Motion& motion, double ticks) {
+    const OutputCommand& out = s.sent[static_cast<std::size_t>(std::clamp(limits.delay, 0, 3))];
+    s.applied.force += ticks * out.force;
+    s.applied.torque += ticks * out.torque;
+    s.ticks += ticks;
+    if (!motion.fresh && !motion.begins) return;
+    if (motion.fresh)
+        s.balance -=
+            (glm::dot(s.applied.force, motion.shift) + glm::dot(s.applied.torque, motion.turn)) / s.ticks;
+    s.applied = {};
+    s.ticks = 0.0;
+}
+
+OutputCommand control(const OutputLimits& limits, PassivityState& s, const Motion& motion,
+                      const ForceRequest& request, double strength, double before, double dt) {
+    // A spring clamped to a share r of its force takes the same work at first but returns only that force: 2
+    // r − r² of its energy can be recovered.
+    const double r = renderable_share(limits, request.command);
+    const double full = request.stored_energy * r * (2.0 - r);
+    const double stored = strength * full;
+    // Energy that enters with the ramp is not work of the hand and counts as injected.
+    const double injected = strength * request.injected_energy + (strength - before) * full;
+    s.balance = std::min(s.balance + injected - (stored - s.stored_energy), saved_at_most);
+    if (s.balance > 0.0) s.balance *= std::max(0.0, 1.0 - dt / saved_for);
+    s.stored_energy = stored;
+
+    const double b = damping_share * limits.damping, b_angular = damping_share * limits.angular_damping;
+    const double power = b * glm::dot(motion.velocity, motion.velocity) +
+                         b_angular * glm::dot(motion.angular_velocity, motion.angular_velocity);
+    const double needed = std::max(0.0, -s.balance) / dt;
+    const double target = needed < power ? needed / power : needed > 0.0 ? 1.0 : 0.0;
+    s.damping += std::clamp(target - s.damping, -damping_goes * dt, damping_comes * dt);
+    s.removed += s.damping * power * dt;
+    // Damping is subtracted after the clamp; subtracted from a force far above the limit it would have no
+    // effect.
+    return {r * request.command.force - s.damping * b * motion.velocity,
+            r * request.command.torque - s.damping * b_angular * motion.angular_velocity};
+}
+
+void note_sent(PassivityState& s, const OutputCommand& sent) {
+    for (std::size_t i = s.sent.size() - 1; i > 0; --i) s.sent[i] = s.sent[i - 1];
+    s.sent[0] = sent;
+}
+
+namespace {
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+Vec3 step_towards(const Vec3& now, const Vec3& target, double most) {
+    return now + clamp_length(target - now, most);
+}
+
+}  // namespace
+
+OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& requested,
+                           bool enabled, double dt, double release) {
+    const bool healthy = finite(state.force) && finite(state.torque);
+    if (!healthy) state.force = state.torque = Vec3(0.0);
+    const bool sound = healthy && finite(requested.force) && finite(requested.torque);
+    if (!sound) ++state.faults;
+    if (!enabled || !sound) {
+        // Reaches zero from the largest output in whole steps within `release`; overrides the slew limits.
+        const double steps = std::max(1.0, std::floor(release / dt + 1e-9));
+        const double share = (1.0 + 1e-9) / steps;
+        state.strength = 0.0;
+        state.force = step_towards(state.force, Vec3(0.0), limits.force * share);
+        state.torque = step_towards(state.torque, Vec3(0.0), limits.torque * share);
+    } else {
+        state.strength = std::min(1.0, state.strength + dt / limits.ramp_up);
+        const Vec3 force = clamp_length(requested.force, limits.force) * state.strength;
+        const Vec3 torque = clamp_length(requested.torque, limits.torque) * state.strength;
+        state.force = step_towards(state.force, force, limits.force_rate * dt);
+        state.torque = step_towards(state.torque, torque, limits.torque_rate * dt);
+    }
+    // Final clamp: it bounds the effect of any error above.
+    state.force = clamp_length(state.force, limits.force);
+    state.torque = clamp_length(state.torque, limits.torque);
+    if (!finite(state.force) || !finite(state.torque)) {
+        state = {Vec3(0.0), Vec3(0.0), 0.0, state.faults + 1};
+    }
+    return {state.force, state.torque};
+}
+
+namespace {
+
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace

@@ -1,15 +1,146 @@
+// Checks the device's samples. On a fault the output goes to zero, the fault is reported, and after a time
+// without faults the output ramps up again. Only the emergency stop latches.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/base/pose.hpp"
+#include "haptics/force/output_limits.hpp"
+
+namespace bolt::force {
+
+enum class Fault : std::uint8_t {
+    none,
+    silent,       // no sample for longer than OutputLimits::silence
+    no_pose,      // the pose is not finite or has no unit quaternion
+    jumped,       // moved further than a hand can in a tick
+    too_fast,     // faster than OutputLimits::speed: a runaway or a falling device
+    bad_request,  // the requested force is not finite
+    stopped,      // emergency stop
+};
+inline constexpr std::size_t fault_kinds = 7;
+const char* name(Fault fault);
+
+// The state of the device in this tick.
+struct PortInput {
+    Pose pose;                 // of the point of application of the force, in the force's frame
+    bool valid = true;         // the sample is a pose
+    bool fresh = true;         // a sample arrived since the last tick
+    std::uint32_t missed = 0;  // deadlines without a tick since the last tick
+    bool enabled = false;      // dead-man switch held
+    bool stop = false;         // emergency stop pressed
+    bool reset = false;        // releases the stop if neither dead-man switch nor stop is pressed
+};
+
+// Motion of the device since the previous sample.
+struct Motion {
+    Vec3 shift{0.0};             // m
+    Vec3 turn{0.0};              // rad
+    Vec3 velocity{0.0};          // m/s, smoothed over 1.5 ms
+    Vec3 angular_velocity{0.0};  // rad/s
+    bool fresh = false;          // a new sample; false: shift and turn are of an earlier one
+    bool begins = false;         // the first sample: it starts a motion and has none itself
+};
+
+struct WatchdogState {
+    Fault fault = Fault::none;                        // reason for which the output is held at zero
+    std::array<std::uint64_t, fault_kinds> counts{};  // occurrences of each fault
+    std::uint64_t quiet = 0;                          // ticks since the last sample
+    std::uint64_t sound = 0;                          // ticks without a fault since the last one
+    bool known = false;                               // `last` is valid
+    Pose last;
+    Motion motion;
+    Vec3 mean_velocity{0.0},
+        mean_angular_velocity{0.0};  // smoothed over 5 ms; compared with the speed limits
+};
+
+// One tick of dt. Returns true if the output may be rendered. `request_is_sound`: the requested force is
+// finite.
+bool watch(const OutputLimits& limits, WatchdogState& state, const PortInput& input, bool request_is_sound,
+           double dt);
+
+// Time-domain passivity: observes the energy at the device's port and removes energy that the rendering
+// generates. A sampled, delayed and slew-limited spring returns more energy than was put in, which a hand
+// feels as vibration.
+//
+// Hannaford, Ryu: Time-domain passivity control of haptic interfaces. IEEE Trans. Robotics and Automation
+// 18(1), 2002. The stored energy is the reference, as in Ryu, Preusche, Hannaford, Hirzinger: Time domain
+// passivity control with reference energy following. IEEE Trans. Control Systems Technology 13(5), 2005.
+
+// A requested command with its energy. Both energies may be 0; then the controller permits only energy that
+// the hand put in shortly before.
+struct ForceRequest {
+    OutputCommand command;
+    double stored_energy =
+        0.0;  // J that the springs behind it hold and may give back; never more than they do
+    double injected_energy =
+        0.0;  // J that they gained in this tick by no work of the hand: help that is meant to be
+};
+
+struct PassivityState {
+    // J that the hand put in and did not get back, less the stored energy. Negative: energy was generated.
+    double balance = 0.0;
+    double stored_energy = 0.0;  // J, of the last request
+    double removed = 0.0;        // J removed by the controller since the start
+    double damping = 0.0;        // 0 … 1, active share of the permitted damping
+
+    std::array<OutputCommand, 4> sent{};  // commands sent, newest first
+    OutputCommand applied;                // sum of the commands since the last sample, over `ticks`
+    double ticks = 0.0;
+};
+
+// Share of OutputLimits::damping that is used: damping is sampled and delayed as well (Colgate, Schenkel
+// 1997).
+inline constexpr double damping_share = 0.9;
+
+// Largest credit, J, and time constant of its decay, s: energy dissipated long ago must not pay for vibration
+// now. With 0.5 mJ of credit a tool rocking on a ball vibrated for one second. A spring of 1 N/mm pressed at
+// 0.3 m/s at 1 kHz generates 45 µJ per tick, so 0.2 mJ prevents a reaction to single ticks.
+inline constexpr double saved_at_most = 0.2e-3;
+inline constexpr double saved_for = 0.03;
+
+// 1/s, rates at which damping sets in and ends. A step of damping would itself be a jolt of up to 2 N at 0.1
+// m/s; energy that is not removed at once is removed a few milliseconds later.
+inline constexpr double damping_comes = 60.0, damping_goes = 40.0;
+
+// The observer: adds the work of the applied commands along the motion since the last sample. `ticks`:
+// periods that passed, missed deadlines included.
+void observe(const OutputLimits& limits, PassivityState& state, const Motion& motion, double ticks);
+
+// The controller: returns the command, clamped and with as much damping as the deficit needs and the device
+// permits. `strength` is the ramp's share now, `before` that of the last tick.
+OutputCommand control(const OutputLimits& limits, PassivityState& state, const Motion& motion,
+                      const ForceRequest& request, double strength, double before, double dt);
+
+// Call after each tick with the command that was sent.
+void note_sent(PassivityState& state, const OutputCommand& sent);
+
+// The last step of the output stage. Its output is finite, within the device's limits, and within the slew
+// rates.
+
+struct OutputState {
+    Vec3 force{0.0};
+    Vec3 torque{0.0};
+    double strength = 0.0;     // 0 … 1, ramp after enabling
+    std::uint64_t faults = 0;  // steps with a request that was not finite
+};
+
+// One step of dt. Returns the device's command, which is also stored in the state. If not `enabled`, or if
+// the request is not finite, the output falls to zero within `release` seconds.
+OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& requested,
+                           bool enabled, double dt, double release);
+
+inline OutputCommand limit_output(const OutputLimits& limits, OutputState& state,
+                                  const OutputCommand& requested, bool enabled, double dt) {
+    return limit_output(limits, state, requested, enabled, dt, limits.release);
+}
+
 // All forces pass through this stage; nothing else writes to a device.
 //
 //   watchdog    permits or blocks the output         watchdog.hpp
 //   passivity   observer, then controller            passivity.hpp
 //   limiter     ramp, slew limit, clamp, release     limiter.hpp
-#pragma once
-
-#include "haptics/force/limiter.hpp"
-#include "haptics/force/passivity.hpp"
-#include "haptics/force/watchdog.hpp"
-
-namespace bolt::force {
 
 struct OutputStage {
     WatchdogState watchdog;

@@ -1,8 +1,8 @@
 #include "haptics/hand/glove_calibration.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "engine/base/math.hpp"
@@ -157,6 +157,201 @@ Result<CalibrationResult> calibrate(std::span<const PostureSamples> held) {
     if (trembled)
         result.remarks.emplace_back("the hand moved while a posture was held; hold still for two seconds");
     return result;
+}
+
+namespace {
+
+constexpr std::size_t blocks = 6, lines_of_block = 4;
+constexpr std::size_t offset_word = 5, gain_word = 8;  // from 0
+constexpr double steepest = 0.2;                       // rad a count: 255 of them are eight turns
+
+// The sensor of each line; nullopt: none.
+constexpr std::array<std::array<std::optional<Sensor>, lines_of_block>, blocks> order = {{
+    {Sensor::thumb_roll, Sensor::thumb_mpj, Sensor::thumb_ij, Sensor::thumb_abduction},
+    {Sensor::index_mpj, Sensor::index_pij, Sensor::index_dij, std::nullopt},
+    {Sensor::middle_mpj, Sensor::middle_pij, Sensor::middle_dij, Sensor::middle_abduction},
+    {Sensor::ring_mpj, Sensor::ring_pij, Sensor::ring_dij, Sensor::ring_abduction},
+    {Sensor::little_mpj, Sensor::little_pij, Sensor::little_dij, Sensor::little_abduction},
+    {Sensor::palm_arch, Sensor::wrist_pitch, Sensor::wrist_yaw, std::nullopt},
+}};
+constexpr std::size_t index_block = 1, gain_of_middle_abduction = 3;
+
+struct Word {
+    std::string_view text;
+    int column = 1;
+};
+
+std::vector<Word> words_of(std::string_view line) {
+    std::vector<Word> words;
+    constexpr std::string_view blank = " \t\r";
+    for (std::size_t at = line.find_first_not_of(blank); at != std::string_view::npos;) {
+        const std::size_t end = std::min(line.find_first_of(blank, at), line.size());
+        words.push_back({line.substr(at, end - at), static_cast<int>(at) + 1});
+        at = line.find_first_not_of(blank, end);
+    }
+    return words;
+}
+
+struct Reader {
+    std::string_view left;
+    const std::string& file;
+    int line = 0;
+
+    [[nodiscard]] tl::unexpected<Error> wrong(int column, std::string what, std::string expected) const {
+        Error error;
+        error.code = ErrorCode::bad_content;
+        error.what = std::move(what);
+        error.expected = std::move(expected);
+        error.file = file;
+        error.line = line;
+        error.column = column;
+        return fail(std::move(error));
+    }
+    Result<std::string_view> next(const char* wanted) {
+        ++line;
+        if (left.empty()) return wrong(1, "the calibration ends here", wanted);
+        const std::size_t end = std::min(left.find('\n'), left.size());
+        const std::string_view text = left.substr(0, end);
+        left.remove_prefix(std::min(end + 1, left.size()));
+        return text;
+    }
+    [[nodiscard]] Result<double> number(const std::vector<Word>& words, std::size_t i,
+                                        const char* what) const {
+        if (i >= words.size())
+            return wrong(words.empty() ? 1 : words.back().column,
+                         fmt::format("the line has {} words", words.size()),
+                         fmt::format("the {} as word {}", what, i + 1));
+        double value = 0.0;
+        const std::string_view text = words[i].text;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+            return wrong(words[i].column, fmt::format("\"{}\" is not a number", text.substr(0, 40)),
+                         fmt::format("the {}", what));
+        return value;
+    }
+};
+
+}  // namespace
+
+Result<Calibration> parse_cal(std::string_view text, const std::string& file) {
+    Reader reader{text, file};
+    BOLT_TRY(reader.next("a line of title"));
+    Calibration calibration;
+    std::optional<double> gain_elsewhere;
+    for (std::size_t block = 0; block < blocks; ++block) {
+        BOLT_TRY(reader.next("the heading of a finger or of the palm"));
+        for (std::size_t i = 0; i < lines_of_block; ++i) {
+            BOLT_TRY_ASSIGN(const auto line, reader.next("a sensor's line"));
+            const auto words = words_of(line);
+            BOLT_TRY_ASSIGN(const auto offset, reader.number(words, offset_word, "offset in counts"));
+            BOLT_TRY_ASSIGN(const auto gain, reader.number(words, gain_word, "gain in radians a count"));
+            if (std::abs(gain) > steepest)
+                return reader.wrong(words[gain_word].column, fmt::format("a gain of {} rad per count", gain),
+                                    fmt::format("at most {}", steepest));
+            if (block == index_block && i == gain_of_middle_abduction) gain_elsewhere = gain;
+            const auto& sensor = order[block][i];
+            if (sensor && gain != 0.0) calibration.fits[index(*sensor)] = LinearFit{gain, offset};
+        }
+    }
+    auto& abduction = calibration.fits[index(Sensor::middle_abduction)];
+    if (abduction && gain_elsewhere && *gain_elsewhere != 0.0) abduction->gain = *gain_elsewhere;
+    return calibration;
+}
+
+namespace {
+
+double furthest(const PerSensor<std::uint8_t>& a, const PerSensor<std::uint8_t>& b) {
+    int most = 0;
+    for (std::size_t i = 0; i < sensor_count; ++i) most = std::max(most, std::abs(int{a[i]} - int{b[i]}));
+    return most;
+}
+
+void wait(CalibrationSession& session, double now) {
+    if (session.phase == CalibrationPhase::holding) session.taken.pop_back();
+    session.phase = CalibrationPhase::moving;
+    session.held_for = 0.0;
+    session.still_since = now;
+}
+
+void finish(CalibrationSession& session) {
+    Result<CalibrationResult> calibrated = calibrate(session.taken);
+    session.phase = calibrated ? CalibrationPhase::done : CalibrationPhase::failed;
+    session.trouble = calibrated ? CalibrationTrouble::none : CalibrationTrouble::unmoved;
+    if (calibrated) session.result = std::move(*calibrated);
+}
+
+// The posture has been sampled long enough.
+void next(CalibrationSession& session, double now) {
+    const auto number = static_cast<std::size_t>(session.requested) + 1;
+    session.trouble = CalibrationTrouble::none;
+    session.held_for = 0.0;
+    if (number == posture_count) return finish(session);
+    session.phase = CalibrationPhase::moving;
+    session.requested = static_cast<Posture>(number);
+    session.requested_since = session.still_since = now;
+}
+
+}  // namespace
+
+const char* prompt(Posture posture) {
+    switch (posture) {
+        case Posture::flat:
+            return "Hold the hand flat, fingers and thumb straight and side by side.";
+        case Posture::fist:
+            return "Make a fist, the thumb outside.";
+        case Posture::spread:
+            return "Hold the hand flat and spread fingers and thumb as wide as they go.";
+        case Posture::thumb_across:
+            return "Lay the bent thumb across the palm of the flat hand.";
+    }
+    return "";
+}
+
+const char* message_for(CalibrationTrouble trouble) {
+    switch (trouble) {
+        case CalibrationTrouble::none:
+            return "";
+        case CalibrationTrouble::silent:
+            return "The glove gives nothing; is it switched on and plugged in?";
+        case CalibrationTrouble::restless:
+            return "Take the posture and hold the hand still for two seconds.";
+        case CalibrationTrouble::unmoved:
+            return "No sensor moved between the postures; is the glove on a hand?";
+    }
+    return "";
+}
+
+void update(CalibrationSession& session, const GloveFrame* frame, double now) {
+    if (session.phase == CalibrationPhase::done || session.phase == CalibrationPhase::failed) return;
+    if (!session.started) {
+        session.started = true;
+        session.requested_since = session.still_since = session.last_frame = now;
+    }
+    if (now - session.last_frame > session.options.silence) {
+        wait(session, now);
+        session.trouble = CalibrationTrouble::silent;
+    }
+    if (frame == nullptr) return;
+    if (session.trouble == CalibrationTrouble::silent) session.trouble = CalibrationTrouble::none;
+    session.last_frame = now;
+    if (furthest(frame->raw, session.rest) > session.options.still) {
+        wait(session, now);
+        session.rest = frame->raw;
+    }
+    if (session.phase == CalibrationPhase::moving) {
+        if (now - session.requested_since > session.options.patience)
+            session.trouble = CalibrationTrouble::restless;
+        const bool left =
+            session.taken.empty() ||
+            furthest(session.rest, session.taken.back().samples.front()) >= session.options.moved;
+        if (!left || now - session.still_since < session.options.settle) return;
+        session.phase = CalibrationPhase::holding;
+        session.taken.push_back({session.requested, {}});
+        session.still_since = now;
+    }
+    session.taken.back().samples.push_back(frame->raw);
+    session.held_for = now - session.still_since;
+    if (session.held_for >= session.options.hold) next(session, now);
 }
 
 }  // namespace bolt::hand

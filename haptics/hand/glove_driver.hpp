@@ -1,12 +1,51 @@
-// A glove on a serial port, read by its own thread. Readers get the latest sample and report without waiting.
+// A serial port, or a pseudo-terminal that stands for one: 115200 baud, 8N1, raw, no flow control.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <vector>
 
-#include "haptics/hand/glove_session.hpp"
+#include "engine/base/result.hpp"
+#include "haptics/hand/glove_protocol.hpp"
 
 namespace bolt::hand {
+
+class SerialPort {
+  public:
+    // Errors say what to do: no such port, not permitted (which group), in use, not a serial port.
+    static Result<SerialPort> open(const std::filesystem::path& path);
+
+    SerialPort(SerialPort&& other) noexcept;
+    SerialPort& operator=(SerialPort&& other) noexcept;
+    ~SerialPort();
+
+    // Waits until something comes, at most `timeout` seconds. Empty: nothing came. An error with `lost`: the
+    // port is gone.
+    Result<std::vector<std::uint8_t>> read(double timeout);
+    // All of it, or an error; waits at most a second.
+    Status write(const std::vector<std::uint8_t>& bytes);
+
+  private:
+    explicit SerialPort(int file) : file_(file) {}
+    int file_ = -1;
+};
+
+// Ports that a glove may be on, by their names that stay the same, best first.
+std::vector<std::filesystem::path> serial_ports();
+
+// Checks of the serial adapter of a glove: permission and latency.
+
+// Checks that the port can be opened, without opening it, because some devices reset when their port opens.
+// The error names the group that the user must join.
+Status check_port_access(const std::filesystem::path& port);
+
+// Time in ms for which the adapter buffers bytes (FTDI default: 16); nullopt if it has no such timer.
+// `devices`: the sysfs folder.
+std::optional<int> latency_timer_ms(const std::filesystem::path& port,
+                                    const std::filesystem::path& devices = "/sys/bus/usb-serial/devices");
+
+// A glove on a serial port, read by its own thread. Readers get the latest sample and report without waiting.
 
 struct GloveSample {
     GloveFrame frame;

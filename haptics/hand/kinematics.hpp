@@ -1,16 +1,196 @@
+// Joint angles of a hand in rad: the output of the glove, the input of the kinematics. All zero is a flat
+// hand, fingers and thumb straight and side by side in the plane of the palm. Flexion towards the palm is
+// positive.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "engine/base/math.hpp"
+#include "engine/base/pose.hpp"
+
+namespace bolt::hand {
+
+// Anatomical names: MCP is the knuckle, then PIP and DIP.
+struct FingerAngles {
+    double mcp = 0.0, pip = 0.0, dip = 0.0;
+    double side =
+        0.0;  // abduction, away from the middle finger; for the middle finger towards the little finger
+};
+
+struct ThumbAngles {
+    double roll = 0.0;       // of the metacarpal about the length of the hand, across the palm
+    double abduction = 0.0;  // of the metacarpal, away from the index finger
+    double mcp = 0.0, ip = 0.0;
+};
+
+struct Angles {
+    ThumbAngles thumb;
+    std::array<FingerAngles, 4> fingers;  // index to little finger
+    double arch = 0.0;                    // of the little finger's metacarpal towards the palm
+    double wrist_flexion = 0.0;
+    double wrist_side = 0.0;  // towards the thumb
+};
+
+// Ranges of the joints of a hand. Readings beyond them are errors of the glove and would show a broken
+// finger.
+//
+// Sources: the American Academy of Orthopaedic Surgeons (Joint Motion: Method of Measuring and
+// Recording, 1965), a PIP of 110° as in J. Lin, Y. Wu, T. S. Huang, Modeling the constraints of human hand
+// motion (IEEE Workshop on Human Motion, 2000); of the carpometacarpal joints those of M. El-shennawy et al.
+// (J. Hand Surg. 26A(6), 2001, 1030-1035). They are population means, so `margin` is added on both sides.
+
+struct Span {
+    double low = 0.0, high = 0.0;  // rad
+};
+
+inline constexpr double margin = to_radians(10.0);
+
+constexpr Span degrees(double low, double high) {
+    return {to_radians(low) - margin, to_radians(high) + margin};
+}
+
+inline constexpr Span mcp_span = degrees(-45.0, 90.0);
+inline constexpr Span pip_span = degrees(0.0, 110.0);
+inline constexpr Span dip_span = degrees(0.0, 90.0);
+inline constexpr Span side_span = degrees(-10.0, 20.0);
+inline constexpr Span thumb_roll_span = degrees(0.0, 90.0);
+inline constexpr Span thumb_abduction_span = degrees(0.0, 60.0);
+inline constexpr Span thumb_mcp_span = degrees(0.0, 50.0);
+inline constexpr Span thumb_ip_span = degrees(-20.0, 80.0);
+inline constexpr Span arch_span = degrees(0.0, 27.0);
+inline constexpr Span wrist_flexion_span = degrees(-70.0, 80.0);
+inline constexpr Span wrist_side_span = degrees(-30.0, 20.0);
+
+// Clamps each angle to its range; NaN becomes 0. The abduction range of a finger decreases linearly to zero
+// at 90° of MCP flexion (I. A. Kapandji, The Physiology of the Joints, vol. 1, on the collateral ligaments;
+// linear by assumption).
+Angles clamp_to_limits(const Angles& angles);
+
+// Angles of a hand that closes around a handle.
+
+// `share` 0: open, the thumb opposite the fingers; 1: a fist. Values chosen within limits.hpp.
+inline Angles closed_hand_angles(double share) {
+    Angles a;
+    const auto bent = [&](double degrees) { return share * to_radians(degrees); };
+    for (FingerAngles& f : a.fingers) f = {bent(70.0), bent(95.0), bent(60.0), 0.0};
+    a.thumb = {to_radians(70.0), to_radians(60.0) - bent(48.0), bent(50.0), bent(65.0)};
+    a.arch = to_radians(8.0);
+    return a;
+}
+
+// The 26 joints of XR_EXT_hand_tracking (OpenXR 1.0, section 12.31) of a relaxed and of a flat hand. Frames
+// of the extension: −Z from the wrist towards the tip along the bone that begins at the joint, +Y out of the
+// back of the hand or the nail, +X to the right. Positions in m, in the frame of the wrist joint.
+//
+// Lengths of bones and of the soft tissue at the tips are plausible and near A. Buryanov, V. Kotiuk,
+// Proportions of hand segments, Int. J. Morphol. 28(3), 2010, 755-758; they are not verified against that
+// table. With a carpus of 32 mm the hand is 189 mm long, about the median of men.
+
+enum class Side : std::uint8_t { left, right };
+
+// In the order of XrHandJointEXT; glTF nodes have the same names in lower case.
+enum Joint : std::size_t {
+    palm,
+    wrist,
+    thumb_metacarpal,
+    thumb_proximal,
+    thumb_distal,
+    thumb_tip,
+    index_metacarpal,
+    index_proximal,
+    index_intermediate,
+    index_distal,
+    index_tip,
+    middle_metacarpal,
+    middle_proximal,
+    middle_intermediate,
+    middle_distal,
+    middle_tip,
+    ring_metacarpal,
+    ring_proximal,
+    ring_intermediate,
+    ring_distal,
+    ring_tip,
+    little_metacarpal,
+    little_proximal,
+    little_intermediate,
+    little_distal,
+    little_tip,
+    joint_count
+};
+
+inline constexpr std::array<std::string_view, joint_count> joint_names{"palm",
+                                                                       "wrist",
+                                                                       "thumb_metacarpal",
+                                                                       "thumb_proximal",
+                                                                       "thumb_distal",
+                                                                       "thumb_tip",
+                                                                       "index_metacarpal",
+                                                                       "index_proximal",
+                                                                       "index_intermediate",
+                                                                       "index_distal",
+                                                                       "index_tip",
+                                                                       "middle_metacarpal",
+                                                                       "middle_proximal",
+                                                                       "middle_intermediate",
+                                                                       "middle_distal",
+                                                                       "middle_tip",
+                                                                       "ring_metacarpal",
+                                                                       "ring_proximal",
+                                                                       "ring_intermediate",
+                                                                       "ring_distal",
+                                                                       "ring_tip",
+                                                                       "little_metacarpal",
+                                                                       "little_proximal",
+                                                                       "little_intermediate",
+                                                                       "little_distal",
+                                                                       "little_tip"};
+
+// joint_count for the wrist, the root. Palm and metacarpals are its children.
+constexpr std::size_t parent_of(std::size_t joint) {
+    if (joint == wrist) return joint_count;
+    const bool first = joint == palm || joint == thumb_metacarpal ||
+                       (joint >= index_metacarpal && (joint - index_metacarpal) % 5 == 0);
+    return first ? static_cast<std::size_t>(wrist) : joint - 1;
+}
+
+// Joints of a digit from metacarpal to tip: first … first + count − 1.
+struct Digit {
+    std::size_t first = 0, count = 0;
+};
+inline constexpr std::array<Digit, 5> digits{Digit{thumb_metacarpal, 4}, Digit{index_metacarpal, 5},
+                                             Digit{middle_metacarpal, 5}, Digit{ring_metacarpal, 5},
+                                             Digit{little_metacarpal, 5}};
+
+// Half the breadth (mm) of the gloved digit at each of its joints, metacarpal to tip.
+inline constexpr std::array<std::array<double, 5>, 5> half_breadths_mm{{{15.0, 13.0, 11.9, 9.6, 0.0},
+                                                                        {12.5, 11.8, 10.5, 9.7, 8.4},
+                                                                        {12.8, 12.0, 10.7, 9.9, 8.6},
+                                                                        {12.3, 11.4, 10.1, 9.4, 8.2},
+                                                                        {11.5, 10.3, 9.0, 8.4, 7.4}}};
+inline constexpr double glove_mm = 1.6;  // thickness of the glove at the tip
+
+inline constexpr double skeleton_length = 0.189;  // m, wrist to the middle finger's tip along the bones
+
+struct Skeleton {
+    std::array<Vec3, joint_count> position{};
+    std::array<Quat, joint_count> rotation{};
+};
+
+// The right hand, relaxed and open; its thumb points to −X. mirrored() gives the left hand (plane x = 0).
+Skeleton right_skeleton();
+// The same hand flat: all angles 0.
+Skeleton flat_right_skeleton();
+Skeleton mirrored(const Skeleton& skeleton);
+
 // Forward kinematics: joint angles to the 26 joints of XR_EXT_hand_tracking.
 //
 // A finger's MCP has two axes, abduction in the palm's plane and then flexion; its other joints have one. The
 // thumb's metacarpal rolls about the length of the hand and is abducted in the resulting plane; its other
 // joints flex. The palm arch flexes the metacarpals of little and ring finger in the ratio 27 : 20
 // (El-shennawy et al., see limits.hpp).
-#pragma once
-
-#include "engine/base/pose.hpp"
-#include "haptics/hand/angles.hpp"
-#include "haptics/hand/skeleton.hpp"
-
-namespace bolt::hand {
 
 // A person's hand.
 struct Hand {

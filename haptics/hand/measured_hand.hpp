@@ -1,11 +1,60 @@
-// The trainee's hand as measured by the glove: frames in, filtered and clamped angles out. Pure; allocates
-// nothing.
+// The 1€ filter: a low-pass whose corner frequency rises with speed, so noise is suppressed at rest and lag
+// in motion. Source: G. Casiez, N. Roussel, D. Vogel, 1€ filter: a simple speed-based low-pass filter for
+// noisy input in interactive systems, CHI 2012.
 #pragma once
 
-#include "haptics/hand/hand_angles.hpp"
-#include "haptics/hand/one_euro.hpp"
+#include "engine/base/math.hpp"
+#include "haptics/hand/glove_calibration.hpp"
+#include "haptics/hand/glove_protocol.hpp"
+#include "haptics/hand/kinematics.hpp"
 
 namespace bolt::hand {
+
+// At constant speed v the lag is below 1/(2π (at_rest + per_speed |v|)) s: with these values 6.5 ms at 1
+// rad/s, the speed of a slow deliberate motion, and less at higher speed.
+struct OneEuroOptions {
+    double at_rest = 1.5;     // Hz, corner frequency at rest
+    double per_speed = 15.0;  // Hz per rad/s
+    double of_speed = 3.0;    // Hz, corner frequency of the speed filter
+};
+
+struct OneEuro {
+    double value = 0.0, speed = 0.0;
+    bool started = false;
+};
+
+// Smoothing factor of a first-order low-pass with this corner frequency (Hz) and time step dt (s).
+inline double share(double corner, double dt) { return 1.0 / (1.0 + 1.0 / (2.0 * pi * corner * dt)); }
+
+// Filters the value measured `dt` seconds (> 0) after the last one.
+inline double filtered(OneEuro& filter, const OneEuroOptions& options, double value, double dt) {
+    if (!filter.started) {
+        filter = {value, 0.0, true};
+        return value;
+    }
+    const double speed = (value - filter.value) / dt;
+    filter.speed += share(options.of_speed, dt) * (speed - filter.speed);
+    const double corner = options.at_rest + options.per_speed * std::abs(filter.speed);
+    filter.value += share(corner, dt) * (value - filter.value);
+    return filter.value;
+}
+
+// Converts glove readings to the joint angles of the hand.
+
+// Angle of each sensor's joint, rad, signs as in glove_calibration.hpp. A DIJ without a sensor follows its
+// PIJ; other joints without a calibrated sensor are 0, for example the wrist after a calibration by postures.
+PerSensor<double> sensor_angles(const Calibration& calibration, const GloveFrame& frame);
+
+// Ratio of DIP to PIP flexion (H. Rijpkema, M. Girard, Computer animation of knowledge-based human grasping,
+// SIGGRAPH 1991).
+inline constexpr double dij_of_pij = 2.0 / 3.0;
+
+// Abduction sensors measure the angle between neighbouring fingers. They are summed outward from the middle
+// finger, whose own abduction is not measured and is taken as 0.
+hand::Angles hand_angles(const PerSensor<double>& angles);
+
+// The trainee's hand as measured by the glove: frames in, filtered and clamped angles out. Pure; allocates
+// nothing.
 
 struct GloveWearer {
     Calibration calibration;

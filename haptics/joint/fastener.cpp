@@ -1,7 +1,6 @@
 #include "haptics/joint/fastener.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 

@@ -2,8 +2,59 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numeric>
 
 namespace bolt::joint {
+
+FlangePlate FlangePlate::make(double thickness, double E, double poisson, double interface_stiffness) {
+    return {E * thickness * square(thickness) / (12.0 * (1.0 - square(poisson))), interface_stiffness};
+}
+
+double FlangePlate::length() const { return std::sqrt(std::sqrt(rigidity / foundation)); }
+
+double FlangePlate::deflection_per_force(double r) const {
+    const double l = length();
+    return -square(l) / (2.0 * pi * rigidity) * kelvin_kei(r / l);
+}
+
+double kelvin_kei(double x) {
+    if (x < 1e-9) return -0.25 * pi;
+    // K0(z) = ∫₀^∞ exp(−z cosh t) dt. The integrand is even and analytic: the trapezoidal rule converges
+    // exponentially.
+    const std::complex<double> z = std::polar(x, 0.25 * pi);
+    constexpr double step = 1.0 / 64.0;
+    double sum = 0.5 * std::exp(-z).imag();
+    for (double t = step;; t += step) {
+        const std::complex<double> term = std::exp(-z * std::cosh(t));
+        sum += term.imag();
+        if (z.real() * std::cosh(t) > 40.0) break;
+    }
+    return sum * step;
+}
+
+CouplingMatrix couple(const FlangePlate& plate, std::span<const Vec3> seats) {
+    const double reach = 10.0 * plate.length();
+    CouplingMatrix m;
+    m.own = plate.deflection_per_force(0.0);
+    m.row_begin.push_back(0);
+    // Sorted by x, so that a large field of joints costs n log n and not n².
+    std::vector<std::uint32_t> by_x(seats.size());
+    std::iota(by_x.begin(), by_x.end(), 0U);
+    std::sort(by_x.begin(), by_x.end(), [&](auto a, auto b) { return seats[a].x < seats[b].x; });
+    for (std::uint32_t i = 0; i < seats.size(); ++i) {
+        const auto from = std::lower_bound(by_x.begin(), by_x.end(), seats[i].x - reach,
+                                           [&](auto j, double x) { return seats[j].x < x; });
+        const std::size_t row = m.column.size();
+        for (auto j = from; j != by_x.end() && seats[*j].x <= seats[i].x + reach; ++j)
+            if (*j != i && glm::distance(seats[i], seats[*j]) <= reach) m.column.push_back(*j);
+        std::sort(m.column.begin() + static_cast<std::ptrdiff_t>(row), m.column.end());
+        for (std::size_t k = row; k < m.column.size(); ++k)
+            m.value.push_back(plate.deflection_per_force(glm::distance(seats[i], seats[m.column[k]])));
+        m.row_begin.push_back(static_cast<std::uint32_t>(m.column.size()));
+    }
+    return m;
+}
 
 namespace {
 
@@ -133,6 +184,58 @@ void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::s
         settle_published(group, j, angle, share);
     const Resistance r = resistance(group, joint, j);
     j.torque = share >= 0.0 ? r.tighten : r.loosen;
+}
+
+namespace {
+
+constexpr std::size_t longest = 2'000'000;
+
+double signed_torque(const GroupParameters& group, const JointState& joint, Direction direction) {
+    if (group.law == Law::mechanistic) return joint.torque;
+    return published_read(group.published, joint.published, to_degrees(joint.nut.angle), direction).torque;
+}
+
+bool spent(const JointState& joint) { return joint.condition != Condition::sound; }
+
+// Turns on until the torque is there; gives up where the joint no longer can.
+void tighten_to(const GroupParameters& group, std::vector<JointState>& joints, double torque,
+                const CurveOptions& o) {
+    for (std::size_t i = 0; i < longest && joints[0].torque < torque && !spent(joints[0]); ++i)
+        turn_nut(group, joints, 0, joints[0].nut.angle + o.speed * o.dt, 1.0, o.dt);
+    for (int i = 0; i < 10'000; ++i) step_group(group, joints, -1, Handle{}, 0.001);
+}
+
+}  // namespace
+
+std::vector<CurveSample> torque_angle_curve(const GroupParameters& group, const CurveOptions& o) {
+    std::vector<CurveSample> samples;
+    std::vector<JointState> joints = initial_state(group, 1);
+    JointState& joint = joints[0];
+    const bool on = o.direction == Direction::tighten;
+    if (!on) tighten_to(group, joints, o.torque, o);
+
+    const double start = joint.nut.angle;
+    const double step = (on ? 1.0 : -1.0) * o.speed * o.dt;
+    double yield_begin = -1.0, free_begin = -1.0;
+    for (std::size_t i = 0; i < longest; ++i) {
+        turn_nut(group, joints, 0, start + step * static_cast<double>(i), on ? 1.0 : -1.0, o.dt);
+        const double turned = std::abs(joint.nut.angle - start);
+        samples.push_back({turned, joint.stage, signed_torque(group, joint, o.direction), joint.clamp});
+        if (on) {
+            if (joint.stage == Stage::yield && yield_begin < 0.0) yield_begin = turned;
+            if (spent(joint) ||
+                (yield_begin >= 0.0 && turned >= yield_begin + o.past_yield - 0.5 * std::abs(step)))
+                break;
+        } else {
+            if (joint.stage != Stage::navigation)
+                free_begin = -1.0;
+            else if (free_begin < 0.0)
+                free_begin = turned;
+            if (free_begin >= 0.0 && turned >= free_begin + 0.5 * pi) break;
+            if (joint.nut.angle <= 0.0) break;
+        }
+    }
+    return samples;
 }
 
 }  // namespace bolt::joint

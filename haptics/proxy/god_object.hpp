@@ -13,8 +13,8 @@
 
 #include "engine/base/function_ref.hpp"
 #include "haptics/collision/contact.hpp"
+#include "haptics/proxy/constraint_solver.hpp"
 #include "haptics/proxy/coupling.hpp"
-#include "haptics/proxy/twist.hpp"
 
 namespace bolt::proxy {
 

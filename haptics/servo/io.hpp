@@ -5,7 +5,7 @@
 
 #include "engine/base/pose.hpp"
 #include "haptics/collision/contact.hpp"
-#include "haptics/force/watchdog.hpp"
+#include "haptics/force/output_stage.hpp"
 #include "haptics/joint/stage.hpp"
 
 namespace bolt::servo {

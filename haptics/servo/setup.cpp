@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/joint/corner.hpp"
+#include "haptics/joint/nut.hpp"
 
 namespace bolt::servo {
 

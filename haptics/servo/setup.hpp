@@ -6,9 +6,9 @@
 
 #include "engine/base/pose.hpp"
 #include "haptics/collision/jaw.hpp"
-#include "haptics/force/guiding.hpp"
+#include "haptics/force/device_mapping.hpp"
+#include "haptics/force/guide.hpp"
 #include "haptics/force/output_limits.hpp"
-#include "haptics/force/torque_rendering.hpp"
 #include "haptics/joint/design.hpp"
 #include "haptics/joint/group.hpp"
 
@@ -24,7 +24,7 @@ struct NutGeometry {
     double height = 0.0;           // m
     double across_flats = 0.0;     // s in ISO 4032, m
     double bearing = 0.0;          // m, diameter of the bearing face inside the chamfer
-    double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/corner.hpp)
+    double corner_pressure = 0.0;  // Pa at which the corners yield (haptics/joint/nut.hpp)
     double start_gap = 0.0;        // m from bearing face to seat at nut angle 0
     double lead = 0.0;             // m of advance per rad
 };

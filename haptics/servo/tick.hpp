@@ -56,4 +56,12 @@ State initial_state(const Setup& setup);
 Output tick(const Setup& setup, State& state, const Input& input);
 Output tick(const Setup& setup, State& state, const Input& input, force::IsSegmentFree free);
 
+// The tool and nut as the guiding force takes them (haptics/force/guide.hpp).
+
+force::GuidedTool guided_tool(const Setup& setup, const ToolPose& tool);
+
+// The nut of `joint` at its present angle. Returns a goal with id −1 if `joint` is not an index of
+// setup.nuts.
+force::GuideGoal goal_at(const Setup& setup, std::span<const joint::JointState> joints, int joint);
+
 }  // namespace bolt::servo

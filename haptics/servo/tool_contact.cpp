@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "haptics/collision/smooth_normals.hpp"
-#include "haptics/joint/corner.hpp"
-#include "haptics/servo/jaw_grip.hpp"
+#include "haptics/joint/nut.hpp"
+#include "haptics/servo/engagement.hpp"
 
 namespace bolt::servo {
 

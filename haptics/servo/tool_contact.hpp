@@ -12,7 +12,7 @@
 
 #include "engine/base/result.hpp"
 #include "haptics/collision/narrow_phase.hpp"
-#include "haptics/force/passivity.hpp"
+#include "haptics/force/output_stage.hpp"
 #include "haptics/proxy/god_object.hpp"
 #include "haptics/servo/setup.hpp"
 

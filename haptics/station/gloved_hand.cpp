@@ -1,5 +1,11 @@
 #include "haptics/station/gloved_hand.hpp"
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "engine/base/triple_buffer.hpp"
+
 namespace bolt::station {
 
 hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const hand::GloveSample& sample,
@@ -34,6 +40,81 @@ std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const
                 ? "the glove is a right one, the calibration is for a left one; calibrate this glove"
                 : "the glove is a left one, the calibration is for a right one; calibrate this glove");
     return messages;
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto poll_period = std::chrono::milliseconds(2);  // adds at most this delay to a sample
+constexpr double longest_step = 0.02;  // s without a sample after which the hand is updated all the same
+
+double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+}  // namespace
+
+struct HandThread::Shared {
+    Shared(hand::GloveDriver d, HandSetup s) : driver(std::move(d)), setup(std::move(s)) {}
+
+    hand::GloveDriver driver;
+    HandSetup setup;
+    TripleBuffer<ToolPoses> tool;
+    TripleBuffer<DisplayedHand> displayed;
+    std::atomic<bool> held{false}, lost{false};
+    std::jthread thread;  // last member: destroyed first, so it stops before the data go
+
+    void run(const std::stop_token& stop) {
+        HandState state;
+        for (auto last = Clock::now(); !stop.stop_requested();) {
+            const hand::GloveSample& sample = driver.sample();
+            const double dt = since(last);
+            if (sample.number == state.number && dt < longest_step) {
+                std::this_thread::sleep_for(poll_period);
+                continue;
+            }
+            last = Clock::now();
+            tool.update();
+            update_hand(setup, state, sample, tool.latest(), dt);
+            held.store(state.grip.held, std::memory_order_relaxed);
+            lost.store(state.grip.lost, std::memory_order_release);
+            displayed.write(station::display(setup, state));
+        }
+    }
+};
+
+HandThread::HandThread(std::unique_ptr<Shared> shared) : shared_(std::move(shared)) {}
+HandThread::HandThread(HandThread&&) noexcept = default;
+HandThread& HandThread::operator=(HandThread&&) noexcept = default;
+HandThread::~HandThread() = default;
+
+HandThread HandThread::start(hand::GloveDriver driver, HandSetup setup) {
+    auto shared = std::make_unique<Shared>(std::move(driver), std::move(setup));
+    DisplayedHand first;
+    first.side = shared->setup.wearer.hand.side;  // known before the first sample
+    shared->displayed.write(first);
+
+    shared->thread = std::jthread([s = shared.get()](const std::stop_token& stop) { s->run(stop); });
+    return HandThread(std::move(shared));
+}
+
+void HandThread::set_tool(const ToolPoses& tool) { shared_->tool.write(tool); }
+
+servo::Grip HandThread::grip() const {
+    return shared_->held.load(std::memory_order_relaxed) ? servo::Grip::wrench : servo::Grip::none;
+}
+
+const DisplayedHand& HandThread::displayed() {
+    shared_->displayed.update();
+    return shared_->displayed.latest();
+}
+
+const hand::GloveReport& HandThread::report() { return shared_->driver.report(); }
+
+std::vector<std::string> HandThread::troubles() {
+    HandStatus status;
+    status.lost = shared_->lost.load(std::memory_order_acquire);
+    status.held = shared_->held.load(std::memory_order_relaxed);
+    return messages(status, shared_->setup.wearer.hand.side, shared_->driver.report());
 }
 
 }  // namespace bolt::station

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/spsc_ring.hpp"
-#include "haptics/station/hand_thread.hpp"
+#include "haptics/station/gloved_hand.hpp"
 
 namespace bolt::station {
 

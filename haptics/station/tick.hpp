@@ -1,19 +1,110 @@
+// The devices of a station: which one moves the tool, which one turns the wrench on its bolt, and the
+// transforms between their frames and the assembly's.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <variant>
+
+#include "engine/base/pose.hpp"
+#include "haptics/device/device.hpp"
+#include "haptics/device/device_thread.hpp"
+#include "haptics/force/device_mapping.hpp"
+#include "haptics/servo/io.hpp"
+#include "haptics/servo/tick.hpp"
+
+namespace bolt::station {
+
+// Bit masks of a device's buttons; 0: no button has that function.
+struct Buttons {
+    std::uint32_t held = 1;  // dead-man switch
+    std::uint32_t clutch = 2;
+    std::uint32_t stop = 0, reset = 0;
+};
+
+struct Layout {
+    std::optional<device::Description> mover;  // moves the tool: Sensing::pose or rate
+    Buttons mover_buttons;
+    // Turns the wrench on its bolt and renders the torque: Sensing::turn. With a wheel the mover renders
+    // forces only.
+    std::optional<device::Description> wheel;
+    Buttons wheel_buttons;
+    force::Workspace workspace;  // of the mover; for a device that gives rates only `turn` applies
+    Pose home;                   // initial pose of the tool in the assembly's frame
+    std::optional<Pose> wrist;   // of a gloved hand that holds the tool, in the tool's frame
+};
+
+// Fails with ErrorCode::no_device if there is no device or a device cannot take its role.
+Status check(const Layout& layout);
+
+// s that a sample waits for the servo and a command for the device thread, together; subtracted from the time
+// in which forces must be released.
+inline constexpr double transport_delay = 2e-3;
+
+// The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
+force::OutputLimits limits_of(const Layout& layout);
+
+// Return true if the device renders any force or any torque.
+bool renders_force(const device::Description& description);
+bool renders_torque(const device::Description& description);
+
+// What a station receives from the application besides its devices' samples. StationControls are states: only
+// the latest value counts. StationCommands are events: each is executed once, in order, and none is lost.
+
+struct StationControls {
+    servo::Grip grip = servo::Grip::none;  // `wrench` has no effect if a gloved hand determines the grip
+    bool dead_man = false;                 // held, in addition to the devices' buttons
+    // s after which `dead_man` expires unless the controls are sent again, so that a window that hangs
+    // releases it.
+    double dead_man_timeout = std::numeric_limits<double>::infinity();
+    bool clutch = false, stop = false, reset = false;
+    std::int16_t guide = -1;     // joint that the guiding force leads to; −1: none
+    float click_setting = 0.0F;  // N·m, of a click-type torque wrench
+    Quat view{1.0, 0.0, 0.0,
+              0.0};  // unit, from the viewer's frame to the assembly's; a puck moves the tool in the former
+    bool pause = false;  // no servo tick and no force; the tool stands still while the hand may move
+    // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
+    // hand.
+    std::optional<Pose> wrench_rest{};
+    // Wrist of a gloved hand without a wrench in the frame of its fingertips, which the device then moves;
+    // none: the device moves the hand as if it held the tool.
+    std::optional<Pose> bare_wrist{};
+    // Joint to whose nut a tool moves by itself if its device gives rates and renders no force; −1: none.
+    std::int16_t glide = -1;
+};
+
+// Moves the tool to a pose in the assembly's frame; the hand stays where it is, and the tool follows it from
+// there.
+struct PlaceTool {
+    Pose tool{};
+};
+// Stores the state of the nuts for undo. Checkpoints are saved one a tick, before a pending restore.
+struct SaveCheckpoint {};
+// Restores the n-th last checkpoint, 1 … servo::max_checkpoints. It stays pending until the servo permits it
+// (see servo::Input::undo), and replaces a pending restore. More steps than servo::max_checkpoints have no
+// effect.
+struct RestoreCheckpoint {
+    std::uint8_t steps = 1;
+};
+// Changes a pending restore, or cancels it with `steps` 0. No effect if none is pending, so that a restore
+// which completed in the meantime is not repeated.
+struct AmendRestore {
+    std::uint8_t steps = 0;
+};
+
+using StationCommand = std::variant<PlaceTool, SaveCheckpoint, RestoreCheckpoint, AmendRestore>;
+
+// Commands that fit into a station's queue. The servo thread empties it every tick, in a pause too, so it
+// fills only if that thread does not run. Station::send then fails.
+inline constexpr std::size_t command_queue_capacity = 64;
+
 // One tick of a station: maps the devices' samples and the application's controls to the servo's input, and
 // the servo's output to the devices' commands. Pure, of fixed dt, without allocation, lock, clock or I/O.
 // Forces come from the servo's output stage; this code maps them and may only reduce them.
 //
 // A device that is lost or silent for too long moves nothing and renders no force. When it returns, the hand
 // may be anywhere, so the tool stays in place and follows from there, as after a clutch.
-#pragma once
-
-#include <span>
-
-#include "haptics/device/device_thread.hpp"
-#include "haptics/servo/tick.hpp"
-#include "haptics/station/commands.hpp"
-#include "haptics/station/layout.hpp"
-
-namespace bolt::station {
 
 struct StationInputs {
     device::DeviceSnapshot mover, wheel;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
 #include "game/report/comparison.hpp"
 #include "game/session/session_file.hpp"

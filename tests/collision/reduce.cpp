@@ -1,5 +1,5 @@
 // What is merged is held by what is kept, and what waits is as if it had been found.
-#include "haptics/collision/contact_reduction.hpp"
+#include "haptics/collision/contact.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "haptics/proxy/twist.hpp"
+#include "haptics/proxy/constraint_solver.hpp"
 #include "tests/collision/support.hpp"
 
 using namespace bolt;

@@ -1,4 +1,4 @@
-#include "haptics/collision/visibility.hpp"
+#include "haptics/collision/world.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/servo_setup.hpp"
 #include "tests/support/sanitized.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "haptics/joint/published.hpp"
-#include "haptics/joint/torque.hpp"
+#include "haptics/joint/design.hpp"
 #include "support.hpp"
 
 using namespace bolt;

@@ -8,7 +8,7 @@
 
 #include "content/format/embedded.hpp"
 #include "content/format/json_document.hpp"
-#include "content/format/new_assembly.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
 #include "support.hpp"
 #include "tests/support/folder.hpp"

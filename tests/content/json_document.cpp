@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "content/format/json_pointer.hpp"
 #include "content/format/json_syntax.hpp"
 #include "support.hpp"
 

@@ -1,4 +1,4 @@
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <optional>
 
-#include "content/format/new_assembly.hpp"
 #include "engine/base/file.hpp"
 #include "support.hpp"
 #include "tests/support/folder.hpp"

@@ -8,7 +8,6 @@
 
 #include "content/format/embedded.hpp"
 #include "content/format/read_assembly.hpp"
-#include "content/format/schema_explain.hpp"
 #include "engine/base/file.hpp"
 #include "support.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 
 namespace content_test {
 

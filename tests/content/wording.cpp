@@ -1,4 +1,4 @@
-#include "content/format/wording.hpp"
+#include "content/format/json_document.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/random.hpp"
 #include "tests/dead_ends/life.hpp"
 

@@ -1,4 +1,4 @@
-#include "haptics/device/describe.hpp"
+#include "haptics/device/device.hpp"
 
 #include <doctest/doctest.h>
 

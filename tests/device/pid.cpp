@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "haptics/device/board_request.hpp"
+#include "haptics/device/wheel.hpp"
 #include "haptics/device/hid_devices.hpp"
 #include "tests/device/descriptors.hpp"
 #include "tools/emulate/puck.hpp"

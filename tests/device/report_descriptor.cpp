@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/base/random.hpp"
-#include "haptics/device/six_axis.hpp"
+#include "haptics/device/space_mouse.hpp"
 #include "tests/device/descriptors.hpp"
 
 using namespace bolt;

@@ -1,9 +1,7 @@
 // Devices without hardware: simulated, recorded, mouse and keyboard.
 #include <doctest/doctest.h>
 
-#include "haptics/device/recorded.hpp"
-#include "haptics/device/simulated.hpp"
-#include "haptics/device/virtual_puck.hpp"
+#include "haptics/device/virtual_devices.hpp"
 #include "tests/device/driver_contract.hpp"
 #include "tests/device/support.hpp"
 

@@ -1,5 +1,5 @@
 // How soon a device is back, how soon its forces are gone, and what is said meanwhile, in virtual time.
-#include "haptics/device/supervisor.hpp"
+#include "haptics/device/device_thread.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/base/random.hpp"
-#include "haptics/device/simulated.hpp"
+#include "haptics/device/virtual_devices.hpp"
 #include "tests/device/support.hpp"
 
 using namespace bolt;

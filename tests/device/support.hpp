@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "haptics/device/device.hpp"
-#include "haptics/device/timer.hpp"
 
 namespace bolt::test {
 

@@ -5,10 +5,10 @@
 
 #include <filesystem>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
-#include "haptics/device/virtual_puck.hpp"
-#include "haptics/hand/closed_hand.hpp"
+#include "haptics/device/virtual_devices.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/folder.hpp"
 #include "tools/emulate/serial_glove.hpp"

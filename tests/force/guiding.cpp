@@ -4,7 +4,7 @@
 
 #include "engine/base/pose.hpp"
 #include "engine/base/random.hpp"
-#include "haptics/force/guiding.hpp"
+#include "haptics/force/guide.hpp"
 
 using namespace bolt;
 using namespace bolt::force;

@@ -1,6 +1,6 @@
 // The output stage in torque, and what it remembers over letting go and over faults.
 
-#include "haptics/force/limiter.hpp"
+#include "haptics/force/output_stage.hpp"
 
 #include <doctest/doctest.h>
 

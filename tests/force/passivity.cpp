@@ -1,5 +1,5 @@
 // The energy of the port against motions whose work is known, and what the controller may and may not do.
-#include "haptics/force/passivity.hpp"
+#include "haptics/force/output_stage.hpp"
 
 #include <doctest/doctest.h>
 

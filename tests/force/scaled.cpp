@@ -1,10 +1,10 @@
-#include "haptics/force/scaled.hpp"
+#include "haptics/force/output_limits.hpp"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
-#include "haptics/force/limiter.hpp"
+#include "haptics/force/output_stage.hpp"
 
 using namespace bolt;
 using namespace bolt::force;

@@ -1,4 +1,4 @@
-#include "haptics/force/torque_rendering.hpp"
+#include "haptics/force/device_mapping.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // What the watchdog holds off, for how long, and that it says so.
-#include "haptics/force/watchdog.hpp"
+#include "haptics/force/output_stage.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "haptics/force/workspace.hpp"
+#include "haptics/force/device_mapping.hpp"
 
 #include <doctest/doctest.h>
 

@@ -8,10 +8,9 @@
 #include <memory>
 #include <optional>
 
-#include "haptics/device/board_request.hpp"
+#include "haptics/device/wheel.hpp"
 #include "haptics/device/pid.hpp"
 #include "haptics/device/space_mouse.hpp"
-#include "haptics/device/wheel.hpp"
 #include "tools/emulate/wheel_descriptors.hpp"
 
 namespace {

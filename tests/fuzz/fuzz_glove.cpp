@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "haptics/hand/glove_session.hpp"
+#include "haptics/hand/glove_protocol.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace bolt::hand;

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "haptics/device/six_axis.hpp"
+#include "haptics/device/space_mouse.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace bolt::device;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
 #include "tools/author/geometry/box.hpp"

@@ -1,4 +1,4 @@
-#include "haptics/hand/cal_file.hpp"
+#include "haptics/hand/glove_calibration.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

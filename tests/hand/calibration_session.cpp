@@ -1,4 +1,4 @@
-#include "haptics/hand/calibration_session.hpp"
+#include "haptics/hand/glove_calibration.hpp"
 
 #include <doctest/doctest.h>
 

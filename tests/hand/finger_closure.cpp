@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/random.hpp"
-#include "haptics/hand/limits.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "tests/hand/test_tools.hpp"
 #include "tests/support/forbidden.hpp"
 #include "tests/support/sanitized.hpp"

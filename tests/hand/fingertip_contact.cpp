@@ -1,4 +1,4 @@
-#include "haptics/hand/fingertip_contact.hpp"
+#include "haptics/hand/finger_closure.hpp"
 
 #include <doctest/doctest.h>
 

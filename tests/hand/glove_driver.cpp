@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <thread>
 
-#include "haptics/hand/serial_port.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/folder.hpp"
 #include "tools/emulate/serial_glove.hpp"

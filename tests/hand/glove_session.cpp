@@ -1,4 +1,4 @@
-#include "haptics/hand/glove_session.hpp"
+#include "haptics/hand/glove_protocol.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/random.hpp"
-#include "haptics/hand/limits.hpp"
 
 using namespace bolt;
 using namespace bolt::hand;

@@ -1,4 +1,4 @@
-#include "haptics/hand/glove_adapter.hpp"
+#include "haptics/hand/glove_driver.hpp"
 
 #include <doctest/doctest.h>
 

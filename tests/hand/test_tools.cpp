@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "haptics/hand/limits.hpp"
+#include "haptics/hand/kinematics.hpp"
 
 namespace grasp_test {
 

@@ -1,7 +1,7 @@
 // A hand at a handle, and answers about it by brute force.
 #pragma once
 
-#include "haptics/hand/closed_hand.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "haptics/hand/grasp.hpp"
 #include "tests/collision/support.hpp"
 

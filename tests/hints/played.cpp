@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/lesson/hints.hpp"
 #include "game/lesson/mistakes.hpp"
 #include "game/session/servo_setup.hpp"

@@ -10,7 +10,7 @@
 #include <gp_Ax2.hxx>
 #include <nlohmann/json.hpp>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "support.hpp"
 
 using namespace import_test;

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "support.hpp"
 #include "tools/author/import/names.hpp"
 #include "tools/author/import/pick_material.hpp"

@@ -1,7 +1,7 @@
 // A click-type torque wrench: where it trips, how the torque falls, when it is armed again; and that swinging
 // it to and fro takes energy, whatever the hand does.
 
-#include "haptics/joint/click.hpp"
+#include "haptics/joint/nut.hpp"
 
 #include <doctest/doctest.h>
 

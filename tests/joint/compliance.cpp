@@ -1,4 +1,4 @@
-#include "haptics/joint/compliance.hpp"
+#include "haptics/joint/design.hpp"
 
 #include <doctest/doctest.h>
 

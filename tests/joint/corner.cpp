@@ -1,4 +1,4 @@
-#include "haptics/joint/corner.hpp"
+#include "haptics/joint/nut.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "haptics/joint/compliance.hpp"
+#include "haptics/joint/design.hpp"
 #include "haptics/joint/group.hpp"
 #include "haptics/joint/mechanistic.hpp"
 #include "tests/joint/support.hpp"

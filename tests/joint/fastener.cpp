@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "haptics/joint/torque.hpp"
+#include "haptics/joint/design.hpp"
 #include "tests/support/oracle.hpp"
 
 using namespace bolt;

@@ -1,8 +1,7 @@
-#include "haptics/joint/flange.hpp"
+#include "haptics/joint/group.hpp"
 
 #include <doctest/doctest.h>
 
-#include "haptics/joint/group.hpp"
 #include "tests/joint/support.hpp"
 
 using namespace bolt;

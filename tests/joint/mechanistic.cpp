@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "haptics/joint/compliance.hpp"
-#include "haptics/joint/curve.hpp"
+#include "haptics/joint/design.hpp"
+#include "haptics/joint/group.hpp"
 #include "tests/joint/support.hpp"
 #include "tests/support/oracle.hpp"
 

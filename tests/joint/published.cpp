@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "haptics/joint/curve.hpp"
+#include "haptics/joint/group.hpp"
 
 using namespace bolt;
 using namespace bolt::joint;

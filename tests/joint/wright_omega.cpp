@@ -1,11 +1,10 @@
-#include "haptics/joint/wright_omega.hpp"
+#include "haptics/joint/seat_spring.hpp"
 
 #include <doctest/doctest.h>
 
 #include <initializer_list>
 
 #include "engine/base/random.hpp"
-#include "haptics/joint/seat_spring.hpp"
 
 using namespace bolt;
 using namespace bolt::joint;

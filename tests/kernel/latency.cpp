@@ -4,7 +4,7 @@
 #include <array>
 #include <atomic>
 
-#include "haptics/device/hidapi_transport.hpp"
+#include "haptics/device/hid_transport.hpp"
 #include "tests/kernel/guest.hpp"
 #include "tools/emulate/puck.hpp"
 #include "tools/emulate/wheel_descriptors.hpp"

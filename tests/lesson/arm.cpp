@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/session/servo_setup.hpp"
 #include "game/trainees/trainee.hpp"

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/servo_setup.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/lesson/script.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/servo_setup.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/lesson/script.hpp"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/replay.hpp"
 #include "game/session/servo_setup.hpp"
 #include "game/session/session_file.hpp"

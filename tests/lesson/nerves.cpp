@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/session/servo_setup.hpp"
 #include "game/trainees/trainee.hpp"

@@ -15,7 +15,7 @@
 #include <map>
 #include <string>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
 #include "haptics/joint/fastener.hpp"
 #include "support.hpp"

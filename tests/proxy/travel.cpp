@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/base/random.hpp"
-#include "haptics/proxy/twist.hpp"
+#include "haptics/proxy/constraint_solver.hpp"
 
 using namespace bolt;
 using namespace bolt::collision;

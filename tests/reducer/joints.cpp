@@ -14,7 +14,7 @@
 #include <map>
 #include <numbers>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
 #include "shipped.hpp"
 #include "tools/assets/models/reducer/layout.hpp"

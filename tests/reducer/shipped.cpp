@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <gp_Lin.hxx>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 
 namespace reducer_test {
 namespace {

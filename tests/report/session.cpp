@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
 #include "game/analysis/torque_envelope.hpp"
 #include "game/plot/text.hpp"

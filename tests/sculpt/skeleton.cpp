@@ -1,4 +1,4 @@
-#include "haptics/hand/skeleton.hpp"
+#include "haptics/hand/kinematics.hpp"
 
 #include <doctest/doctest.h>
 

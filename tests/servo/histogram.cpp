@@ -1,4 +1,4 @@
-#include "haptics/servo/histogram.hpp"
+#include "haptics/servo/thread.hpp"
 
 #include <doctest/doctest.h>
 

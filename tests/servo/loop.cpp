@@ -1,5 +1,5 @@
 // The loop on a clock that only this test moves, so that every lateness is the one wanted; then the verdicts.
-#include "haptics/servo/loop.hpp"
+#include "haptics/servo/thread.hpp"
 
 #include <doctest/doctest.h>
 

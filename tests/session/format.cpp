@@ -6,7 +6,7 @@
 
 #include "game/session/device_text.hpp"
 #include "game/session/timing_rows.hpp"
-#include "haptics/servo/histogram.hpp"
+#include "haptics/servo/thread.hpp"
 #include "tests/session/support.hpp"
 #include "tests/support/oracle.hpp"
 

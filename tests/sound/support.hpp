@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/sound/event_detection.hpp"
 #include "game/sound/materials.hpp"

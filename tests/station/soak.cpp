@@ -9,7 +9,7 @@
 #include <deque>
 
 #include "engine/base/random.hpp"
-#include "haptics/hand/glove_session.hpp"
+#include "haptics/hand/glove_protocol.hpp"
 #include "tests/station/gloved.hpp"
 #include "tests/station/support.hpp"
 #include "tests/support/forbidden.hpp"

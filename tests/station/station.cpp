@@ -6,7 +6,7 @@
 
 #include <thread>
 
-#include "haptics/device/virtual_puck.hpp"
+#include "haptics/device/virtual_devices.hpp"
 #include "tests/station/gloved.hpp"
 #include "tests/station/support.hpp"
 #include "tests/support/eventually.hpp"

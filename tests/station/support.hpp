@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "haptics/device/simulated.hpp"
+#include "haptics/device/virtual_devices.hpp"
 #include "haptics/station/tick.hpp"
 #include "tests/device/support.hpp"
 #include "tests/servo/support.hpp"

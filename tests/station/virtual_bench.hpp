@@ -6,7 +6,7 @@
 #include "game/session/lesson_session.hpp"
 #include "game/station/bench.hpp"
 #include "haptics/device/device_thread.hpp"
-#include "haptics/device/timer.hpp"
+#include "haptics/device/device.hpp"
 
 namespace bolt::test {
 

@@ -6,8 +6,8 @@
 
 #include "engine/base/random.hpp"
 #include "game/lesson/lesson.hpp"
-#include "haptics/joint/corner.hpp"
-#include "haptics/servo/jaw_grip.hpp"
+#include "haptics/joint/nut.hpp"
+#include "haptics/servo/engagement.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/tool_contact/support.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/minimum_jerk.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/servo_setup.hpp"

@@ -7,7 +7,7 @@
 
 #include "engine/base/file.hpp"
 #include "engine/base/random.hpp"
-#include "haptics/hand/cal_file.hpp"
+#include "haptics/hand/glove_calibration.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/replaced.hpp"

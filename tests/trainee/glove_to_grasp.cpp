@@ -8,10 +8,10 @@
 #include <filesystem>
 
 #include "content/trainee/glove_calibration.hpp"
-#include "haptics/hand/calibration_session.hpp"
+#include "haptics/hand/glove_calibration.hpp"
 #include "haptics/hand/glove_driver.hpp"
 #include "haptics/hand/grasp.hpp"
-#include "haptics/hand/limits.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "haptics/hand/measured_hand.hpp"
 #include "tests/hand/test_tools.hpp"
 #include "tests/support/eventually.hpp"

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "content/trainee/data_folder.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/random.hpp"
 #include "tests/support/folder.hpp"

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 
 namespace bolt::test {
 

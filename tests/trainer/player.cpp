@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 
 namespace trainer_test {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/replay.hpp"
 #include "game/session/session_file.hpp"
 #include "game/trainer/mouse_hand.hpp"

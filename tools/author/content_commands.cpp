@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "content/format/load.hpp"
-#include "content/format/new_assembly.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/console.hpp"
 #include "tools/author/commands.hpp"
 

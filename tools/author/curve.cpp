@@ -1,11 +1,11 @@
-#include "haptics/joint/curve.hpp"
+#include "haptics/joint/group.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/nearest.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "content/format/assembly.hpp"
-#include "haptics/joint/curve.hpp"
+#include "haptics/joint/group.hpp"
 
 namespace bolt::author {
 

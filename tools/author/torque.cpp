@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/console.hpp"
-#include "haptics/joint/torque.hpp"
+#include "haptics/joint/design.hpp"
 #include "tools/author/commands.hpp"
 
 namespace bolt::author {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/console.hpp"
 #include "tools/author/commands.hpp"
 #include "tools/author/geometry/check.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/console.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/nut_views.hpp"

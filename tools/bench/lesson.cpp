@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/servo_setup.hpp"
 #include "game/trainees/train.hpp"
 #include "game/trainees/trainee.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tools/bench/need.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/render/camera.hpp"
 #include "engine/render/picture.hpp"

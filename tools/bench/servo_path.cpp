@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/minimum_jerk.hpp"
 #include "engine/base/random.hpp"
 #include "game/session/contact_models.hpp"

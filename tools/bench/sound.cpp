@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "game/session/servo_setup.hpp"
 #include "game/sound/event_detection.hpp"
 #include "game/sound/synth.hpp"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/base/random.hpp"
-#include "haptics/hand/angles.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "haptics/hand/glove_calibration.hpp"
-#include "haptics/hand/glove_handshake.hpp"
+#include "haptics/hand/glove_protocol.hpp"
 
 namespace bolt::emulate {
 

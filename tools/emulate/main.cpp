@@ -13,7 +13,7 @@
 
 #include "engine/base/console.hpp"
 #include "engine/base/program.hpp"
-#include "haptics/hand/closed_hand.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "tools/emulate/play_hid.hpp"
 #include "tools/emulate/serial_glove.hpp"
 

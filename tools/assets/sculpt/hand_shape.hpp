@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "haptics/hand/skeleton.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "tools/assets/sculpt/field.hpp"
 #include "tools/assets/sculpt/surface_nets.hpp"
 

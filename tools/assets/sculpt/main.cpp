@@ -12,8 +12,8 @@
 #include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/program.hpp"
-#include "haptics/hand/hand_angles.hpp"
-#include "haptics/hand/limits.hpp"
+#include "haptics/hand/measured_hand.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "tools/assets/sculpt/content_files.hpp"
 #include "tools/assets/sculpt/pose.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "engine/assets/model.hpp"
 #include "engine/base/result.hpp"
-#include "haptics/hand/skeleton.hpp"
+#include "haptics/hand/kinematics.hpp"
 
 namespace bolt::sculpt {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <tuple>
 
-#include "content/format/json_pointer.hpp"
+#include "content/format/json_document.hpp"
 #include "engine/assets/gltf.hpp"
 
 #include "tools/author/geometry/check_levels.hpp"

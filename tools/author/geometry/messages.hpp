@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "content/format/json_document.hpp"
-#include "content/format/wording.hpp"
 #include "tools/author/geometry/check.hpp"
 
 namespace bolt::geometry {

@@ -11,7 +11,7 @@
 #include <numeric>
 
 #include "haptics/joint/fastener.hpp"
-#include "haptics/joint/torque.hpp"
+#include "haptics/joint/design.hpp"
 
 namespace bolt::step_import {
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "content/format/embedded.hpp"
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
 #include "tools/author/geometry/check_levels.hpp"

@@ -8,9 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "content/format/json_document.hpp"
-#include "content/format/json_pointer.hpp"
-#include "content/format/load.hpp"
-#include "content/format/wording.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
 #include "tools/author/import/embedded_materials.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "content/format/load.hpp"
+#include "content/format/assembly.hpp"
 #include "engine/base/console.hpp"
 #include "engine/base/program.hpp"
 #include "game/session/contact_models.hpp"

@@ -8,8 +8,8 @@
 
 #include "engine/base/minimum_jerk.hpp"
 #include "engine/base/random.hpp"
-#include "haptics/joint/corner.hpp"
-#include "haptics/servo/jaw_grip.hpp"
+#include "haptics/joint/nut.hpp"
+#include "haptics/servo/engagement.hpp"
 #include "tools/verify/contact/near_poses.hpp"
 
 namespace bolt::contact_validation {

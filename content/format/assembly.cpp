@@ -1,0 +1,333 @@
+#include "content/format/assembly.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "content/format/embedded.hpp"
+#include "content/format/json_document.hpp"
+#include "content/format/json_syntax.hpp"
+#include "content/format/read_assembly.hpp"
+#include "engine/base/file.hpp"
+
+namespace bolt::content {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_errors = 200;  // that are worth reading
+
+bool holds_content(const fs::path& folder) {
+    std::error_code ignored;
+    return fs::is_regular_file(folder / "schema" / "assembly.schema.json", ignored);
+}
+
+std::vector<std::string> assembly_names(const fs::path& content) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(content / "assemblies", ignored))
+        if (fs::exists(entry.path() / "assembly.json", ignored))
+            names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Loaded failed(std::string file, std::string what, std::string expected) {
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.file = std::move(file);
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    Loaded loaded;
+    loaded.errors.push_back(std::move(error));
+    return loaded;
+}
+
+Loaded unknown_assembly(const std::string& name, const fs::path& content,
+                        const std::vector<std::string>& names) {
+    const std::string best = meant(name, names);
+    std::string there = fmt::format("{}expected one of {}",
+                                    best.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(best)),
+                                    fmt::join(names, ", "));
+    if (names.empty())
+        there = content.empty() ? "a content folder; BOLTWRIGHT_CONTENT names it" : "an assembly in content/";
+    return failed(name, "there is no such folder, file or assembly", std::move(there));
+}
+
+// Sessions are SQLite files, and all of those begin with the same words.
+bool is_session(const fs::path& file) {
+    constexpr std::string_view magic = "SQLite format 3";
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) return false;
+    char begin[magic.size()] = {};
+    std::ifstream(file, std::ios::binary).read(begin, sizeof begin);
+    return std::string_view(begin, sizeof begin) == magic;
+}
+
+std::string folder_name(const fs::path& file) {
+    std::error_code ignored;
+    const fs::path whole = fs::absolute(file, ignored).lexically_normal();
+    return whole.parent_path().filename().string();
+}
+
+fs::path whole_path(const fs::path& path) {
+    std::error_code problem;
+    fs::path whole = fs::weakly_canonical(fs::absolute(path), problem);
+    return problem ? path : whole;
+}
+
+// An assembly of content/ may name what lies in content/, any other only what lies in its own folder.
+FilePlaces places_of(const fs::path& file) {
+    const fs::path folder = whole_path(file).parent_path(), content = whole_path(content_folder());
+    const auto differs = std::mismatch(content.begin(), content.end(), folder.begin(), folder.end());
+    const bool inside = !content.empty() && differs.first == content.end();
+    return {file.parent_path(), content_folder() / "tools", inside ? content : folder};
+}
+
+Loaded parse(std::string_view text, std::string_view file, std::string_view variant,
+             const FilePlaces& places) {
+    Loaded loaded;
+    loaded.assembly.file = file;
+    loaded.assembly.text = text;
+    const auto document = JsonDocument::parse(text, file, loaded.errors);
+    if (!document) return loaded;
+    const std::vector<Error> repeated = std::move(loaded.errors);
+    Reader reader(*document);
+    Assembly assembly = read_assembly(reader, variant, places);
+    assembly.name = folder_name(fs::path(file));
+    assembly.file = std::move(loaded.assembly.file);
+    assembly.text = std::move(loaded.assembly.text);
+    loaded.assembly = std::move(assembly);
+    loaded.errors = reader.take_errors();
+    loaded.errors.insert(loaded.errors.begin(), repeated.begin(), repeated.end());
+    std::stable_sort(loaded.errors.begin(), loaded.errors.end(), [](const Error& a, const Error& b) {
+        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+    });
+    if (loaded.errors.size() > most_errors) {
+        loaded.errors.resize(most_errors);
+        Error last = loaded.errors.back();
+        last.pointer.clear();
+        last.what = "further errors are not shown: fix those above first";
+        last.expected.clear();
+        loaded.errors.push_back(std::move(last));
+    }
+    return loaded;
+}
+
+}  // namespace
+
+Loaded parse_assembly(std::string_view text, std::string_view file, std::string_view variant) {
+    return parse(text, file, variant, {fs::path(file).parent_path(), "tools", {}});
+}
+
+Status choose_tool(Assembly& assembly, std::string_view name) {
+    std::vector<std::string> names;
+    for (const Tool& tool : assembly.tools) {
+        names.push_back(tool.name);
+        if (tool.name != name && !(name.empty() && names.size() == 1)) continue;
+        assembly.tool = tool.name;
+        assembly.wrench = tool.wrench;
+        return {};
+    }
+    Error error;
+    error.code = ErrorCode::bad_content;
+    error.file = assembly.file;
+    error.what = fmt::format("there is no tool {} in this file", in_quotes(name));
+    error.expected = suggest(name, names);
+    return fail(error);
+}
+
+Loaded load_assembly(const fs::path& where, std::string_view variant) {
+    std::error_code ignored;
+    const bool folder = fs::is_directory(where, ignored);
+    fs::path file = folder ? where / "assembly.json" : where;
+    if (!fs::exists(file, ignored)) {
+        const fs::path content = content_folder();
+        const std::vector<std::string> names = assembly_names(content);
+        if (std::find(names.begin(), names.end(), where.string()) == names.end())
+            return folder ? failed(where.string(), "this folder has no assembly.json",
+                                   "expected a folder of an assembly")
+                          : unknown_assembly(where.string(), content, names);
+        file = content / "assemblies" / where / "assembly.json";
+    }
+    if (is_session(file))
+        return failed(file.string(), "this is a session, not an assembly",
+                      "expected the folder of an assembly, or its assembly.json");
+    const auto text = read_file(file, json_size_limit, ErrorCode::bad_content);
+    if (!text) {
+        Loaded loaded;
+        loaded.errors.push_back(text.error());
+        return loaded;
+    }
+    return parse(*text, file.string(), variant, places_of(file));
+}
+
+fs::path content_folder() {
+    if (const char* given =
+            std::getenv("BOLTWRIGHT_CONTENT")) {  // NOLINT(concurrency-mt-unsafe): nothing sets it
+        if (*given != '\0') return holds_content(given) ? fs::path(given) : fs::path{};
+    }
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    for (fs::path folder = program.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+        if (holds_content(folder / "content")) return folder / "content";
+        if (holds_content(folder / "share" / "boltwright" / "content"))
+            return folder / "share" / "boltwright" / "content";
+        if (folder == folder.root_path()) break;
+    }
+    const fs::path source = BOLT_SOURCE_CONTENT;
+    return holds_content(source) ? source : fs::path{};
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view schema_name = "assembly.schema.json";
+constexpr std::size_t model_size_limit = 64U << 20U;  // bytes
+
+tl::unexpected<Error> refused(const fs::path& path, ErrorCode code, std::string what, std::string expected) {
+    Error error;
+    error.code = code;
+    error.file = path.string();
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    return fail(std::move(error));
+}
+
+// Replaces the value at a pointer in the text itself, so that the author finds the file as a person wrote it.
+void replace_value(std::string& text, const char* pointer, std::string_view value) {
+    std::vector<Error> errors;
+    const auto document = JsonDocument::parse(text, {}, errors);
+    if (!document) return;
+    const std::size_t start = document->offset(pointer);
+    // The name comes from outside: what is not UTF-8 in it must not make a file that cannot be read.
+    const nlohmann::json json = std::string(value);
+    text.replace(start, token_end(text, start) - start,
+                 json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+// Takes a member out of the text, with its comma: the one behind it or, of the last member, the one before
+// it.
+void remove_member(std::string& text, const JsonDocument& document, std::string_view pointer) {
+    std::size_t begin = document.offset(pointer, Part::key), end = token_end(text, document.offset(pointer));
+    const std::size_t next = skip_space(text, end);
+    if (next < text.size() && text[next] == ',')
+        end = skip_space(text, next + 1);
+    else
+        begin = text.find_last_of(',', begin);
+    text.erase(begin, end - begin);
+}
+
+// Where the template names files of models: the assembly's own, then those of its tools.
+std::vector<std::string> model_pointers(const std::string& text) {
+    std::vector<std::string> pointers{"/model", "/model_far", "/contact_model", "/tool/model"};
+    std::vector<Error> errors;
+    const auto document = JsonDocument::parse(text, {}, errors);
+    if (!document || !document->root().contains("more_tools")) return pointers;
+    for (const auto& [name, tool] : document->root()["more_tools"].items())
+        pointers.push_back((nlohmann::json::json_pointer("/more_tools") / name / "model").to_string());
+    return pointers;
+}
+
+// The template's models are copied with it, its wrench stays where all wrenches are. What is not there is not
+// named.
+std::vector<fs::path> take_models(std::string& text) {
+    std::vector<fs::path> copies;
+    const fs::path content = content_folder(), own = content / "assemblies" / template_name();
+    for (const std::string& pointer : model_pointers(text)) {
+        std::vector<Error> errors;
+        const auto document = JsonDocument::parse(text, {}, errors);
+        const nlohmann::json::json_pointer at(pointer);
+        if (!document || !document->root().contains(at)) continue;
+        const bool tool = pointer.find("tool") != std::string::npos;
+        const fs::path file = (tool ? content / "tools" : own) / document->root().at(at).get<std::string>();
+        std::error_code ignored;
+        if (!fs::is_regular_file(file, ignored))
+            remove_member(text, *document, pointer);
+        else if (!tool)
+            copies.push_back(file);
+    }
+    return copies;
+}
+
+bool is_among_assemblies(const fs::path& folder) {
+    const fs::path content = content_folder();
+    std::error_code problem;
+    return !content.empty() && fs::equivalent(fs::absolute(folder).lexically_normal().parent_path(),
+                                              content / "assemblies", problem);
+}
+
+// What was made so far. It goes again unless it is kept: a disk that is full leaves no half of an assembly.
+class Made {
+  public:
+    Made() = default;
+    Made(const Made&) = delete;
+    Made& operator=(const Made&) = delete;
+    ~Made() {
+        std::error_code ignored;
+        // Only empty folders are removed: what others have put there stays.
+        for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) fs::remove(*path, ignored);
+    }
+
+    Status folder(const fs::path& path) {
+        std::error_code problem;
+        std::vector<fs::path> missing;
+        for (fs::path at = path; !at.empty() && !fs::exists(at, problem); at = at.parent_path())
+            missing.push_back(at);
+        paths_.insert(paths_.end(), missing.rbegin(), missing.rend());
+        fs::create_directories(path, problem);
+        if (problem) return refused(path, ErrorCode::failed, "cannot be made: " + problem.message(), {});
+        return {};
+    }
+
+    Status file(const fs::path& path, std::string_view text) {
+        Status written = write_file(path, text);
+        if (written) paths_.push_back(path);
+        return written;
+    }
+
+    void keep() { paths_.clear(); }
+
+  private:
+    std::vector<fs::path> paths_;  // a folder before what is in it
+};
+
+}  // namespace
+
+Status create_assembly(const fs::path& folder, std::string_view name) {
+    if (folder.empty() || name.empty())
+        return fail(ErrorCode::usage, "no name for the assembly", "expected a folder and a name");
+    std::error_code problem;
+    if (fs::exists(folder, problem) && !fs::is_directory(folder, problem))
+        return refused(folder, ErrorCode::usage, "this is a file", "expected a folder that is new or empty");
+    if (fs::is_directory(folder, problem) && !fs::is_empty(folder, problem))
+        return refused(folder, ErrorCode::usage, "this folder is not empty",
+                       "expected a folder that is new or empty");
+    // A trailing slash would hide the folder's own name.
+    const fs::path target = folder.has_filename() ? folder : folder.parent_path();
+    Made made;
+    BOLT_TRY(made.folder(target));
+
+    const bool inside = is_among_assemblies(target);
+    std::string text(template_text());
+    replace_value(text, "/$schema",
+                  inside ? "../../schema/" + std::string(schema_name) : std::string(schema_name));
+    for (const char* title : {"/title/en", "/title/de", "/title/zh"}) replace_value(text, title, name);
+    for (const fs::path& model : take_models(text)) {
+        BOLT_TRY_ASSIGN(const auto bytes, read_file(model, model_size_limit, ErrorCode::failed));
+        BOLT_TRY(made.file(target / model.filename(), bytes));
+    }
+    BOLT_TRY(made.file(target / "assembly.json", text));
+    if (!inside) BOLT_TRY(made.file(target / schema_name, schema_text()));
+    made.keep();
+    return {};
+}
+
+}  // namespace bolt::content

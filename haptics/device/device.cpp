@@ -1,0 +1,69 @@
+#include "haptics/device/device.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace bolt::device {
+
+Timer steady_timer() {
+    return {
+        [] {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+        },
+        [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }};
+}
+
+Timer virtual_timer(VirtualTime& time) {
+    return {[&time] { return time.now; }, [&time](double seconds) { time.now += std::max(0.0, seconds); }};
+}
+
+namespace {
+
+std::string sensed(const Description& d) {
+    switch (d.sensing) {
+        case Sensing::pose:
+            return "says where the hand is, in six degrees of freedom";
+        case Sensing::rate:
+            return "says how fast the hand wants to go, in six degrees of freedom";
+        case Sensing::turn:
+            return "says how far it is turned about its one axis";
+    }
+    return {};
+}
+
+std::string reached(const Vec3& reach) {
+    if (reach == Vec3(0.0)) return {};
+    return fmt::format(", within {:.0f} x {:.0f} x {:.0f} cm", 200.0 * reach.x, 200.0 * reach.y,
+                       200.0 * reach.z);
+}
+
+std::string rendered(const Description& d) {
+    const auto axes = [&](int first) {
+        return std::count(d.renders.begin() + first, d.renders.begin() + first + 3, true);
+    };
+    std::string text;
+    if (const auto n = axes(0); n > 0 && d.limits.force > 0.0)
+        text += fmt::format("force along {} {}, {:.3g} N at most, as stiff as {:.2g} N/mm", n,
+                            n == 1 ? "axis" : "axes", d.limits.force, 1e-3 * d.limits.stiffness);
+    if (const auto n = axes(3); n > 0 && d.limits.torque > 0.0)
+        text += fmt::format("{}torque about {} {}, {:.3g} N·m at most", text.empty() ? "" : "; ", n,
+                            n == 1 ? "axis" : "axes", d.limits.torque);
+    return text.empty() ? "renders no force" : "renders " + text;
+}
+
+}  // namespace
+
+std::vector<std::string> summary_lines(const Description& d) {
+    std::vector<std::string> lines;
+    lines.push_back(fmt::format("{}{}, {:.0f} times a second{}; {} button{}", sensed(d), reached(d.reach),
+                                d.rate,
+                                d.silent_at_rest || d.sensing == Sensing::rate ? " while it moves" : "",
+                                d.buttons, d.buttons == 1 ? "" : "s"));
+    lines.push_back(rendered(d));
+    lines.insert(lines.end(), d.remarks.begin(), d.remarks.end());
+    return lines;
+}
+
+}  // namespace bolt::device

@@ -1,0 +1,64 @@
+// Maps the device's small workspace to the assembly's: rotation, scale and clutch. While the clutch is held
+// the tool stands still and the hand can return to the middle of its reach, like lifting a mouse.
+#pragma once
+
+#include "engine/base/pose.hpp"
+#include "haptics/force/output_limits.hpp"
+
+namespace bolt::force {
+
+// Positions are scaled, rotations are not: a quarter turn of the wrench is a quarter turn of the hand.
+//
+// Forces use the transposed map, so power is preserved up to one factor: for every motion F·v + T·ω at the
+// device is `power` times its value in the assembly, and passivity carries over. `power` 1: forces grow with
+// the scale. `power` 1/scale: forces are unchanged and torques shrink by the scale.
+struct Workspace {
+    Quat turn{1.0, 0.0, 0.0, 0.0};  // unit, from the device's frame to the assembly's
+    double scale = 1.0;             // m of the tool per m of the device
+    double power = 1.0;
+    double fade = 0.05;  // s in which forces fade out and in with the clutch
+};
+
+struct WorkspaceState {
+    Vec3 centre{0.0};               // m: tool = centre + scale · turn · device
+    Quat grip{1.0, 0.0, 0.0, 0.0};  // tool = turn · device · grip
+    Pose tool;                      // in the assembly's frame, at the last tick
+    double share = 1.0;             // 0 … 1, share of the force that is rendered
+};
+
+// Returns the state in which the device pose `device` maps to the tool pose `tool`.
+WorkspaceState place(const Workspace& workspace, const Pose& device, const Pose& tool);
+
+// One tick of dt. Returns the tool's pose in the assembly's frame. Releasing the clutch does not move the
+// tool. A device pose that is not finite is returned unchanged for the watchdog to reject.
+Pose to_assembly(const Workspace& workspace, WorkspaceState& state, const Pose& device, bool clutch,
+                 double dt);
+
+OutputCommand to_device(const Workspace& workspace, const WorkspaceState& state,
+                        const OutputCommand& on_tool);
+
+// The device's limits in the assembly's units; the output stage works on that side of the map.
+OutputLimits in_assembly(const Workspace& workspace, const OutputLimits& device);
+
+// Renders a bolt's torque on a device with a smaller range: scaled so that the largest torque of the lesson
+// stays within it; as a torque if the device has one, otherwise as a force at the wrench's grip.
+
+struct TorqueRendering {
+    double scale = 1.0;     // device torque / true torque; 0: none
+    double as_force = 0.0;  // N at the grip per N·m; the physical value is 1/handle length
+};
+
+// The scales never exceed the physical values. `greatest_torque` in N·m, at least 1 is assumed;
+// `handle_length` in m.
+TorqueRendering make_torque_rendering(const OutputLimits& limits, double greatest_torque,
+                                      double handle_length);
+
+// `torque` in N·m about `axis` (unit): positive torque, which resists tightening of a right-hand thread,
+// turns the hand about +axis. `handle` is the unit vector from the bolt to the grip.
+OutputCommand render_torque(const TorqueRendering& rendering, double torque, const Vec3& axis,
+                            const Vec3& handle);
+
+// J that the device can return of the energy in a spring of `stiffness` (N·m/rad) under this torque.
+double stored_torque(const TorqueRendering& rendering, double torque, double stiffness, double handle_length);
+
+}  // namespace bolt::force

@@ -1,0 +1,207 @@
+// The bend sensors of a CyberGlove and their order in the samples of a glove with 18 or 22 sensors. Source:
+// Kessler, Hodges and Walker, "Evaluation of the CyberGlove as a whole-hand input device", ACM TOCHI 2(4),
+// 1995.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/function_ref.hpp"
+#include "engine/base/result.hpp"
+#include "haptics/hand/kinematics.hpp"
+
+namespace bolt::hand {
+
+// In the order of a glove with 22 sensors. MPJ: knuckle; PIJ, DIJ: the next joints; IJ: the thumb's last
+// joint.
+enum class Sensor : std::uint8_t {
+    thumb_roll,  // rotation of the thumb across the palm
+    thumb_mpj,
+    thumb_ij,
+    thumb_abduction,  // thumb to index
+    index_mpj,
+    index_pij,
+    index_dij,
+    middle_mpj,
+    middle_pij,
+    middle_dij,
+    middle_abduction,  // index to middle
+    ring_mpj,
+    ring_pij,
+    ring_dij,
+    ring_abduction,  // middle to ring
+    little_mpj,
+    little_pij,
+    little_dij,
+    little_abduction,  // ring to little
+    palm_arch,
+    wrist_pitch,
+    wrist_yaw,
+};
+inline constexpr std::size_t sensor_count = 22;
+
+// One value per Sensor.
+template <class T>
+using PerSensor = std::array<T, sensor_count>;
+
+constexpr std::size_t index(Sensor sensor) { return static_cast<std::size_t>(sensor); }
+
+// The sensors of a glove with `count` sensors, in the order of its samples; empty unless `count` is 18 or 22.
+// A glove with 18 lacks the four DIJ.
+std::span<const Sensor> sensors_of(std::size_t count);
+
+const char* name_of(Sensor sensor);
+
+// Finds frames in the byte stream of a glove, which may lose, insert or change bytes.
+//
+// A frame is a letter ('S' when streaming, 'G' when polled), one byte 1 … 255 per sensor, five bytes of time
+// and one of status if enabled, 'e' and a letter if the glove reports an error, and a zero. Without the time
+// no other byte is zero, so incomplete frames are detected and the reader resynchronises at the next zero.
+
+struct GloveFrameLayout {
+    std::size_t sensors = 18;  // 18 or 22
+    bool time = false, status = false;
+};
+
+struct GloveFrame {
+    PerSensor<std::uint8_t> raw{};  // 1 … 255; 0: the glove has no such sensor
+    std::uint8_t status = 0;        // valid if the layout has it
+    bool too_slow = false;          // "es": the sample rate exceeds the line's capacity
+    bool unplugged = false;         // "eg": the glove is not connected to its interface unit
+};
+
+inline constexpr std::size_t longest_frame = 1 + sensor_count + 5 + 1 + 4 + 1;
+
+struct GloveFrameReader {
+    GloveFrameLayout layout;
+    char letter = 'S';
+    // The partial frame, and totals.
+    std::array<std::uint8_t, longest_frame> bytes{};
+    std::size_t count = 0;
+    std::uint64_t frames = 0;
+    std::uint64_t lost = 0;  // bytes outside valid frames
+};
+
+// Accepts bytes in blocks of any size and calls `on_frame` for each complete frame. Allocates nothing.
+void read_frames(GloveFrameReader& reader, std::span<const std::uint8_t> bytes,
+                 FunctionRef<void(const GloveFrame&)> on_frame);
+
+// The handshake with a glove: reads its identity and configures the stream. Pure: bytes and time in, bytes
+// out.
+//
+// The reply to a query ('?' and a letter) repeats both and adds the value; the reply to a setting is its
+// letter. Each ends with a zero. The reply to an unknown command is "e?", a newline and a zero.
+
+struct GloveIdentity {
+    std::size_t sensors = 0;  // 18 or 22
+    Side hand = Side::right;
+    bool plugged = true;  // the glove is connected to its interface unit
+    std::string version;  // of the firmware; empty for old ones that do not report it
+};
+
+struct GloveHandshakeOptions {
+    double rate = 80.0;          // requested samples per second
+    double quiet = 0.06;         // s without a byte: streaming has stopped
+    double patience = 0.3;       // s until a reply times out
+    int tries = 3;               // attempts per query
+    double longest_quiet = 1.0;  // s until a line that keeps sending is rejected
+};
+
+class GloveHandshake {
+  public:
+    explicit GloveHandshake(const GloveHandshakeOptions& options = {}) : options_(options) {}
+
+    // `received`: bytes since the last call; `now`: s on a monotonic clock. Returns the bytes to send,
+    // possibly none. Call until done() or failed(): when bytes arrive, and at least every 20 ms.
+    std::vector<std::uint8_t> update(std::span<const std::uint8_t> received, double now);
+
+    [[nodiscard]] bool done() const { return step_ == Step::streaming; }
+    [[nodiscard]] const std::optional<Error>& failed() const { return failed_; }
+    [[nodiscard]] const GloveIdentity& identity() const { return identity_; }
+
+  private:
+    enum class Step : std::uint8_t {
+        silencing,
+        sensors,
+        samples,
+        set_samples,
+        hand,
+        plugged,
+        version,
+        no_status,
+        no_time,
+        rate,
+        streaming
+    };
+    using Bytes = std::vector<std::uint8_t>;
+
+    [[nodiscard]] Bytes question() const;
+    bool take_answer();
+    bool take_value(std::uint8_t value);
+    Bytes ask(Step step, double now);
+    void give_up(std::string what, std::string expected);
+
+    GloveHandshakeOptions options_;
+    GloveIdentity identity_;
+    std::optional<Error> failed_;
+    Bytes answer_;
+    Step step_ = Step::silencing;
+    bool started_ = false;
+    double since_ = 0.0, last_byte_ = 0.0;
+    int tries_ = 0;
+    std::uint8_t samples_ = 0;  // sampling mode that the glove reports
+};
+
+// The whole communication with a glove: handshake, stream, and a new handshake after silence. Pure: bytes and
+// time in, bytes and frames out; glove_driver.hpp adds the port and the thread.
+
+enum class GloveState : std::uint8_t {
+    handshake,  // identifying the glove
+    streaming,
+    silent,    // streamed before, sends nothing now
+    rejected,  // the device on the line is not a supported glove; retried later
+};
+
+struct GloveSessionOptions {
+    GloveHandshakeOptions handshake;
+    double silence = 0.25;  // s without a frame until a new handshake
+    double pause = 1.0;     // s until a rejected device is tried again
+};
+
+class GloveSession {
+  public:
+    explicit GloveSession(const GloveSessionOptions& options = {});
+
+    // `received`: bytes since the last call; `now`: s. Returns the bytes to send; calls `on_frame` for each
+    // frame.
+    std::vector<std::uint8_t> update(std::span<const std::uint8_t> received, double now,
+                                     FunctionRef<void(const GloveFrame&)> on_frame);
+
+    [[nodiscard]] GloveState state() const { return state_; }
+    [[nodiscard]] const GloveIdentity& identity() const {
+        return identity_;
+    }  // from the last successful handshake
+    [[nodiscard]] const std::string& trouble() const { return trouble_; }  // empty: none
+    [[nodiscard]] std::uint64_t frames() const { return frames_; }
+    [[nodiscard]] std::uint64_t lost_bytes() const { return lost_ + reader_.lost; }
+    [[nodiscard]] std::uint64_t handshakes() const { return handshakes_; }  // that succeeded
+
+  private:
+    std::vector<std::uint8_t> start_handshake(double now, GloveState meanwhile);
+
+    GloveSessionOptions options_;
+    GloveState state_ = GloveState::handshake;
+    GloveHandshake handshake_;
+    GloveFrameReader reader_;
+    GloveIdentity identity_;
+    std::string trouble_;
+    double since_ = 0.0;
+    bool started_ = false;
+    std::uint64_t frames_ = 0, lost_ = 0, handshakes_ = 0;
+};
+
+}  // namespace bolt::hand

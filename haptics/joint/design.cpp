@@ -1,0 +1,110 @@
+#include "haptics/joint/design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bolt::joint {
+
+TorqueLevers torque_levers(const Thread& thread, double mu_thread, double mu_bearing,
+                           double bearing_mean_diameter) {
+    TorqueLevers levers;
+    levers.lead = thread.pitch / (2.0 * pi);
+    levers.thread = mu_thread * 0.5 * thread.d2 / std::cos(thread_half_angle);
+    levers.bearing = mu_bearing * 0.5 * bearing_mean_diameter;
+    return levers;
+}
+
+double sliding_slope(const Thread& thread, double mu_thread, double share) {
+    const double lead = thread.pitch / (pi * thread.d2);
+    const double friction = share * mu_thread / std::cos(thread_half_angle);
+    return (lead + friction) / (1.0 - lead * friction);
+}
+
+double equivalent_stress_ratio(const Thread& thread, double mu_thread, double kappa, double share) {
+    const double shear = kappa * (thread.d2 / thread.d0()) * sliding_slope(thread, mu_thread, share);
+    return std::sqrt(1.0 + 3.0 * square(shear));
+}
+
+AssemblyPreload assembly_preload(const Thread& thread, const PropertyClass& bolt, double mu_thread,
+                                 double mu_bearing, double bearing_mean_diameter, double utilisation) {
+    AssemblyPreload preload;
+    const double stress = utilisation * bolt.R_p02 / equivalent_stress_ratio(thread, mu_thread, bolt.kappa);
+    preload.force = stress * thread.A_s;
+    const double thread_lever = 0.5 * thread.d2 * sliding_slope(thread, mu_thread);
+    preload.torque = preload.force * (thread_lever + 0.5 * bearing_mean_diameter * mu_bearing);
+    return preload;
+}
+
+double bolt_compliance(const Thread& thread, double E, double grip, double shank) {
+    const double smooth = std::clamp(shank, 0.0, grip);
+    const double head = 0.5 * thread.d / thread.A_N();
+    const double shaft = smooth / thread.A_N();
+    const double free_thread = (grip - smooth) / thread.A_d3();
+    const double engaged = 0.5 * thread.d / thread.A_d3();
+    const double nut = 0.4 * thread.d / thread.A_N();
+    return (head + shaft + free_thread + engaged + nut) / E;
+}
+
+namespace {
+
+// ∫ dz / (π/4 (D(z)² − d_h²)) from D0 to D1 along a cone of slope dD/dz = 2 tan φ.
+double cone_integral(double D0, double D1, double hole, double tan_phi) {
+    const double ratio = (D1 - hole) * (D0 + hole) / ((D1 + hole) * (D0 - hole));
+    return std::log(ratio) / (pi * hole * tan_phi);
+}
+
+}  // namespace
+
+double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A) {
+    double grip = 0.0;
+    for (const Member& layer : layers) grip += layer.thickness;
+    if (grip <= 0.0) return 0.0;
+
+    const double d_w = bearing_diameter;
+    const double y = (D_A > d_w ? D_A : 3.0 * d_w) / d_w;
+    // VDI 2230-1 (5.1/28) for a through-bolted joint (w = 1), β_L = l_K/d_w.
+    const double tan_phi = 0.362 + 0.032 * std::log(0.5 * grip / d_w) + 0.153 * std::log(y);
+    const double limit = D_A > 0.0 ? std::max(D_A, d_w) : 1e9;
+
+    // The diameter grows from d_w at either end to the middle of the grip, and stops at D_A: cone, then
+    // sleeve.
+    const auto diameter = [&](double z) {
+        return std::min(d_w + 2.0 * tan_phi * std::min(z, grip - z), limit);
+    };
+    const double cone_end = std::min(0.5 * grip, 0.5 * (limit - d_w) / tan_phi);
+    const double breaks[] = {0.0, cone_end, grip - cone_end, grip};
+
+    double compliance = 0.0;
+    double begin = 0.0;
+    for (const Member& layer : layers) {
+        const double end = begin + layer.thickness;
+        for (int i = 0; i < 3; ++i) {
+            const double z0 = std::max(begin, breaks[i]);
+            const double z1 = std::min(end, breaks[i + 1]);
+            if (z1 <= z0) continue;
+            const double D0 = diameter(z0), D1 = diameter(z1);
+            const double area_integral =
+                i == 1 ? (z1 - z0) / (0.25 * pi * (square(limit) - square(hole)))
+                       : cone_integral(std::min(D0, D1), std::max(D0, D1), hole, tan_phi);
+            compliance += area_integral / layer.E;
+        }
+        begin = end;
+    }
+    return compliance;
+}
+
+double joint_compliance(const JointDesign& design) {
+    constexpr double steel = 205e9;
+    const FastenerSize& size = design.thread.size;
+    std::vector<Member> layers = design.members;
+    if (design.washer_under_head) layers.insert(layers.begin(), Member{size.washer_thickness, steel});
+    if (design.washer_under_nut) layers.push_back(Member{size.washer_thickness, steel});
+    const double thread_l = design.bolt_thread_length > 0.0 ? design.bolt_thread_length
+                                                            : thread_length(size.d, design.bolt_length);
+    return bolt_compliance(design.thread.thread, design.bolt_class.E, design.grip_length(),
+                           design.bolt_length - thread_l) +
+           member_compliance(layers, size.nut_bearing, size.hole, design.member_diameter);
+}
+
+}  // namespace bolt::joint
