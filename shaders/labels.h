@@ -1,4 +1,4 @@
-// Labels in the layout that CPU and GPU share: see shared.h, and engine/render/label_batch.hpp for their meaning.
+// Labels in the layout that CPU and GPU share: see shared.h, and engine/render/passes/annotations.hpp for their meaning.
 #ifndef BOLT_SHADERS_LABELS_H
 #define BOLT_SHADERS_LABELS_H
 

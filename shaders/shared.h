@@ -1,5 +1,5 @@
 // Structures that CPU and GPU share: compiled as GLSL (std430 and std140 agree, because every member is a vec4, a mat4 or four
-// scalars) and as C++ (offsets asserted in engine/render/shared.cpp).
+// scalars) and as C++ (offsets asserted in engine/render/gpu_model.cpp).
 #ifndef BOLT_SHADERS_SHARED_H
 #define BOLT_SHADERS_SHARED_H
 

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/error.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/joint/design.hpp"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/error.hpp"
+#include "engine/base/result.hpp"
 
 namespace bolt::content {
 

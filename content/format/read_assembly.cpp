@@ -1,6 +1,7 @@
 #include "content/format/read_assembly.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>

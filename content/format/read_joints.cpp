@@ -1,6 +1,7 @@
 #include "content/format/read_joints.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -227,8 +228,6 @@ JointType read_joint_type(const Layers& layers, const Materials& materials, doub
 }
 
 namespace {
-
-constexpr double mm = 1e-3;
 
 std::vector<std::string> names_of(const Reader& reader, const Node& object) {
     std::vector<std::string> names;

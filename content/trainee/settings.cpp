@@ -1,6 +1,7 @@
 #include "content/trainee/settings.hpp"
 
 #include <fmt/format.h>
+
 #include <cstdlib>
 #include <set>
 

@@ -13,7 +13,7 @@ struct KeyRow {
 
 // Where a text may be said of one and of several it has two keys, NAME.one and NAME.many.
 inline constexpr KeyRow key_rows[] = {
-    // Hints: what is to be done now (game/lesson/hint.cpp).
+    // Hints: what is to be done now (game/lesson/hints.cpp).
     {"hint.take_wrench", "size"},
     {"hint.put_wrench_away", ""},
     {"hint.find_by_wrench", "joint"},
@@ -68,7 +68,7 @@ inline constexpr KeyRow key_rows[] = {
     {"how.pull_off", "control"},
     {"how.lift", "control"},
     {"how.set_back", "control"},
-    // What stands at {control}, with a mouse and with a device (game/lesson/controls.cpp).
+    // What stands at {control}, with a mouse and with a device (game/lesson/hints.cpp).
     {"control.mouse.take", "key"},
     {"control.mouse.put_away", "key"},
     {"control.mouse.go", ""},
@@ -92,7 +92,7 @@ inline constexpr KeyRow key_rows[] = {
     {"control.device.grip", "key"},
     {"control.device.move", ""},
     {"control.device.turn", ""},
-    // Mistakes: why it was one, and what to do (game/lesson/mistakes.cpp).
+    // Mistakes: why it was one, and what to do (game/lesson/feedback.cpp).
     {"mistake.begins_again", ""},
     {"mistake.take_back", "control"},
     {"mistake.out_of_turn", "held"},
@@ -145,7 +145,7 @@ inline constexpr KeyRow key_rows[] = {
     {"advice.wrong_way", ""},
     {"advice.unfinished", ""},
     {"advice.nothing", ""},
-    // Names of what programs know by enumerations (game/lesson/terms.hpp).
+    // Names of what programs know by enumerations (game/lesson/feedback.hpp).
     {"mode.guided", ""},
     {"mode.practice", ""},
     {"mode.assessment", ""},
@@ -223,7 +223,7 @@ inline constexpr KeyRow key_rows[] = {
     {"action.restart_step", ""},
     {"action.recentre", ""},
     {"action.close_up", ""},
-    // What sounds say (game/trainer/captions.cpp).
+    // What sounds say (game/trainer/hud.cpp).
     {"caption.slip", ""},
     {"caption.mistake", ""},
     {"caption.click", ""},

@@ -1,6 +1,7 @@
 #include "content/words/words.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

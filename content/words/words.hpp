@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "content/words/key_rows.hpp"
-#include "engine/base/error.hpp"
+#include "engine/base/result.hpp"
 
 namespace bolt::words {
 

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/assets/model.hpp"
 #include "engine/base/result.hpp"
@@ -17,5 +21,22 @@ Status decode(Image& image);
 // Returns the bytes of a PNG file, the same for the same pixels. `pixels`: rows from the top, 1 to 4
 // channels.
 Result<std::string> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
+
+// Environment light as an equirectangular image of radiance (the middle column is -Z, the right half +X, the
+// top row +Y), and its files: Radiance .hdr, shared-exponent RGBE with run-length encoding (G. Ward, Real
+// pixels, Graphics Gems II, 1991).
+
+struct RadianceImage {
+    int width = 0, height = 0;
+    std::vector<glm::vec3> pixels;  // rows from the top
+};
+
+// Fails if the bytes are no such file or have values that are not finite. `path` is named in errors.
+Result<RadianceImage> decode_hdr(std::string_view bytes, const std::filesystem::path& path);
+Result<RadianceImage> read_hdr(const std::filesystem::path& path);
+
+// The same image always gives the same bytes. The width must be in [8, 32767].
+std::string encode_hdr(const RadianceImage& image);
+Status write_hdr(const std::filesystem::path& path, const RadianceImage& image);
 
 }  // namespace bolt::assets

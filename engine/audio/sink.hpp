@@ -43,4 +43,10 @@ class Sink {
 
 using OpenSink = std::function<Result<std::unique_ptr<Sink>>()>;
 
+// The default sound output through OpenAL Soft (Debian 12 has version 1.19).
+
+// Open, use and close it on one thread. The user's settings apply: ALSOFT_DRIVERS and alsoft.conf select
+// PulseAudio, ALSA or others.
+Result<std::unique_ptr<Sink>> open_openal();
+
 }  // namespace bolt::audio

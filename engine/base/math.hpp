@@ -2,6 +2,7 @@
 // space.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -21,5 +22,45 @@ constexpr double square(double x) { return x * x; }
 
 // Returns the angle reduced to [-period/2, period/2].
 inline double wrap(double angle, double period) { return std::remainder(angle, period); }
+
+// The pose of a rigid body: the transform from body coordinates to its surroundings.
+
+struct Pose {
+    Vec3 position{0.0};                    // m, the body's origin
+    Quat orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion
+};
+
+inline Vec3 operator*(const Pose& pose, const Vec3& point) {
+    return pose.position + pose.orientation * point;
+}
+inline Pose operator*(const Pose& a, const Pose& b) {
+    return {a * b.position, a.orientation * b.orientation};
+}
+inline Pose inverse(const Pose& pose) {
+    const Quat conjugate = glm::conjugate(pose.orientation);
+    return {conjugate * -pose.position, conjugate};
+}
+
+// The exponential map of a rotation vector (axis times angle, rad), and its inverse with the angle in [0, π].
+inline Quat rotation(const Vec3& vector) {
+    const double angle = glm::length(vector);
+    const double half = angle < 1e-8 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
+    return glm::normalize(Quat(std::cos(0.5 * angle), vector * half));
+}
+inline Vec3 rotation_vector(const Quat& unit) {
+    const Quat q = unit.w < 0.0 ? -unit : unit;
+    const Vec3 v(q.x, q.y, q.z);
+    const double s = glm::length(v);
+    return v * (s < 1e-8 ? 2.0 / q.w : 2.0 * std::atan2(s, q.w) / s);
+}
+
+// The minimum-jerk profile of a hand's reach.
+
+// The share of the way at the share `tau` of the time, clamped to 0 … 1: 10τ³ − 15τ⁴ + 6τ⁵, at rest at both
+// ends. Flash and Hogan, J. Neurosci. 5 (1985) 1688.
+inline double minimum_jerk(double tau) {
+    const double t = std::clamp(tau, 0.0, 1.0);
+    return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+}
 
 }  // namespace bolt

@@ -1,13 +1,38 @@
-// Result<T>: a value or the Error that explains why there is none. Every boundary returns one.
+// An error as a value: what is wrong, where, and what was expected instead.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
 
-#include "engine/base/error.hpp"
-
 namespace bolt {
+
+// The exit codes of every program, in the order of severity that a caller may act on.
+enum class ErrorCode {
+    failed = 1,       // the work itself failed: a full disk, a broken session file
+    usage = 2,        // the command line is wrong
+    bad_content = 3,  // a content file is wrong
+    no_device = 4,    // a requested device or GPU is missing
+};
+
+struct Error {
+    ErrorCode code = ErrorCode::failed;
+    std::string what;      // one clause that states what is wrong: "is an object"
+    std::string expected;  // "an array", or a question "did you mean \"size\"?"; may be empty
+    std::string file;      // empty if no file is involved
+    int line = 0;          // 1-based; 0: unknown
+    int column = 0;        // 1-based, in characters (Unicode code points); 0: unknown
+    std::string pointer;   // JSON pointer (RFC 6901) of the value; may be empty
+    bool lost = false;     // the device worked and has disappeared: opening it again may help
+
+    // "file:line:column: pointer: what; expected expected" without the unknown parts. The word "expected" is
+    // inserted unless the text already begins with "expected" or "did you mean".
+    [[nodiscard]] std::string message() const;
+};
+
+// Result<T>: a value or the Error that explains why there is none. Every boundary returns one.
 
 template <class T>
 using Result = tl::expected<T, Error>;
@@ -43,3 +68,18 @@ inline tl::unexpected<Error> fail(ErrorCode code, std::string what, std::string 
     auto bolt_result_##line = (__VA_ARGS__);                                             \
     if (!bolt_result_##line) return ::bolt::fail(std::move(bolt_result_##line).error()); \
     definition = *std::move(bolt_result_##line)
+
+// Console output of programs: errors to stderr with their exit code, results to stdout.
+
+namespace bolt {
+
+// Prints the message to stderr and returns the exit code.
+int print_error(const Error& error);
+
+// Prints each message on its own line and returns the exit code of the first error; 0 if there are none.
+int print_error(std::span<const Error> errors);
+
+// Writes to the standard output and flushes it. Fails if the output is a full disk or a closed pipe.
+Status print(std::string_view text);
+
+}  // namespace bolt

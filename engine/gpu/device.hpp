@@ -1,15 +1,103 @@
-// The logical device, its only queue and its memory. It has a fixed address and must outlive everything
-// created from it.
+// The Vulkan instance and the messages of the validation layers.
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "engine/gpu/device_choice.hpp"
-#include "engine/gpu/instance.hpp"
 #include "engine/gpu/memory.hpp"
+#include "engine/gpu/vk.hpp"
 
 namespace bolt::gpu {
+
+// All warnings and errors of the validation layers since the instance was created. A correct program has
+// none.
+struct ValidationLog {
+    std::vector<std::string> messages;
+};
+
+struct InstanceOptions {
+    bool validation = false;  // core and synchronization validation; fails if the layer is not installed
+    std::span<const char* const> extensions;  // required by the window system
+};
+
+class Instance {
+  public:
+    static Result<Instance> create(const InstanceOptions& options);
+
+    Instance(Instance&& other) noexcept;
+    Instance& operator=(Instance&& other) noexcept;
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+    ~Instance();
+
+    [[nodiscard]] VkInstance get() const { return instance_; }
+    [[nodiscard]] bool validated() const { return messenger_ != VK_NULL_HANDLE; }
+    [[nodiscard]] const ValidationLog& log() const { return *log_; }
+
+  private:
+    Instance() = default;
+
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    std::unique_ptr<ValidationLog> log_ =
+        std::make_unique<ValidationLog>();  // the messenger holds its address
+};
+
+// The drawable surface of a window. engine/platform creates it, because it depends on the window system.
+
+class Surface {
+  public:
+    Surface() = default;
+    Surface(VkInstance instance, VkSurfaceKHR surface) : instance_(instance), surface_(surface) {}
+    Surface(Surface&& other) noexcept
+        : instance_(other.instance_), surface_(std::exchange(other.surface_, VK_NULL_HANDLE)) {}
+    Surface& operator=(Surface&& other) noexcept {
+        std::swap(instance_, other.instance_);
+        std::swap(surface_, other.surface_);
+        return *this;
+    }
+    Surface(const Surface&) = delete;
+    Surface& operator=(const Surface&) = delete;
+    ~Surface() {
+        if (surface_ != VK_NULL_HANDLE) vkDestroySurfaceKHR(instance_, surface_, nullptr);
+    }
+
+    [[nodiscard]] VkSurfaceKHR get() const { return surface_; }
+
+  private:
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+};
+
+// Chooses a GPU and explains the choice. A pure function over descriptions of the devices, so that tests need
+// no GPU.
+
+// The properties of a device that the choice depends on.
+struct DeviceCandidate {
+    std::string name;
+    std::string driver;
+    VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+    std::uint32_t api_version = 0;
+    std::vector<std::string> missing;  // required features and extensions that the device lacks
+    std::uint64_t device_memory = 0;   // bytes of the largest device-local heap
+    bool presents = true;              // can present to the requested window; true without a window
+};
+
+struct DeviceChoice {
+    int index = -1;                    // -1: no device is usable
+    std::vector<std::string> reasons;  // one line per candidate: used, or why not
+};
+
+// Chooses by type (discrete, integrated, virtual, software), then by memory size. If `wanted` is not empty,
+// only devices whose name contains it (case-insensitive) are considered.
+DeviceChoice choose_device(std::span<const DeviceCandidate> candidates, const std::string& wanted);
+
+// The logical device, its only queue and its memory. It has a fixed address and must outlive everything
+// created from it.
 
 struct DeviceOptions {
     std::string wanted;                     // part of a device name; empty: choose the fastest device
@@ -57,6 +145,23 @@ class Device {
     VkPhysicalDeviceProperties properties_{};
     std::string name_, driver_;
     std::unique_ptr<Memory> memory_;
+};
+
+// Decides whether to restart after the GPU was lost. The system resets a hanging driver and it works again,
+// but a device that is lost again shortly after a restart would be lost forever.
+
+class DeviceLossPolicy {
+  public:
+    // Reports a loss at time `now` (s). Returns true if the device should be created again.
+    bool should_restart(double now) {
+        const bool worked = !last_ || now - *last_ >= min_interval;
+        last_ = now;
+        return worked;
+    }
+    static constexpr double min_interval = 10.0;  // s
+
+  private:
+    std::optional<double> last_;
 };
 
 }  // namespace bolt::gpu

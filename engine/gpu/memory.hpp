@@ -1,3 +1,36 @@
+// The free ranges of a memory block. Best fit: allocates from the smallest range that is large enough, the
+// lowest address first; freed ranges are merged with their neighbours. Independent of Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/gpu/vk.hpp"
+
+namespace bolt::gpu {
+
+class FreeList {
+  public:
+    explicit FreeList(std::uint64_t size) : size_(size) { holes_[0] = size; }
+
+    // Returns the offset of a range of `size` > 0 bytes aligned to `alignment` (a power of two), or nullopt
+    // if no free range is large enough.
+    std::optional<std::uint64_t> take(std::uint64_t size, std::uint64_t alignment);
+
+    // Frees a range that take() returned, with the same size.
+    void give_back(std::uint64_t offset, std::uint64_t size);
+
+    [[nodiscard]] bool untouched() const { return holes_.size() == 1 && holes_.begin()->second == size_; }
+    [[nodiscard]] std::uint64_t free_bytes() const;
+
+  private:
+    std::uint64_t size_;
+    std::map<std::uint64_t, std::uint64_t> holes_;  // offset → size; no two are adjacent
+};
+
 // Device memory. Resources share blocks of 64 MiB (less on small heaps); large resources get a dedicated
 // block. Buffers and optimally tiled images never share a block, so bufferImageGranularity always holds.
 // Host-visible memory is mapped once, permanently, and is always coherent: no flush is needed.
@@ -5,16 +38,6 @@
 // On a discrete GPU the CPU cannot access `device` memory, and data reaches it through an upload. Lavapipe
 // and integrated GPUs have one kind of memory only, so mistakes do not show there; tests/gpu/memory.cpp
 // checks the choice of memory type for both.
-#pragma once
-
-#include <memory>
-#include <optional>
-#include <vector>
-
-#include "engine/gpu/free_list.hpp"
-#include "engine/gpu/vk.hpp"
-
-namespace bolt::gpu {
 
 enum class MemoryUse : std::uint8_t {
     device,    // accessed by the GPU only

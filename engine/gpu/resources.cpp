@@ -1,6 +1,8 @@
 #include "engine/gpu/resources.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 namespace bolt::gpu {
@@ -136,6 +138,229 @@ Result<Sampler> make_sampler(const Device& device, const SamplerInfo& given) {
         !made)
         return fail(made.error());
     return Sampler(device.get(), sampler);
+}
+
+ResourceUseInfo use_info(ResourceUse use) {
+    constexpr VkPipelineStageFlags2 shaders =
+        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    constexpr VkPipelineStageFlags2 depth =
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+    switch (use) {
+        case ResourceUse::undefined:
+            return {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
+        case ResourceUse::acquired:
+            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
+        case ResourceUse::color_target:
+            return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+        case ResourceUse::depth_target:
+            // A multisampled depth attachment is resolved in the colour output stage, whatever its format.
+            return {depth | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+                        VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
+        case ResourceUse::depth_read:
+            return {depth | shaders,
+                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
+        case ResourceUse::sampled:
+            return {shaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        case ResourceUse::storage_write:
+            return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_GENERAL};
+        case ResourceUse::vertex_read:
+            return {VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+                    VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT |
+                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+                    VK_IMAGE_LAYOUT_UNDEFINED};
+        case ResourceUse::uniform_read:
+            return {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | shaders,
+                    VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+                    VK_IMAGE_LAYOUT_UNDEFINED};
+        case ResourceUse::transfer_from:
+            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+        case ResourceUse::transfer_to:
+            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+        case ResourceUse::host_read:
+            return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_IMAGE_LAYOUT_GENERAL};
+        case ResourceUse::present:
+            // The present semaphore makes the writes visible, so the barrier changes the layout only.
+            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
+    }
+    return {};
+}
+
+namespace {
+
+void barrier(VkCommandBuffer commands, VkImage image, const ResourceUseInfo& before,
+             const ResourceUseInfo& after, const ImageRange& range) {
+    VkImageMemoryBarrier2 info{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    info.srcStageMask = before.stages;
+    info.srcAccessMask = before.access;
+    info.dstStageMask = after.stages;
+    info.dstAccessMask = after.access;
+    info.oldLayout = before.layout;
+    info.newLayout = after.layout;
+    info.srcQueueFamilyIndex = info.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    info.image = image;
+    info.subresourceRange = {range.aspect, range.first_mip, range.mips, range.first_layer, range.layers};
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &info;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+}  // namespace
+
+void image_barrier(VkCommandBuffer commands, VkImage image, ResourceUse from, ResourceUse to,
+                   const ImageRange& range) {
+    barrier(commands, image, use_info(from), use_info(to), range);
+}
+
+void image_barrier_discarding(VkCommandBuffer commands, VkImage image, ResourceUse last, ResourceUse to,
+                              const ImageRange& range) {
+    ResourceUseInfo before = use_info(last);
+    before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    barrier(commands, image, before, use_info(to), range);
+}
+
+void memory_barrier(VkCommandBuffer commands, ResourceUse from, ResourceUse to) {
+    const ResourceUseInfo before = use_info(from), after = use_info(to);
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = before.stages;
+    barrier.srcAccessMask = before.access;
+    barrier.dstStageMask = after.stages;
+    barrier.dstAccessMask = after.access;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)>& record) {
+    VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool_info.queueFamilyIndex = device.queue_family();
+    VkCommandPool raw_pool = VK_NULL_HANDLE;
+    if (Status made = check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &raw_pool),
+                            "creating a command pool");
+        !made)
+        return made;
+    const CommandPool pool(device.get(), raw_pool);
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = pool.get();
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    if (Status made = check(vkAllocateCommandBuffers(device.get(), &allocate, &commands),
+                            "allocating a command buffer");
+        !made)
+        return made;
+
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    BOLT_TRY(check(vkBeginCommandBuffer(commands, &begin), "recording commands"));
+    record(commands);
+    BOLT_TRY(check(vkEndCommandBuffer(commands), "recording commands"));
+
+    VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFence raw_fence = VK_NULL_HANDLE;
+    if (Status made =
+            check(vkCreateFence(device.get(), &fence_info, nullptr, &raw_fence), "creating a fence");
+        !made)
+        return made;
+    const Fence fence(device.get(), raw_fence);
+    VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    submitted.commandBuffer = commands;
+    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submit.commandBufferInfoCount = 1;
+    submit.pCommandBufferInfos = &submitted;
+    if (Status sent = check(vkQueueSubmit2(device.queue(), 1, &submit, fence.get()), "submitting commands");
+        !sent)
+        return sent;
+    const VkResult waited =
+        vkWaitForFences(device.get(), 1, &raw_fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+    return check(waited, "waiting for commands");
+}
+
+Result<Buffer> upload_buffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage) {
+    BOLT_TRY_ASSIGN(auto staging, Buffer::create(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                                 MemoryUse::upload));
+    std::memcpy(staging.bytes().data(), bytes.data(), bytes.size());
+    Result<Buffer> buffer =
+        Buffer::create(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::device);
+    if (!buffer || bytes.empty()) return buffer;
+    BOLT_TRY(submit_and_wait(device, [&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, bytes.size()};
+        vkCmdCopyBuffer(commands, staging.get(), buffer->get(), 1, &region);
+        memory_barrier(commands, ResourceUse::transfer_to, ResourceUse::vertex_read);
+        memory_barrier(commands, ResourceUse::transfer_to, ResourceUse::uniform_read);
+    }));
+    return buffer;
+}
+
+Status upload_image(Device& device, Image& image, std::span<const std::byte> texels) {
+    const ImageInfo& info = image.info();
+    BOLT_TRY_ASSIGN(auto staging, Buffer::create(device, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                                 MemoryUse::upload));
+    std::memcpy(staging.bytes().data(), texels.data(), texels.size());
+    return submit_and_wait(device, [&](VkCommandBuffer commands) {
+        image_barrier(commands, image.get(), ResourceUse::undefined, ResourceUse::transfer_to);
+        VkBufferImageCopy region{};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, info.layers};
+        region.imageExtent = {info.extent.width, info.extent.height, 1};
+        vkCmdCopyBufferToImage(commands, staging.get(), image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                               &region);
+        auto width = static_cast<std::int32_t>(info.extent.width),
+             height = static_cast<std::int32_t>(info.extent.height);
+        for (std::uint32_t mip = 1; mip < info.mips; ++mip) {
+            image_barrier(commands, image.get(), ResourceUse::transfer_to, ResourceUse::transfer_from,
+                          {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 1, 0, info.layers});
+            VkImageBlit blit{};
+            blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, info.layers};
+            blit.srcOffsets[1] = {width, height, 1};
+            width = std::max(width / 2, 1);
+            height = std::max(height / 2, 1);
+            blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, info.layers};
+            blit.dstOffsets[1] = {width, height, 1};
+            vkCmdBlitImage(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.get(),
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);
+        }
+        if (info.mips > 1)
+            image_barrier(commands, image.get(), ResourceUse::transfer_from, ResourceUse::sampled,
+                          {VK_IMAGE_ASPECT_COLOR_BIT, 0, info.mips - 1, 0, info.layers});
+        image_barrier(commands, image.get(), ResourceUse::transfer_to, ResourceUse::sampled,
+                      {VK_IMAGE_ASPECT_COLOR_BIT, info.mips - 1, 1, 0, info.layers});
+    });
+}
+
+Result<std::vector<std::byte>> download_image(Device& device, const Image& image, ResourceUse from,
+                                              std::uint32_t texel_size, std::uint32_t mip,
+                                              std::uint32_t layer) {
+    const ImageInfo& info = image.info();
+    const std::uint32_t width = std::max(info.extent.width >> mip, 1U),
+                        height = std::max(info.extent.height >> mip, 1U);
+    const VkDeviceSize size = VkDeviceSize{width} * height * texel_size;
+    BOLT_TRY_ASSIGN(auto buffer,
+                    Buffer::create(device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback));
+    BOLT_TRY(submit_and_wait(device, [&](VkCommandBuffer commands) {
+        const ImageRange range{info.aspect(), mip, 1, layer, 1};
+        image_barrier(commands, image.get(), from, ResourceUse::transfer_from, range);
+        VkBufferImageCopy region{};
+        region.imageSubresource = {info.aspect(), mip, layer, 1};
+        region.imageExtent = {width, height, 1};
+        vkCmdCopyImageToBuffer(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.get(), 1,
+                               &region);
+        image_barrier(commands, image.get(), ResourceUse::transfer_from, from, range);
+        memory_barrier(commands, ResourceUse::transfer_to, ResourceUse::host_read);
+    }));
+    const std::span<const std::byte> bytes = buffer.bytes().first(static_cast<std::size_t>(size));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
 }  // namespace bolt::gpu

@@ -1,11 +1,12 @@
 // Buffers and images with their memory: move-only, released by their owner.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
 #include "engine/gpu/device.hpp"
-#include "engine/gpu/handle.hpp"
+#include "engine/gpu/vk.hpp"
 
 namespace bolt::gpu {
 
@@ -88,5 +89,70 @@ struct SamplerInfo {
     float anisotropy = 1.0F;  // a value above 1 is used if the GPU supports it
 };
 Result<Sampler> make_sampler(const Device& device, const SamplerInfo& info);
+
+// All barriers of the engine. A barrier moves a resource from one use to another; one table defines the
+// pipeline stages, accesses and image layout of each use.
+
+enum class ResourceUse : std::uint8_t {
+    undefined,      // newly created
+    acquired,       // from the swapchain, with undefined contents; the acquire semaphore is waited for before
+                    // copies
+    color_target,   // drawn or resolved into
+    depth_target,   // tested and written
+    depth_read,     // tested and sampled at the same time
+    sampled,        // read in fragment or compute shaders
+    storage_write,  // written (and read) in compute shaders
+    vertex_read,    // vertex and index buffers, and buffers read in vertex shaders
+    uniform_read,   // buffers read in any shader
+    transfer_from,
+    transfer_to,
+    host_read,  // read by the CPU after the fence
+    present,
+};
+
+struct ResourceUseInfo {
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 access = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+ResourceUseInfo use_info(ResourceUse use);
+
+struct ImageRange {
+    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+    std::uint32_t first_mip = 0, mips = VK_REMAINING_MIP_LEVELS;
+    std::uint32_t first_layer = 0, layers = VK_REMAINING_ARRAY_LAYERS;
+};
+
+void image_barrier(VkCommandBuffer commands, VkImage image, ResourceUse from, ResourceUse to,
+                   const ImageRange& range = {});
+
+// The same for an image whose contents may be lost: waits for the last use, then discards what it wrote. For
+// targets that are redrawn each frame while the previous frame may still be read.
+void image_barrier_discarding(VkCommandBuffer commands, VkImage image, ResourceUse last, ResourceUse to,
+                              const ImageRange& range = {});
+
+// A barrier for all buffers: buffers have no layout, and a global memory barrier costs the same as a buffer
+// barrier.
+void memory_barrier(VkCommandBuffer commands, ResourceUse from, ResourceUse to);
+
+// Transfers to and from the GPU outside of frames, for loading and tests. Each call waits until it is
+// complete.
+
+// Records commands, submits them and waits for their completion.
+Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)>& record);
+
+// Creates a buffer in device memory with these bytes.
+Result<Buffer> upload_buffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+
+// Fills mip 0 of every layer from `texels` (layers one after the other), generates the other mips by halving,
+// and leaves the image in use `sampled`. Needs both transfer usages; if there are mips, the format must
+// support linear blits.
+Status upload_image(Device& device, Image& image, std::span<const std::byte> texels);
+
+// Reads the texels of one mip of one layer. The image is in use `from` before and afterwards.
+Result<std::vector<std::byte>> download_image(Device& device, const Image& image, ResourceUse from,
+                                              std::uint32_t texel_size, std::uint32_t mip = 0,
+                                              std::uint32_t layer = 0);
 
 }  // namespace bolt::gpu

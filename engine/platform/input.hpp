@@ -67,4 +67,9 @@ struct CloseEvent {};    // the user wants to close the window
 using Event = std::variant<KeyEvent, TextEvent, ButtonEvent, CursorEvent, WheelEvent, ResizeEvent, FocusEvent,
                            RefreshEvent, CloseEvent>;
 
+// Maps GLFW's keys to Key.
+
+// `printed`: the layout's name of the key from GLFW; may be null.
+Key key_of(int glfw_key, const char* printed);
+
 }  // namespace bolt::platform

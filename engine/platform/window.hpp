@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/gpu/surface.hpp"
+#include "engine/gpu/device.hpp"
 #include "engine/platform/input.hpp"
 
 namespace bolt::platform {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/file_watch.hpp"
+#include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "engine/gpu/pipeline.hpp"
 

@@ -5,8 +5,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/gpu/barrier.hpp"
-#include "engine/render/targets.hpp"
+#include "engine/gpu/resources.hpp"
+#include "engine/render/passes/pass.hpp"
 
 namespace bolt::render {
 

@@ -1,14 +1,30 @@
-// The Trowbridge–Reitz (GGX) distribution and its masking functions, in tangent space with the normal as z.
+// The van der Corput sequence in base 2, which covers the unit interval evenly.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
 
 namespace bolt::shading {
+
+inline std::uint32_t reverse_bits(std::uint32_t x) {
+    x = (x << 16U) | (x >> 16U);
+    x = ((x & 0x00FF00FFU) << 8U) | ((x & 0xFF00FF00U) >> 8U);
+    x = ((x & 0x0F0F0F0FU) << 4U) | ((x & 0xF0F0F0F0U) >> 4U);
+    x = ((x & 0x33333333U) << 2U) | ((x & 0xCCCCCCCCU) >> 2U);
+    return ((x & 0x55555555U) << 1U) | ((x & 0xAAAAAAAAU) >> 1U);
+}
+
+// Uses 24 bits, so that the result as a float is below one.
+inline float unit_float(std::uint32_t x) { return static_cast<float>(x >> 8U) * 0x1p-24F; }
+
+inline float radical_inverse(std::uint32_t i) { return unit_float(reverse_bits(i)); }
+
+// The Trowbridge–Reitz (GGX) distribution and its masking functions, in tangent space with the normal as z.
 
 inline float pow5(float x) { return x * x * x * x * x; }
 
@@ -53,5 +69,14 @@ inline glm::vec3 sample_half(const glm::vec3& out, const glm::vec2& alpha, const
 inline float half_density(const glm::vec3& out, const glm::vec3& half, const glm::vec2& alpha) {
     return masking(out, alpha) * ggx(half, alpha) / (4.0F * out.z);
 }
+
+// The directional albedo of a GGX layer as a table, split into the parts that scale with F0 and F90.
+
+// x: ∫ D V (1 − (1 − V·H)⁵) cos, y: ∫ D V (1 − V·H)⁵ cos; E = x + y. In single scattering, a specular layer
+// reflects the fraction F0 x + F90 y. `cosine` is N·V. Accurate within 0.002 over the whole table.
+glm::vec2 directional_albedo(float alpha, float cosine);
+
+// The same by numerical integration over `count` directions; used to build the table.
+glm::vec2 integrate_albedo(float alpha, float cosine, unsigned count);
 
 }  // namespace bolt::shading

@@ -2,11 +2,152 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 
-#include "engine/text/distance_field.hpp"
-
 namespace bolt::text {
+
+namespace {
+
+using Point = glm::dvec2;
+
+struct Edge {
+    Point a{0.0}, b{0.0};
+};
+
+std::vector<Edge> edges_of(const Outline& outline) {
+    std::vector<Edge> edges;
+    for (const auto& ring : outline)
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Point& next = ring[(i + 1) % ring.size()];
+            if (ring[i] != next) edges.push_back({ring[i], next});
+        }
+    return edges;
+}
+
+// The direction in which an edge crosses height y; 0: it does not. Half-open, so that a vertex counts once.
+int passes(const Edge& edge, double y, double& x) {
+    if ((edge.a.y <= y) == (edge.b.y <= y)) return 0;
+    x = edge.a.x + (y - edge.a.y) / (edge.b.y - edge.a.y) * (edge.b.x - edge.a.x);
+    return edge.b.y > edge.a.y ? 1 : -1;
+}
+
+// Edges sorted by the heights that they cross, so that a query visits only some of them.
+class EdgesByHeight {
+  public:
+    EdgesByHeight(const std::vector<Edge>& edges, double low, double high, double step)
+        : low_(low), step_(step), rows_(static_cast<std::size_t>((high - low) / step) + 1) {
+        for (const Edge& edge : edges) {
+            const std::size_t last = row(std::max(edge.a.y, edge.b.y));
+            for (std::size_t i = row(std::min(edge.a.y, edge.b.y)); i <= last; ++i) rows_[i].push_back(edge);
+        }
+    }
+
+    [[nodiscard]] const std::vector<Edge>& near(double y) const { return rows_[row(y)]; }
+
+    [[nodiscard]] int winding(const Point& p) const {
+        int sum = 0;
+        double x = 0.0;
+        for (const Edge& edge : near(p.y))
+            if (const int way = passes(edge, p.y, x); way != 0 && x > p.x) sum += way;
+        return sum;
+    }
+
+  private:
+    [[nodiscard]] std::size_t row(double y) const {
+        return static_cast<std::size_t>(
+            std::clamp((y - low_) / step_, 0.0, static_cast<double>(rows_.size() - 1)));
+    }
+
+    double low_, step_;
+    std::vector<std::vector<Edge>> rows_;
+};
+
+// Strokes of a glyph may overlap, as in Chinese fonts, and edges inside the union must not count. Cuts edges
+// into pieces of at most `step` and removes those with both or neither side filled.
+std::vector<Edge> visible_pieces(const std::vector<Edge>& edges, const EdgesByHeight& by_height,
+                                 double step) {
+    std::vector<Edge> pieces;
+    for (const Edge& edge : edges) {
+        const double length = glm::distance(edge.a, edge.b);
+        const int n = std::max(1, static_cast<int>(std::ceil(length / step)));
+        const Point along = (edge.b - edge.a) / length;
+        const Point aside = 0.02 * step * Point(-along.y, along.x);
+        for (int i = 0; i < n; ++i) {
+            const Edge piece{glm::mix(edge.a, edge.b, static_cast<double>(i) / n),
+                             glm::mix(edge.a, edge.b, (i + 1.0) / n)};
+            const Point middle = 0.5 * (piece.a + piece.b);
+            if ((by_height.winding(middle + aside) != 0) != (by_height.winding(middle - aside) != 0))
+                pieces.push_back(piece);
+        }
+    }
+    return pieces;
+}
+
+double distance_squared(const Edge& edge, const Point& p) {
+    const Point along = edge.b - edge.a;
+    const double t = std::clamp(glm::dot(p - edge.a, along) / glm::dot(along, along), 0.0, 1.0);
+    const Point d = p - (edge.a + t * along);
+    return glm::dot(d, d);
+}
+
+// Returns the rows or columns whose centres are between `low` and `high`.
+std::pair<int, int> between(double low, double high, int count) {
+    return {std::max(0, static_cast<int>(std::ceil(low - 0.5))),
+            std::min(count - 1, static_cast<int>(std::floor(high - 0.5)))};
+}
+
+}  // namespace
+
+DistanceField distance_field(const Outline& outline, double texels_per_em, double reach) {
+    const std::vector<Edge> edges = edges_of(outline);
+    if (edges.empty()) return {};
+    Point low = edges.front().a, high = low;
+    for (const Edge& edge : edges) {
+        low = glm::min(low, edge.a);
+        high = glm::max(high, edge.a);
+    }
+    DistanceField field;
+    const double texel = 1.0 / texels_per_em;
+    field.low = glm::floor((low - reach) * texels_per_em) * texel;
+    field.width = static_cast<int>(std::ceil((high.x + reach - field.low.x) * texels_per_em));
+    field.height = static_cast<int>(std::ceil((high.y + reach - field.low.y) * texels_per_em));
+    const auto width = static_cast<std::size_t>(field.width);
+    std::vector<double> nearest(width * static_cast<std::size_t>(field.height), reach * reach);
+    const EdgesByHeight by_height(edges, low.y, high.y, texel);
+    for (const Edge& piece : visible_pieces(edges, by_height, texel)) {
+        const Point from = (glm::min(piece.a, piece.b) - reach - field.low) * texels_per_em,
+                    to = (glm::max(piece.a, piece.b) + reach - field.low) * texels_per_em;
+        const auto [left, right] = between(from.x, to.x, field.width);
+        const auto [below, above] = between(from.y, to.y, field.height);
+        for (int y = below; y <= above; ++y)
+            for (int x = left; x <= right; ++x) {
+                double& least = nearest[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+                least = std::min(least, distance_squared(piece, field.low + texel * Point(x + 0.5, y + 0.5)));
+            }
+    }
+    field.distances.resize(nearest.size());
+    std::vector<std::pair<double, int>> crossings;  // in one row
+    for (int y = 0; y < field.height; ++y) {
+        crossings.clear();
+        double x = 0.0;
+        const double height = field.low.y + texel * (y + 0.5);
+        for (const Edge& edge : by_height.near(height))
+            if (const int way = passes(edge, height, x); way != 0) crossings.emplace_back(x, way);
+        std::sort(crossings.begin(), crossings.end());
+        auto next = crossings.begin();
+        int inside = 0;
+        for (std::size_t column = 0; column < width; ++column) {
+            const double middle = field.low.x + texel * (static_cast<double>(column) + 0.5);
+            for (; next != crossings.end() && next->first <= middle; ++next) inside += next->second;
+            const std::size_t at = static_cast<std::size_t>(y) * width + column;
+            const double distance = std::sqrt(nearest[at]);
+            field.distances[at] = static_cast<float>(inside != 0 ? distance : -distance);
+        }
+    }
+    return field;
+}
 
 namespace {
 

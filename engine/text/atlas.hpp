@@ -1,5 +1,5 @@
-// Glyph distance fields in one square texture of half floats. Glyphs are added on demand; the owner of the
-// texture uploads the rows that have changed.
+// Signed distance fields of glyphs (C. Green, Improved Alpha-Tested Magnification for Vector Textures, 2007),
+// for sharp edges at every size and angle. Distances are computed from the outline itself, not from a raster.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,19 @@
 #include "engine/text/fonts.hpp"
 
 namespace bolt::text {
+
+struct DistanceField {
+    int width = 0, height = 0;
+    glm::dvec2 low{0.0};           // em, lower left corner of the first texel
+    std::vector<float> distances;  // em, positive inside, rows from the bottom; clamped to [-reach, reach]
+};
+
+// Returns an empty field for an outline without area. The field extends `reach` (em) beyond the outline on
+// every side.
+DistanceField distance_field(const Outline& outline, double texels_per_em, double reach);
+
+// Glyph distance fields in one square texture of half floats. Glyphs are added on demand; the owner of the
+// texture uploads the rows that have changed.
 
 struct AtlasGlyph {
     glm::vec2 low{0.0F}, high{0.0F};        // em, relative to the glyph's origin; equal: invisible

@@ -1,10 +1,127 @@
 #include "engine/text/fonts.hpp"
 
 #include <fmt/format.h>
+#include <stb/stb_truetype.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
+
+#include "engine/base/file.hpp"
 
 namespace bolt::text {
+
+namespace {
+
+constexpr std::size_t largest_font = std::size_t{128} << 20;
+
+glm::dvec2 quadratic(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double t) {
+    return glm::mix(glm::mix(a, b, t), glm::mix(b, c, t), t);
+}
+
+// Returns the number of segments that keep a curve within the tolerance: the error of a chord over 1/n of it
+// is |second derivative| / 8n².
+int pieces(double second_derivative, double tolerance) {
+    return std::clamp(static_cast<int>(std::ceil(std::sqrt(second_derivative / (8.0 * tolerance)))), 1, 64);
+}
+
+}  // namespace
+
+struct Face::Data {
+    std::string bytes;
+    stbtt_fontinfo info{};
+    float em = 1.0F;  // em per font unit
+    float ascent = 0.0F, descent = 0.0F;
+};
+
+Face::Face(std::unique_ptr<Data> data) : data_(std::move(data)) {}
+Face::Face(Face&&) noexcept = default;
+Face& Face::operator=(Face&&) noexcept = default;
+Face::~Face() = default;
+
+Result<Face> Face::read(const std::filesystem::path& file) {
+    BOLT_TRY_ASSIGN(auto bytes, read_file(file, largest_font, ErrorCode::failed));
+    auto data = std::make_unique<Data>();
+    data->bytes = std::move(bytes);
+    // stb_truetype would read past the end of a file shorter than a table directory.
+    const auto* first = reinterpret_cast<const unsigned char*>(data->bytes.data());
+    const int offset = data->bytes.size() < 64 ? -1 : stbtt_GetFontOffsetForIndex(first, 0);
+    if (offset < 0 || stbtt_InitFont(&data->info, first, offset) == 0) {
+        Error error;
+        error.code = ErrorCode::failed;
+        error.what = "is no readable font";
+        error.expected = "a TrueType or OpenType font";
+        error.file = file.string();
+        return fail(std::move(error));
+    }
+    data->em = stbtt_ScaleForMappingEmToPixels(&data->info, 1.0F);
+    int ascent = 0, descent = 0, gap = 0;
+    stbtt_GetFontVMetrics(&data->info, &ascent, &descent, &gap);
+    data->ascent = data->em * static_cast<float>(ascent);
+    data->descent = -data->em * static_cast<float>(descent);
+    return Face(std::move(data));
+}
+
+int Face::glyph(char32_t point) const { return stbtt_FindGlyphIndex(&data_->info, static_cast<int>(point)); }
+
+float Face::advance(int glyph) const {
+    int advance = 0, bearing = 0;
+    stbtt_GetGlyphHMetrics(&data_->info, glyph, &advance, &bearing);
+    return data_->em * static_cast<float>(advance);
+}
+
+float Face::kerning(int left, int right) const {
+    return data_->em * static_cast<float>(stbtt_GetGlyphKernAdvance(&data_->info, left, right));
+}
+
+float Face::ascent() const { return data_->ascent; }
+float Face::descent() const { return data_->descent; }
+
+Outline Face::outline(int glyph, double tolerance) const {
+    stbtt_vertex* vertices = nullptr;
+    const int count = stbtt_GetGlyphShape(&data_->info, glyph, &vertices);
+    Outline outline;
+    const auto em = static_cast<double>(data_->em);
+    glm::dvec2 at(0.0);
+    for (int i = 0; i < count; ++i) {
+        const stbtt_vertex& v = vertices[i];
+        const glm::dvec2 to = em * glm::dvec2(v.x, v.y), c1 = em * glm::dvec2(v.cx, v.cy),
+                         c2 = em * glm::dvec2(v.cx1, v.cy1);
+        if (v.type == STBTT_vmove) {
+            outline.push_back({to});
+        } else if (v.type == STBTT_vline) {
+            outline.back().push_back(to);
+        } else if (v.type == STBTT_vcurve) {
+            const int n = pieces(2.0 * glm::length(at - 2.0 * c1 + to), tolerance);
+            for (int k = 1; k <= n; ++k)
+                outline.back().push_back(quadratic(at, c1, to, static_cast<double>(k) / n));
+        } else {
+            const double bend =
+                6.0 * std::max(glm::length(at - 2.0 * c1 + c2), glm::length(c1 - 2.0 * c2 + to));
+            const int n = pieces(bend, tolerance);
+            for (int k = 1; k <= n; ++k) {
+                const double t = static_cast<double>(k) / n;
+                outline.back().push_back(glm::mix(quadratic(at, c1, c2, t), quadratic(c1, c2, to, t), t));
+            }
+        }
+        at = to;
+    }
+    stbtt_FreeShape(&data_->info, vertices);
+    return outline;
+}
+
+Face::Raster Face::raster(int glyph, float em_px, float shift) const {
+    const float scale = em_px * data_->em;
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    stbtt_GetGlyphBitmapBoxSubpixel(&data_->info, glyph, scale, scale, shift, 0.0F, &x0, &y0, &x1, &y1);
+    Raster raster{x1 - x0, y1 - y0, x0, -y0, {}};
+    raster.coverage.resize(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height));
+    if (!raster.coverage.empty())
+        stbtt_MakeGlyphBitmapSubpixel(&data_->info, raster.coverage.data(), raster.width, raster.height,
+                                      raster.width, scale, scale, shift, 0.0F, glyph);
+    return raster;
+}
 
 const std::vector<FontFile>& font_files() {
     static const std::vector<FontFile> files{{"DejaVuSans.ttf", "fonts-dejavu-core"},

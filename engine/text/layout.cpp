@@ -1,10 +1,66 @@
 #include "engine/text/layout.hpp"
 
 #include <algorithm>
-
-#include "engine/text/utf8.hpp"
+#include <array>
+#include <cstdint>
 
 namespace bolt::text {
+
+namespace {
+
+constexpr char32_t replacement = 0xFFFD;
+
+// Returns the number of continuation bytes; -1 for an invalid first byte.
+int followers(std::uint8_t first) {
+    if (first < 0x80) return 0;
+    if (first >= 0xC2 && first < 0xE0) return 1;
+    if (first >= 0xE0 && first < 0xF0) return 2;
+    if (first >= 0xF0 && first < 0xF5) return 3;
+    return -1;
+}
+
+// Overlong encodings, surrogates and values beyond Unicode are invalid (RFC 3629).
+bool forbidden(char32_t point, int follow) {
+    constexpr std::array<char32_t, 4> smallest{0, 0x80, 0x800, 0x10000};
+    return point < smallest.at(static_cast<std::size_t>(follow)) || (point >= 0xD800 && point < 0xE000) ||
+           point > 0x10FFFF;
+}
+
+}  // namespace
+
+std::u32string decode(std::string_view utf8) {
+    std::u32string points;
+    for (std::size_t at = 0; at < utf8.size();) {
+        const auto first = static_cast<std::uint8_t>(utf8[at]);
+        const int follow = followers(first);
+        char32_t point = follow <= 0 ? first : first & (0x3FU >> follow);
+        bool good = follow >= 0 && at + static_cast<std::size_t>(follow) < utf8.size();
+        for (int i = 1; good && i <= follow; ++i) {
+            const auto next = static_cast<std::uint8_t>(utf8[at + static_cast<std::size_t>(i)]);
+            good = (next & 0xC0U) == 0x80U;
+            point = point << 6 | (next & 0x3FU);
+        }
+        good = good && !forbidden(point, follow);
+        points.push_back(good ? point : replacement);
+        at += good ? static_cast<std::size_t>(follow) + 1 : 1;
+    }
+    return points;
+}
+
+std::string encode(std::u32string_view points) {
+    std::string utf8;
+    for (const char32_t point : points) {
+        const int follow = point < 0x80 ? 0 : point < 0x800 ? 1 : point < 0x10000 ? 2 : 3;
+        constexpr std::array<std::uint32_t, 4> marks{0x00, 0xC0, 0xE0, 0xF0};
+        for (int i = follow; i >= 0; --i) {
+            const auto bits = static_cast<std::uint32_t>(point) >> (6 * i);
+            const std::uint32_t byte =
+                i == follow ? marks.at(static_cast<std::size_t>(follow)) | bits : 0x80U | (bits & 0x3FU);
+            utf8.push_back(static_cast<char>(byte));
+        }
+    }
+    return utf8;
+}
 
 namespace {
 

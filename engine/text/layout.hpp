@@ -1,12 +1,19 @@
-// Text layout from left to right: one glyph per code point, with kerning, without shaping for joining
-// scripts.
+// Conversion between UTF-8 and code points.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "engine/text/fonts.hpp"
 
 namespace bolt::text {
+
+// Invalid UTF-8 becomes U+FFFD, one per byte that starts no character.
+std::u32string decode(std::string_view utf8);
+std::string encode(std::u32string_view points);
+
+// Text layout from left to right: one glyph per code point, with kerning, without shaping for joining
+// scripts.
 
 struct PlacedGlyph {
     GlyphId id;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "game/session/device_text.hpp"
+#include "game/session/session_file.hpp"
 #include "haptics/servo/tool_contact.hpp"
 
 namespace bolt::analysis {

@@ -10,10 +10,9 @@
 #include <memory>
 
 #include "content/station/wheel_config_file.hpp"
-#include "engine/base/console.hpp"
+#include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
-#include "game/station/choice.hpp"
-#include "game/station/wearer.hpp"
+#include "game/station/station_setup.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/device_thread.hpp"
 #include "haptics/device/hid_devices.hpp"

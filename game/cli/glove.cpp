@@ -10,10 +10,10 @@
 #include <thread>
 
 #include "content/trainee/glove_calibration.hpp"
-#include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
+#include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
-#include "game/station/wearer.hpp"
+#include "game/station/station_setup.hpp"
 #include "haptics/hand/glove_calibration.hpp"
 #include "haptics/hand/glove_driver.hpp"
 #include "haptics/hand/measured_hand.hpp"

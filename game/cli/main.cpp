@@ -1,10 +1,27 @@
-// boltwright: the trainer. The commands are in game/cli.
+#include "game/cli/interruption.hpp"
 
 #include <csignal>
 #include <cstdlib>
 
 #include "engine/base/program.hpp"
 #include "game/cli/commands.hpp"
+
+namespace bolt::cli {
+namespace {
+
+volatile std::sig_atomic_t asked_to_end = 0;  // what a signal handler may write
+
+}  // namespace
+
+void catch_interruption() {
+    for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, [](int) { asked_to_end = 1; });
+}
+
+bool interrupted() { return asked_to_end != 0; }
+
+}  // namespace bolt::cli
+
+// boltwright: the trainer. The commands are in game/cli.
 
 int main(int argc, char** argv) {
     // What OpenAL prints of devices that are not there is said once, in our words (engine/audio).

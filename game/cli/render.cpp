@@ -11,22 +11,17 @@
 
 #include "content/format/assembly.hpp"
 #include "engine/assets/pose.hpp"
-#include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/nearest.hpp"
-#include "engine/render/picture.hpp"
+#include "engine/base/result.hpp"
+#include "engine/render/renderer.hpp"
 #include "game/cli/commands.hpp"
 #include "game/session/contact_models.hpp"
-#include "game/session/nut_views.hpp"
-#include "game/session/servo_setup.hpp"
-#include "game/view/gpu_context.hpp"
-#include "game/view/label_places.hpp"
-#include "game/view/marks.hpp"
-#include "game/view/picture_file.hpp"
-#include "game/view/size.hpp"
+#include "game/session/lesson_session.hpp"
+#include "game/view/labels.hpp"
+#include "game/view/pictures.hpp"
 #include "game/view/stage.hpp"
-#include "game/view/stereo.hpp"
 
 namespace bolt::cli {
 

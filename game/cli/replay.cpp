@@ -7,14 +7,13 @@
 #include <csignal>
 #include <memory>
 
-#include "engine/base/console.hpp"
 #include "engine/base/process.hpp"
+#include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
 #include "game/film/film.hpp"
-#include "game/sound/materials.hpp"
-#include "game/sound/soundtrack.hpp"
-#include "game/view/picture_file.hpp"
-#include "game/view/size.hpp"
+#include "game/sound/event_detection.hpp"
+#include "game/sound/playback.hpp"
+#include "game/view/pictures.hpp"
 
 namespace bolt::cli {
 

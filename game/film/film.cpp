@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "game/scene/effort.hpp"
-#include "game/scene/labels.hpp"
-#include "game/scene/resting_place.hpp"
-#include "game/view/stereo.hpp"
-#include "game/world/haptics.hpp"
+#include "game/scene/annotations.hpp"
+#include "game/scene/postures.hpp"
+#include "game/scene/workplace.hpp"
+#include "game/view/pictures.hpp"
+#include "game/world/world.hpp"
 
 namespace bolt::film {
 

@@ -1,14 +1,13 @@
 // A lesson that was recorded, drawn: the workplace as it was at any moment, from any view.
 #pragma once
 
-#include "engine/render/picture.hpp"
+#include "engine/render/renderer.hpp"
 
 #include "content/words/words.hpp"
 #include "game/scene/systems.hpp"
 #include "game/session/replay.hpp"
-#include "game/view/gpu_context.hpp"
-#include "game/view/orbit.hpp"
-#include "game/view/view_search.hpp"
+#include "game/view/camera.hpp"
+#include "game/view/pictures.hpp"
 
 namespace bolt::film {
 

@@ -1,3 +1,76 @@
+// One hint: its text, how explicit it is, and what the view shows of it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "content/words/words.hpp"
+#include "game/lesson/situation.hpp"
+
+namespace bolt::lesson {
+
+// The motion of the hand that a hint requests. It selects the arrow and the control that is named.
+enum class Motion : std::uint8_t {
+    none,
+    take,
+    put_away,
+    approach,  // with the wrench
+    reach,     // with the fingers
+    set_on,
+    grip_nut,
+    spin,
+    twist_back,
+    let_go,
+    pull_on,
+    pull_off,
+    lift,
+    set_back,
+};
+inline constexpr std::size_t motion_count = 14;
+
+enum class Ghost : std::uint8_t { none, hand, hand_and_wrench };
+
+struct Hint {
+    Situation situation = Situation::all_done;
+    int level = 0;   // 0: text; 1: outline and arrow; 2: ghost; 3: the very motion, and what to press for it
+    int joint = -1;  // the due one; −1: none is
+    Motion motion = Motion::none;
+    words::Key text = "hint.all_done";
+    std::vector<words::Place> places;
+
+    [[nodiscard]] int outlined() const { return level >= 1 ? joint : -1; }
+    [[nodiscard]] Motion arrow() const { return level >= 1 ? motion : Motion::none; }
+    [[nodiscard]] Ghost ghost() const;
+};
+
+// The text is that of `situation`, the motion that of `then`; they differ while a step is announced.
+Hint make_hint(Situation situation, Situation then, int level, const Scene& scene);
+
+// The control for each motion as text ("hold F and drag").
+using Controls = std::array<std::string, motion_count>;
+
+std::string say(const words::Words& words, const Hint& hint);
+// The motion and its control as text; empty below level 3.
+std::string say_motion(const words::Words& words, const Hint& hint, const Controls& controls);
+
+// Describes, in the trainee's language, which input performs each motion of a hint. The caller names the
+// bound keys and buttons.
+
+// Mouse: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.
+Controls mouse_controls(const words::Words& words, const std::string& tool_key);
+
+// Force-feedback device: `button` closes the hand, `tool_key` puts the wrench down.
+Controls device_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+
+// Devices without force feedback: while `button` is held, the tool covers the last distance by itself.
+Controls puck_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+Controls keyboard_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+
+// Glove: `moved_by` moves the hand; the fingers do the rest.
+Controls glove_controls(const words::Words& words, Controls moved_by);
+
 // Selects hints over time: they become more explicit the longer the work makes no progress, and do not
 // flicker.
 //
@@ -7,13 +80,6 @@
 //
 // A hint stays for 1.5 s, unless the step changes, the trainee has to stop, or its request has been
 // fulfilled.
-#pragma once
-
-#include <optional>
-
-#include "game/lesson/hint.hpp"
-
-namespace bolt::lesson {
 
 // Time without progress after which each level is reached, s.
 struct HintTimes {

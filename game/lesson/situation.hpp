@@ -6,7 +6,7 @@
 #include <span>
 
 #include "game/lesson/lesson.hpp"
-#include "game/world/haptics.hpp"
+#include "game/world/world.hpp"
 #include "haptics/servo/setup.hpp"
 #include "haptics/servo/tick.hpp"
 

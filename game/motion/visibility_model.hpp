@@ -2,6 +2,7 @@
 // it. A trainee that does not see the nut places the wrench by touch and memory, less accurately.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -42,5 +43,18 @@ std::optional<HeadMove> look_round(Sight& sight, const servo::Setup& setup, cons
 // count by their precision (van Beers, Sittig and Denier van der Gon, J. Neurophysiol. 81 (1999) 1355).
 // `sharp`: with all of it seen; `tries`: times that it has felt for the place.
 double placing_noise(double sharp, double share, int tries);
+
+// The program's help with the view for a simulated trainee: returns an eye from which the nut is visible.
+
+struct ViewAsk {
+    const servo::Setup& setup;
+    const servo::ToolContact& touch;
+    std::size_t joint = 0;
+    Vec3 nut{0.0};  // m, its middle
+    Pose wrench;    // where it is going to be
+    Vec3 eye{0.0};  // m, where it is now
+};
+
+using ViewHelp = std::function<Vec3(const ViewAsk&)>;  // m, the eye in the new view
 
 }  // namespace bolt::motion

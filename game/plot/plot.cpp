@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "game/plot/decimate.hpp"
-#include "game/plot/label_layout.hpp"
-#include "game/plot/text.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/svg.hpp"
 
 namespace bolt::plot {
 

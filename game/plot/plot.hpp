@@ -6,12 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "game/plot/axis.hpp"
 #include "game/plot/svg.hpp"
 
 namespace bolt::plot {
 
-// Styles are names of CSS classes (game/plot/style.cpp).
+// Styles are names of CSS classes (game/plot/html.cpp).
 struct Axis {
     Ticks ticks;
     std::string label;

@@ -4,11 +4,92 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
+#include <limits>
 
-#include "game/plot/text.hpp"
+#include "game/plot/html.hpp"
 
 namespace bolt::plot {
+
+namespace {
+
+// A range that can be divided: finite, not empty, not so narrow that the ticks would be equal numbers.
+Range sane(double low, double high) {
+    if (!std::isfinite(low) || !std::isfinite(high)) return {0.0, 1.0};
+    if (low > high) std::swap(low, high);
+    const double least = 1e-9 * std::max({std::abs(low), std::abs(high), 1e-3});
+    if (high - low < least)
+        return low == 0.0 ? Range{0.0, 1.0} : Range{low - 0.5 * std::abs(low), high + 0.5 * std::abs(high)};
+    return {low, high};
+}
+
+double decimal_step(double span, int about) {
+    const double rough = span / std::max(1, about);
+    const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+    for (const double factor : {1.0, 2.0, 2.5, 5.0})
+        if (rough <= factor * decade * 1.0000001) return factor * decade;
+    return 10.0 * decade;
+}
+
+double degree_step(double span, int about) {
+    const double rough = span / std::max(1, about);
+    if (rough < 1.0) return decimal_step(span, about);
+    for (const double step : {1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0})
+        if (rough <= step) return step;
+    return 360.0 * std::ceil(rough / 360.0);
+}
+
+int decimals_of(double step) {
+    int decimals = 0;
+    for (double scaled = step; decimals < 12 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled;
+         scaled *= 10.0)
+        ++decimals;
+    return decimals;
+}
+
+Ticks ticks_between(Range range, double first, double last, double step) {
+    Ticks ticks;
+    ticks.range = range;
+    ticks.decimals = decimals_of(step);
+    for (double k = first; k <= last + 0.5; k += 1.0) ticks.at.push_back(k * step);
+    return ticks;
+}
+
+Ticks inside(Range range, double step) {
+    constexpr double slack = 1e-9;  // a tick on the border is drawn
+    return ticks_between(range, std::ceil(range.low / step - slack), std::floor(range.high / step + slack),
+                         step);
+}
+
+}  // namespace
+
+Ticks covering_ticks(double low, double high, int about) {
+    const Range range = sane(low, high);
+    const double step = decimal_step(range.span(), about);
+    const double first = std::floor(range.low / step + 1e-9);
+    const double last = std::ceil(range.high / step - 1e-9);
+    return ticks_between({first * step, last * step}, first, last, step);
+}
+
+Ticks inner_ticks(Range range, int about) {
+    const Range r = sane(range.low, range.high);
+    return inside(r, decimal_step(r.span(), about));
+}
+
+Ticks degree_ticks(Range range, int about) {
+    const Range r = sane(range.low, range.high);
+    return inside(r, degree_step(r.span(), about));
+}
+
+Ticks count_ticks(int low, int high, int most) {
+    const int count = std::max(1, high - low + 1);
+    const int step = (count + std::max(1, most) - 1) / std::max(1, most);
+    Ticks ticks;
+    ticks.range = {low - 0.5, std::max(low, high) + 0.5};
+    for (int i = low; i <= std::max(low, high); i += step) ticks.at.push_back(i);
+    return ticks;
+}
 
 namespace {
 
@@ -94,6 +175,104 @@ std::string standalone(std::string_view svg, std::string_view style_sheet) {
     // In CDATA, as a style sheet may hold '>' and '&'.
     return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}<style><![CDATA[{}]]></style>{}",
                        svg.substr(0, at), style_sheet, svg.substr(at));
+}
+
+namespace {
+
+bool is_gap(const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }
+
+void append_run(std::vector<Point>& out, std::span<const Point> run) {
+    const auto by_y = [](const Point& a, const Point& b) { return a.y < b.y; };
+    const auto [low, high] = std::minmax_element(run.begin(), run.end(), by_y);
+    std::ptrdiff_t keep[] = {0, low - run.begin(), high - run.begin(), std::ssize(run) - 1};
+    std::sort(std::begin(keep), std::end(keep));
+    std::ptrdiff_t last = -1;
+    for (const std::ptrdiff_t i : keep) {
+        if (i != last) out.push_back(run[static_cast<std::size_t>(i)]);
+        last = i;
+    }
+}
+
+}  // namespace
+
+std::vector<Point> decimate(std::span<const Point> points, double column) {
+    std::vector<Point> out;
+    for (std::size_t begin = 0; begin < points.size();) {
+        if (is_gap(points[begin]) || !(column > 0.0)) {
+            out.push_back(points[begin++]);
+            continue;
+        }
+        const double cell = std::floor(points[begin].x / column);
+        std::size_t end = begin + 1;
+        while (end < points.size() && !is_gap(points[end]) && std::floor(points[end].x / column) == cell)
+            ++end;
+        append_run(out, points.subspan(begin, end - begin));
+        begin = end;
+    }
+    return out;
+}
+
+std::vector<Point> within(std::span<const Point> points, Range x) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Point> out;
+    bool drawing = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Point& p = points[i];
+        const bool gap = is_gap(p);
+        const bool inside = !gap && p.x >= x.low && p.x <= x.high;
+        if (inside && !drawing && i > 0 && !is_gap(points[i - 1])) out.push_back(points[i - 1]);
+        if (inside || drawing) out.push_back(p);
+        if (drawing && !inside && !gap) out.push_back({nan, nan});
+        drawing = inside;
+    }
+    return out;
+}
+
+namespace {
+
+double shared(double a, double a_size, double b, double b_size) {
+    return std::max(0.0, std::min(a + a_size, b + b_size) - std::max(a, b));
+}
+
+double shared_area(const Box& a, const Box& b) {
+    return shared(a.x, a.width, b.x, b.width) * shared(a.y, a.height, b.y, b.height);
+}
+
+}  // namespace
+
+double text_width(std::string_view words, double size) {
+    const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+    return 0.58 * size * static_cast<double>(std::count_if(words.begin(), words.end(), starts));
+}
+
+Box words_box(const Spot& spot, std::string_view words, double size) {
+    const double width = text_width(words, size);
+    const double share = spot.anchor == Anchor::start ? 0.0 : spot.anchor == Anchor::middle ? 0.5 : 1.0;
+    return {spot.at.x - share * width, spot.at.y - 0.8 * size, width, size};
+}
+
+std::string_view anchor_style(Anchor anchor) {
+    return anchor == Anchor::start ? "" : anchor == Anchor::middle ? " mid" : " end";
+}
+
+double Placer::in_the_way(const Box& box) const {
+    double area = box.width * box.height - shared_area(box, page_);
+    for (const Box& other : taken_) area += shared_area(box, other);
+    return area;
+}
+
+std::size_t Placer::choose(std::span<const Box> boxes) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < boxes.size(); ++i)
+        if (in_the_way(boxes[i]) < in_the_way(boxes[best]) - 1e-6) best = i;
+    if (!boxes.empty()) take(boxes[best]);
+    return best;
+}
+
+Spot Placer::choose(std::span<const Spot> spots, std::string_view words, double size) {
+    std::vector<Box> boxes;
+    for (const Spot& spot : spots) boxes.push_back(words_box(spot, words, size));
+    return spots.empty() ? Spot{} : spots[choose(boxes)];
 }
 
 }  // namespace bolt::plot

@@ -43,4 +43,13 @@ std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> at
 // least two attempts. Alone on its page it names no sections to go to, and a study has no learning curves.
 std::string attempts_section(std::span<const Attempt> attempts, bool alone = false);
 
+// What a help does: lessons with it beside the same lessons without it.
+
+// A part for each set of attempts that differ in nothing but the guiding and the seed, in the order of the
+// first of each; nothing if there is no such set with both.
+std::string guiding_study(std::span<const Attempt> attempts);
+
+// The same of the help with the view, by simulated trainees.
+std::string view_study(std::span<const Attempt> attempts);
+
 }  // namespace bolt::report

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "game/analysis/compare.hpp"
+#include "game/analysis/comparison.hpp"
 #include "game/plot/plot.hpp"
 
 namespace bolt::report {

@@ -7,9 +7,8 @@
 #include <iterator>
 #include <map>
 
-#include "game/analysis/quartiles.hpp"
+#include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
-#include "game/plot/text.hpp"
 
 namespace bolt::report {
 

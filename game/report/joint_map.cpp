@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "game/plot/label_layout.hpp"
-#include "game/plot/text.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/svg.hpp"
 
 namespace bolt::report {
 

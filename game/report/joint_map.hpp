@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "game/analysis/order.hpp"
 #include "game/analysis/session_data.hpp"
 #include "game/plot/svg.hpp"
 

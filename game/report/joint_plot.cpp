@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "engine/base/math.hpp"
-#include "game/analysis/order.hpp"
-#include "game/plot/decimate.hpp"
-#include "game/plot/text.hpp"
+#include "game/analysis/session_data.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/svg.hpp"
 
 namespace bolt::report {
 

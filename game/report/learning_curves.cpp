@@ -8,10 +8,9 @@
 #include <iterator>
 #include <limits>
 
-#include "game/analysis/quartiles.hpp"
+#include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"
-#include "game/plot/text.hpp"
 
 namespace bolt::report {
 

@@ -1,12 +1,32 @@
-// How a hand is bent about what it holds, when nobody wears a glove: around the wrench's handle, with thumb
-// and index finger on a nut, or open.
+// How hard the hand that is shown works, where no device lets it be felt. Only of what a tick put out: the
+// same session shows the same hand.
 #pragma once
 
 #include <array>
 
+#include "game/world/world.hpp"
 #include "haptics/hand/finger_closure.hpp"
+#include "haptics/servo/setup.hpp"
 
 namespace bolt::scene {
+
+struct Strain {
+    double share = 0.0;   // 0 at rest … 1: the most that this hand can
+    double tremor = 0.0;  // −1 … 1, of the muscles: what changes in the torque faster than a hand follows
+    double quick = 0.0;   // the same share, less smooth, with the torque's sign
+    double slow = 0.0;
+};
+
+// What the wrench bears at most is what its spring gives at 2.5 degrees (hud.cpp), fingers slip before
+// that. −1 … 1, tightening positive; 0 with nothing in the hand.
+using EffortAccess = ecs::Access<const world::Joint, const world::ToolContact, const world::Hand>;
+double effort(const servo::Setup& setup, const EffortAccess& world);
+
+// A tick.
+void strain(Strain& strain, const servo::Setup& setup, const EffortAccess& world);
+
+// How a hand is bent about what it holds, when nobody wears a glove: around the wrench's handle, with thumb
+// and index finger on a nut, or open.
 
 // The 26 joints in the frame of the tool (servo::DeviceSample). A handle can be held four ways: palm on the
 // one face or the other, thumb towards the jaw or away from it.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "game/world/haptics.hpp"
+#include "game/world/world.hpp"
 
 namespace bolt::scene {
 

@@ -2,17 +2,32 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <filesystem>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/hash.hpp"
-#include "game/session/hexagon_lie.hpp"
 
 namespace bolt::session {
+
+HexagonLie lie_of(const servo::NutGeometry& nut, std::span<const glm::dvec3> points) {
+    std::complex<double> sixfold = 0.0;
+    double low = 1e9;
+    for (const Vec3& p : points) {
+        const Vec3 d = p - nut.seat;
+        const Vec3 q(glm::dot(d, nut.e1), glm::dot(d, nut.e2), glm::dot(d, nut.axis));
+        low = std::min(low, q.z);
+        const double out = std::hypot(q.x, q.y) / nut.across_flats;
+        sixfold += std::pow(out, 24.0) * std::polar(1.0, 6.0 * std::atan2(q.y, q.x));
+    }
+    return {glm::angleAxis(-std::arg(sixfold) / 6.0, Vec3(0, 0, 1)), low};
+}
 
 namespace {
 
@@ -222,6 +237,51 @@ Result<std::optional<servo::ToolContact>> load_tool_contact(const content::Assem
     BOLT_TRY_ASSIGN(auto models, load_touch_models(assembly, setup));
     if (!models.has_value()) return std::nullopt;
     return std::optional<servo::ToolContact>(std::move(models->tool_contact));
+}
+
+namespace {
+
+constexpr std::size_t spots = 400;       // sample points on the nut: within 5 %, enough to choose a view
+constexpr double narrowest = 4.0 / 3.0;  // aspect ratio of a picture
+
+bool in_picture(const content::View& view, const Vec3& point) {
+    const Vec3 ahead = glm::normalize(view.target - view.eye);
+    const Vec3 right = glm::normalize(glm::cross(ahead, Vec3(0.0, 1.0, 0.0)));
+    const Vec3 to = point - view.eye;
+    const double depth = glm::dot(to, ahead), half_height = depth * std::tan(0.5 * view.field_of_view);
+    return depth > 0.0 && std::abs(glm::dot(to, right)) < narrowest * half_height &&
+           std::abs(glm::dot(to, glm::cross(right, ahead))) < half_height;
+}
+
+}  // namespace
+
+void seat_nuts(const servo::Setup& setup, servo::ToolContact& touch) {
+    for (std::size_t i = 0; i < touch.nut_bodies.size(); ++i)
+        if (touch.nut_bodies[i])
+            touch.world.bodies[*touch.nut_bodies[i]].pose =
+                servo::nut_pose(setup.nuts[i], setup.nuts[i].start_gap / setup.nuts[i].lead);
+}
+
+std::vector<NutView> views_of_nut(const content::Assembly& assembly, const servo::ToolContact& touch,
+                                  std::size_t joint) {
+    std::vector<NutView> all;
+    if (joint >= touch.nut_bodies.size() || !touch.nut_bodies[joint]) return all;
+    const std::size_t body = *touch.nut_bodies[joint];
+    const std::vector<collision::SurfacePoint> on_nut =
+        collision::sample_outer_surface(touch.world.shapes[touch.world.bodies[body].shape].solid, spots);
+    for (const content::View& view : assembly.views) {
+        const collision::Visibility seen = collision::visibility_of(touch.world, body, on_nut, view.eye);
+        all.push_back({seen.share, seen.angle / square(2.0 * std::tan(0.5 * view.field_of_view)),
+                       in_picture(view, touch.world.bodies[body].pose.position)});
+    }
+    return all;
+}
+
+std::optional<std::size_t> best_view(std::span<const NutView> views) {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (views[i].framed && views[i].size > 0.0 && (!best || views[i].size > views[*best].size)) best = i;
+    return best;
 }
 
 }  // namespace bolt::session

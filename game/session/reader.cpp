@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "game/session/database.hpp"
-#include "game/session/format.hpp"
 #include "game/session/session_file.hpp"
-#include "game/session/table_checksum.hpp"
+#include "game/session/tables.hpp"
 
 namespace bolt::session {
 

@@ -21,11 +21,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/result.hpp"
 #include "game/lesson/result.hpp"
 #include "game/session/tick.hpp"
+#include "haptics/force/output_limits.hpp"
 #include "haptics/servo/thread.hpp"
 
 namespace bolt::session {
@@ -132,5 +134,14 @@ class Reader {
     explicit Reader(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
+
+// The limits of a haptic device as one line of text in the session header. A replay needs them to the last
+// bit.
+
+// "force_N=20 torque_Nm=2 …": each limit by name, as the shortest number that reads back the same.
+std::string text_of(const force::OutputLimits& limits);
+
+// None if a name is missing or unknown, or a value is not a number.
+std::optional<force::OutputLimits> limits_of(std::string_view text);
 
 }  // namespace bolt::session

@@ -2,12 +2,147 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+#include <cmath>
+#include <limits>
 #include <utility>
 
-#include "game/session/format.hpp"
-#include "game/session/timing_rows.hpp"
+#include "engine/base/hash.hpp"
 
 namespace bolt::session {
+
+namespace {
+
+constexpr std::size_t entry_bytes = 4 + 8;
+
+void put(std::vector<std::byte>& out, std::uint64_t value, unsigned bytes) {
+    for (unsigned i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> (8 * i)));
+}
+
+std::uint64_t get(std::span<const std::byte> in) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < in.size(); ++i) value |= static_cast<std::uint64_t>(in[i]) << (8 * i);
+    return value;
+}
+
+TimingRow row_of(const char* name, const servo::Histogram& h) {
+    TimingRow row{name, h.count, h.least, h.greatest, h.sum, {}};
+    for (std::size_t i = 0; i < h.bins; ++i) {
+        if (h.counts[i] == 0) continue;
+        put(row.bins, i, 4);
+        put(row.bins, h.counts[i], 8);
+    }
+    return row;
+}
+
+bool read_bins(std::span<const std::byte> in, servo::Histogram& h) {
+    if (in.size() % entry_bytes != 0) return false;
+    std::uint64_t sum = 0;
+    for (; !in.empty(); in = in.subspan(entry_bytes)) {
+        const std::uint64_t bin = get(in.first(4)), count = get(in.subspan(4, 8));
+        if (bin >= h.bins || count > h.count) return false;
+        h.counts[bin] = count;
+        sum += count;
+    }
+    return sum == h.count;
+}
+
+}  // namespace
+
+std::array<TimingRow, timing_rows> rows_of(const servo::Timing& timing) {
+    return {row_of("wake_up", timing.wake_up), row_of("compute", timing.compute),
+            row_of("period", timing.period), TimingRow{"missed", timing.missed, 0, 0, 0.0, {}}};
+}
+
+bool take_row(servo::Timing& timing, const TimingRow& row) {
+    if (row.name == "missed") {
+        timing.missed = row.count;
+        return row.bins.empty();
+    }
+    servo::Histogram* const h = row.name == "wake_up"   ? &timing.wake_up
+                                : row.name == "compute" ? &timing.compute
+                                : row.name == "period"  ? &timing.period
+                                                        : nullptr;
+    if (h == nullptr) return false;
+    *h = {};
+    h->count = row.count;
+    h->least = row.least;
+    h->greatest = row.greatest;
+    h->sum = row.sum;
+    if (row.name == "wake_up") timing.ticks = row.count;
+    return read_bins(row.bins, *h);
+}
+
+namespace {
+
+// The hash of one table row: typed values in a fixed byte order.
+class Hash {
+  public:
+    explicit Hash(std::string_view table) { add(table); }
+
+    Hash& add(std::uint64_t value) {
+        for (unsigned i = 0; i < 8; ++i) hash_.add(static_cast<std::uint8_t>(value >> (8 * i)));
+        return *this;
+    }
+    Hash& add(int value) { return add(static_cast<std::uint64_t>(value)); }
+    Hash& add(double value) {
+        if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();
+        return add(std::bit_cast<std::uint64_t>(value + 0.0));
+    }
+    Hash& add(std::string_view text) {
+        add(std::uint64_t{text.size()});
+        hash_.add(text);
+        return *this;
+    }
+
+    [[nodiscard]] std::uint64_t value() const { return hash_.value(); }
+
+  private:
+    Fnv1a hash_;
+};
+
+}  // namespace
+
+std::uint64_t sum_of_meta(std::string_view key, std::string_view value) {
+    return Hash("meta").add(key).add(value).value();
+}
+
+std::uint64_t sum_of_chunk(std::uint64_t first_tick, std::uint64_t count) {
+    return Hash("tick_chunk").add(first_tick).add(count).value();
+}
+
+std::uint64_t sum_of(const ObstacleName& obstacle) {
+    return Hash("obstacle")
+        .add(std::int32_t{file_number(obstacle.id).value_or(-1)})
+        .add(std::string_view(obstacle.name))
+        .value();
+}
+
+std::uint64_t sum_of(const TimingRow& row) {
+    const std::string_view bins(reinterpret_cast<const char*>(row.bins.data()), row.bins.size());
+    Hash hash("servo_time");
+    hash.add(std::string_view(row.name)).add(row.count).add(row.least).add(row.greatest).add(row.sum);
+    return hash.add(bins).value();
+}
+
+std::uint64_t sum_of(std::uint64_t ordinal, const lesson::Event& event) {
+    Hash hash("event");
+    hash.add(ordinal).add(event.tick).add(std::string_view(event.kind)).add(event.joint);
+    return hash.add(event.value).add(std::string_view(event.text)).value();
+}
+
+std::uint64_t sum_of(std::uint64_t ordinal, const lesson::JointResult& result) {
+    Hash hash("joint_result");
+    hash.add(ordinal).add(std::string_view(result.id));
+    hash.add(result.torque).add(result.angle).add(result.clamp).add(result.clamp_at_release);
+    hash.add(static_cast<int>(result.torque_verdict)).add(static_cast<int>(result.angle_verdict));
+    hash.add(static_cast<int>(result.overall)).add(static_cast<int>(result.condition));
+    return hash.add(result.strokes).add(result.rehits).add(result.order_errors).value();
+}
+
+std::uint64_t sum_of(std::uint64_t ordinal, const lesson::ScoreReason& reason) {
+    return Hash("score_reason").add(ordinal).add(reason.points).add(std::string_view(reason.text)).value();
+}
 
 namespace {
 

@@ -1,17 +1,25 @@
-// From ticks to what there is to be heard of them: nothing but the servo's output decides, so that a session
-// that is replayed sounds as it did. No clock, no allocation; the same ticks give the same numbers.
+// What the obstacles of an assembly sound like, by the number that the servo's output has for them.
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
+#include "content/format/assembly.hpp"
 #include "game/lesson/result.hpp"
-#include "game/sound/sound_cues.hpp"
-#include "game/world/haptics.hpp"
+#include "game/session/session_file.hpp"
+#include "game/sound/synth.hpp"
+#include "game/world/world.hpp"
 #include "haptics/servo/setup.hpp"
 
 namespace bolt::sound {
+
+// Bolts and washers sound as nuts do: parts whose names begin with a joint's id, as `B1_washer` does. All
+// others are taken for castings.
+std::vector<Met> materials(const content::Assembly& assembly, std::span<const session::ObstacleName> names);
+
+// From ticks to what there is to be heard of them: nothing but the servo's output decides, so that a session
+// that is replayed sounds as it did. No clock, no allocation; the same ticks give the same numbers.
 
 // What the lesson adds to a tick.
 struct Cues {

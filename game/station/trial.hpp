@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/base/function_ref.hpp"
-#include "game/station/plan.hpp"
+#include "game/station/station_setup.hpp"
 
 namespace bolt::station_setup {
 

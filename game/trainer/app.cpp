@@ -8,11 +8,10 @@
 #include <cstdlib>
 
 #include "content/format/assembly.hpp"
-#include "game/scene/resting_place.hpp"
-#include "game/sound/materials.hpp"
+#include "game/scene/workplace.hpp"
+#include "game/sound/event_detection.hpp"
+#include "game/trainer/controls.hpp"
 #include "game/trainer/hud.hpp"
-#include "game/trainer/occupied_areas.hpp"
-#include "game/trainer/ui_input.hpp"
 #include "haptics/force/output_limits.hpp"
 
 namespace bolt::trainer {

@@ -8,12 +8,12 @@
 #include <optional>
 
 #include "engine/ui/ui.hpp"
-#include "game/lesson/controls.hpp"
-#include "game/trainer/backdrop.hpp"
-#include "game/trainer/equipment.hpp"
+#include "game/lesson/hints.hpp"
+#include "game/trainer/active_lesson.hpp"
 #include "game/trainer/preferences.hpp"
-#include "game/trainer/systems.hpp"
-#include "game/view/gpu_context.hpp"
+#include "game/trainer/screens.hpp"
+#include "game/trainer/station_client.hpp"
+#include "game/view/pictures.hpp"
 
 namespace bolt::trainer {
 

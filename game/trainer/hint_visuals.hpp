@@ -3,9 +3,8 @@
 
 #include <optional>
 
-#include "game/lesson/hint.hpp"
-#include "game/scene/arrow.hpp"
-#include "game/scene/labels.hpp"
+#include "game/lesson/hints.hpp"
+#include "game/scene/annotations.hpp"
 #include "game/trainer/active_lesson.hpp"
 
 namespace bolt::trainer {

@@ -2,14 +2,121 @@
 
 #include <fmt/format.h>
 #include <imgui/imgui.h>
+#include <imgui/imgui_internal.h>  // the public interface has a window's area only while it is being filled
 
 #include <algorithm>
 #include <cmath>
 
-#include "game/lesson/terms.hpp"
-#include "game/trainer/key_binding.hpp"
+#include "game/lesson/feedback.hpp"
+#include "game/trainer/active_lesson.hpp"
+#include "game/trainer/controls.hpp"
 
 namespace bolt::trainer {
+
+namespace {
+
+constexpr float soft_strike = 0.08F;               // m/s; what is softer is hardly heard
+constexpr float slow_slide = 0.02F, light = 1.0F;  // m/s; N
+constexpr float slow_run = 2.0F;                   // rad/s
+constexpr float some_load = 0.3F;
+constexpr double enough_creep = 0.02;    // rad under load: it sticks and lets go some times (sound/synth.cpp)
+constexpr double creep_forgotten = 1.0;  // s in which it is
+constexpr double lasting = 0.15;         // s that other sounds have to last to be worth a line
+constexpr double forgets = 3.0;  // times as fast as they were heard they are forgotten when they have stopped
+
+double& of(std::array<double, caption_count>& all, Caption caption) {
+    return all.at(static_cast<std::size_t>(caption));
+}
+
+void say(Captions& captions, Caption caption, bool now) {
+    if (now) of(captions.left, caption) = caption_stands;
+}
+
+// Of what goes on: shares of what it takes to be said. A hand at a mouse moves in jerks, and so do the
+// sounds.
+void gather(Captions& captions, Caption caption, double more, double less) {
+    double& heard = of(captions.heard, caption);
+    say(captions, caption, more > 0.0 && heard + more >= 1.0);
+    heard = std::clamp(heard + more - less, 0.0, 1.0);
+}
+
+void note_lasting(Captions& captions, Caption caption, bool now, double dt) {
+    gather(captions, caption, now ? dt / lasting : 0.0, now ? 0.0 : forgets * dt / lasting);
+}
+
+}  // namespace
+
+void note(Captions& captions, const sound::Heard& heard, double dt) {
+    const bool struck = heard.strike > soft_strike;
+    say(captions, Caption::slip, heard.slip > 0.0F);
+    say(captions, Caption::mistake, heard.mistake);
+    say(captions, Caption::click, heard.click);
+    say(captions, Caption::done, heard.done);
+    say(captions, Caption::strike_casing, struck && heard.met == sound::Met::casing);
+    say(captions, Caption::strike_nut, struck && heard.met == sound::Met::nut);
+    const double crept = heard.load > some_load ? static_cast<double>(heard.creep) * dt : 0.0;
+    gather(captions, Caption::groan, crept / enough_creep, dt / creep_forgotten);
+    note_lasting(captions, Caption::scrape, heard.slide > slow_slide && heard.press > light, dt);
+    note_lasting(captions, Caption::run, heard.run > slow_run, dt);
+}
+
+void update(Captions& captions, double seconds) {
+    for (double& left : captions.left) left = std::max(0.0, left - seconds);
+}
+
+std::vector<Caption> shown(const Captions& captions) {
+    std::vector<Caption> all;
+    for (std::size_t i = 0; i < caption_count && all.size() < most_captions; ++i)
+        if (captions.left.at(i) > 0.0) all.push_back(static_cast<Caption>(i));
+    return all;
+}
+
+words::Key term(Caption caption) {
+    constexpr words::Key keys[] = {"caption.slip",  "caption.mistake",       "caption.click",
+                                   "caption.done",  "caption.strike_casing", "caption.strike_nut",
+                                   "caption.groan", "caption.scrape",        "caption.run"};
+    static_assert(std::size(keys) == caption_count);
+    return keys[static_cast<std::size_t>(caption)];
+}
+
+namespace {
+
+constexpr std::size_t most_points = 4000;
+constexpr float seen_angle = 0.02F, seen_torque = 0.2F;  // less than a pixel
+
+std::optional<content::Window> aim_of(const lesson::Lesson& lesson, std::size_t joint) {
+    if (lesson.task != lesson::Task::tighten) return std::nullopt;
+    const lesson::Step* due = lesson.due();
+    const bool its_turn = due != nullptr && due->joint == joint && due->kind != lesson::StepKind::run_down;
+    return its_turn ? lesson::window(lesson, *due) : lesson.assembly->joints[joint].spec.torque;
+}
+
+}  // namespace
+
+void note(Plot& plot, const lesson::Lesson& lesson,
+          const ecs::Access<const world::Joint, const world::ToolContact>& world) {
+    const std::int16_t engaged = world.only<world::ToolContact>().joint;
+    if (engaged < 0) return;
+    if (engaged != plot.joint) plot.points.clear();
+    plot.joint = engaged;
+    plot.aim = aim_of(lesson, static_cast<std::size_t>(plot.joint));
+    const world::Joint& joint = world::joint_at(world, static_cast<std::size_t>(plot.joint));
+    const PlotPoint now{static_cast<float>(to_degrees(joint.angle)), static_cast<float>(joint.torque)};
+    const bool same = !plot.points.empty() && std::abs(plot.points.back().angle - now.angle) < seen_angle &&
+                      std::abs(plot.points.back().torque - now.torque) < seen_torque;
+    if (!same && plot.points.size() < most_points) plot.points.push_back(now);
+}
+
+std::vector<render::Rectangle> occupied_areas() {
+    std::vector<render::Rectangle> plates;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+        const bool own = (window->Flags & ImGuiWindowFlags_ChildWindow) == 0 && !window->IsFallbackWindow;
+        if (!own || !window->Active || window->Hidden) continue;
+        const ImVec2 high = {window->Pos.x + window->Size.x, window->Pos.y + window->Size.y};
+        plates.push_back({{window->Pos.x, window->Pos.y}, {high.x, high.y}});
+    }
+    return plates;
+}
 
 namespace {
 

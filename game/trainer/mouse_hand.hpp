@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "game/lesson/plan.hpp"
-#include "game/world/components.hpp"
+#include "game/lesson/lesson.hpp"
+#include "game/world/world.hpp"
 #include "haptics/hand/kinematics.hpp"
 #include "haptics/servo/tick.hpp"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "content/trainee/settings.hpp"
-#include "game/trainer/key_binding.hpp"
+#include "game/trainer/controls.hpp"
 
 namespace bolt::trainer {
 

@@ -2,8 +2,113 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
+
+#include "game/station/station_setup.hpp"
+#include "haptics/device/device.hpp"
+#include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::trainer {
+
+namespace {
+
+using platform::Key;
+
+struct Way {
+    Key key;
+    Vec3 along, about;
+};
+const Way ways[] = {
+    {Key::d, Vec3(1, 0, 0), Vec3(0.0)},       {Key::a, Vec3(-1, 0, 0), Vec3(0.0)},
+    {Key::e, Vec3(0, 1, 0), Vec3(0.0)},       {Key::q, Vec3(0, -1, 0), Vec3(0.0)},
+    {Key::s, Vec3(0, 0, 1), Vec3(0.0)},       {Key::w, Vec3(0, 0, -1), Vec3(0.0)},
+    {Key::left, Vec3(0.0), Vec3(0, 1, 0)},    {Key::right, Vec3(0.0), Vec3(0, -1, 0)},
+    {Key::up, Vec3(0.0), Vec3(-1, 0, 0)},     {Key::down, Vec3(0.0), Vec3(1, 0, 0)},
+    {Key::page_up, Vec3(0.0), Vec3(0, 0, 1)}, {Key::page_down, Vec3(0.0), Vec3(0, 0, -1)},
+};
+// A key is pressed or it is not. Faster than a tool is drawn to a nut, or it would never come off.
+constexpr double share = 0.75;
+
+}  // namespace
+
+void Pushing::take(std::span<const platform::Event> events) {
+    for (const platform::Event& event : events) {
+        if (const auto* key = std::get_if<platform::KeyEvent>(&event))
+            down_.set(static_cast<std::size_t>(key->key), key->down);
+        else if (const auto* focus = std::get_if<platform::FocusEvent>(&event);
+                 focus != nullptr && !focus->here)
+            down_.reset();
+    }
+}
+
+device::PuckInput Pushing::push() const {
+    device::PuckInput push;
+    for (const Way& way : ways) {
+        if (!down_.test(static_cast<std::size_t>(way.key))) continue;
+        push.along += share * way.along;
+        push.about += share * way.about;
+    }
+    push.buttons = closes() ? 1 : 0;
+    return push;
+}
+
+bool Pushing::closes() const { return down_.test(static_cast<std::size_t>(Key::space)); }
+
+namespace {
+
+std::string name_of(const station_setup::Choice& choice) {
+    std::string name = choice.mover ? choice.mover->name : std::string();
+    if (choice.wheel) name += (name.empty() ? "" : " + ") + choice.wheel->name;
+    return name;
+}
+
+}  // namespace
+
+std::vector<Seat> seats() {
+    std::vector<Seat> there{{{}, {}}};
+    const station_setup::Choice all = station_setup::choose_any(device::list_devices());
+    const auto add = [&](const station_setup::Choice& choice) {
+        there.push_back({name_of(choice), {station_setup::ids_of(choice), {}, {}, 1.0, false}});
+    };
+    if (all.mover) add({all.mover, std::nullopt});
+    if (all.wheel) add({std::nullopt, all.wheel});
+    if (all.mover && all.wheel) add(all);
+    return there;
+}
+
+Equipment usual_equipment() {
+    Equipment with;
+    const station_setup::Choice all = station_setup::choose_any(device::list_devices());
+    if (all.mover) with.devices = station_setup::ids_of(all);
+    return with;
+}
+
+Result<std::unique_ptr<station_setup::Bench>> start_station(const content::Assembly& assembly,
+                                                            const session::CourseOptions& course,
+                                                            const Equipment& with,
+                                                            const std::string& trainee) {
+    device::VirtualPuck puck({}, device::steady_timer());
+    station_setup::Wanted wanted;
+    wanted.devices = with.devices;
+    wanted.rig = with.rig;
+    wanted.otherwise = puck.open();
+    wanted.glove = with.glove;
+    wanted.trainee = trainee;
+    wanted.force_scale = with.force_scale;
+    if (!with.glove.empty() && trainee.empty())
+        return fail(ErrorCode::no_device, "nobody is said to wear the glove",
+                    "the trainee's name, as boltwright glove calibrate has it");
+    Result<station_setup::Planned> planned = station_setup::plan_lesson(assembly, course, wanted, {});
+    if (!planned) return fail(planned.error());
+    station::StationOptions& plan = planned->plan;
+    plan.controls.pause = true;
+    std::optional<device::VirtualPuck> pushed;
+    if (!planned->choice.mover) {
+        pushed = std::move(puck);
+        plan.mover_buttons = {1, 0, 0, 0};
+    }
+    return station_setup::start_bench(std::move(plan), std::move(pushed));
+}
 
 namespace {
 

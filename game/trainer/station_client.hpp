@@ -1,22 +1,69 @@
+// Keys as a puck in the hand: where nothing but a keyboard moves the tool of a station.
+#pragma once
+
+#include <bitset>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "engine/platform/input.hpp"
+#include "game/session/lesson_session.hpp"
+#include "game/station/station_setup.hpp"
+#include "game/trainer/controls.hpp"
+#include "game/trainer/mouse_hand.hpp"
+#include "haptics/device/virtual_devices.hpp"
+
+namespace bolt::trainer {
+
+// W A S D away, to the left, nearer and to the right, Q and E down and up; left and right turn the tool about
+// the upright, up and down tip it, page up and down roll it; the space bar is the puck's button.
+class Pushing {
+  public:
+    // Takes in what was pressed and let go of. A window that has lost the keyboard pushes nothing.
+    void take(std::span<const platform::Event> events);
+    [[nodiscard]] device::PuckInput push() const;
+    [[nodiscard]] bool closes() const;  // the space bar is down
+
+  private:
+    std::bitset<256> down_;
+};
+
+// What a hand plays with: mouse and keyboard, or a station of what is plugged in.
+
+struct Equipment {
+    std::vector<std::string> devices;  // ids, as boltwright devices has them
+    std::filesystem::path rig;         // what is known of a wheel; may be empty
+    std::filesystem::path glove;       // its port; empty: none
+    double force_scale = 1.0;          // 0 … 1 of the forces that devices may render
+    bool keyboard = false;  // a station without a device: keys move the tool, and the servo has a thread
+
+    [[nodiscard]] bool none() const { return devices.empty() && glove.empty() && !keyboard; }  // the mouse
+    bool operator==(const Equipment&) const = default;
+};
+
+// Something to choose: what is there now.
+struct Seat {
+    std::string name;  // in words, of the devices; empty: mouse and keyboard
+    Equipment with;
+};
+std::vector<Seat> seats();
+// What suits whoever says nothing: a device that moves the tool, and with it a wheel; else the mouse.
+Equipment usual_equipment();
+
+// A station of that for the lesson, paused. `trainee` wears the glove.
+Result<std::unique_ptr<station_setup::Bench>> start_station(const content::Assembly& assembly,
+                                                            const session::CourseOptions& course,
+                                                            const Equipment& with,
+                                                            const std::string& trainee);
+
 // Somebody who plays at a station: the servo's thread has the ticks and the devices, the lesson follows tick
 // by tick with a servo of its own (session::Course::take), and what is wished goes back with every picture.
 //
 // A hand closes by a device's button, the space bar or a glove. Closed beside the wrench it takes that,
 // closed beside a nut it holds it with its fingers. A key lays the wrench down; a gloved hand lets go of it.
-#pragma once
-
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "engine/base/math.hpp"
-#include "game/session/lesson_session.hpp"
-#include "game/station/bench.hpp"
-#include "game/trainer/controls.hpp"
-#include "game/trainer/mouse_hand.hpp"
-#include "game/trainer/pushing.hpp"
-
-namespace bolt::trainer {
 
 struct StationClient {
     std::unique_ptr<station_setup::Bench> bench;

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "engine/gpu/device_loss_policy.hpp"
+#include "engine/gpu/device.hpp"
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "content/format/assembly.hpp"
 #include "engine/assets/gltf.hpp"
-#include "engine/assets/radiance_file.hpp"
+#include "engine/assets/image.hpp"
 #include "engine/base/nearest.hpp"
 
 namespace bolt::view {

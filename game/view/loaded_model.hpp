@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "engine/assets/model.hpp"
-#include "engine/base/error.hpp"
 #include "engine/base/result.hpp"
-#include "engine/shading/radiance.hpp"
+#include "engine/shading/environment.hpp"
 
 namespace bolt::view {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <embree3/rtcore.h>
+
 #include <algorithm>
 #include <array>
 #include <cfloat>

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "engine/base/function_ref.hpp"
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 
 namespace bolt::collision {
 

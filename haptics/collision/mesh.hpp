@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "engine/base/math.hpp"
-#include "engine/base/pose.hpp"
 #include "engine/base/result.hpp"
 
 namespace bolt::collision {

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <glm/geometric.hpp>

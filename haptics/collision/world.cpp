@@ -1,6 +1,7 @@
 #include "haptics/collision/world.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,6 +1,7 @@
 #include "haptics/device/device.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <thread>

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "engine/base/math.hpp"
-#include "engine/base/pose.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/force/output_limits.hpp"
 

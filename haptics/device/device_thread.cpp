@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
+
 #include <algorithm>
 #include <cmath>
 #include <system_error>

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "engine/base/function_ref.hpp"
-#include "engine/base/triple_buffer.hpp"
+#include "engine/base/lock_free.hpp"
 #include "haptics/device/device.hpp"
 
 namespace bolt::device {

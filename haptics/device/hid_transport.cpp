@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <hidapi.h>
 #include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>

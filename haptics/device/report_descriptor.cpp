@@ -1,6 +1,7 @@
 #include "haptics/device/report_descriptor.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 
 namespace bolt::device {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/base/triple_buffer.hpp"
+#include "engine/base/lock_free.hpp"
 
 namespace bolt::device {
 

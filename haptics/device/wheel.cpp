@@ -1,6 +1,7 @@
 #include "haptics/device/wheel.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -2,7 +2,7 @@
 // the tool stands still and the hand can return to the middle of its reach, like lifting a mouse.
 #pragma once
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "haptics/force/output_limits.hpp"
 
 namespace bolt::force {

@@ -214,12 +214,6 @@ OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const
     return {state.force, state.torque};
 }
 
-namespace {
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-}  // namespace
-
 OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortInput& input,
                      const ForceRequest& request, double dt) {
     const bool sound = finite(request.command.force) && finite(request.command.torque) &&

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "haptics/force/output_limits.hpp"
 
 namespace bolt::force {

@@ -1,6 +1,7 @@
 #include "haptics/hand/glove_calibration.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -18,7 +19,7 @@
 #include <thread>
 #include <utility>
 
-#include "engine/base/triple_buffer.hpp"
+#include "engine/base/lock_free.hpp"
 
 namespace bolt::hand {
 

@@ -1,6 +1,7 @@
 #include "haptics/hand/glove_protocol.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -153,7 +153,6 @@ Skeleton mirrored(const Skeleton& skeleton) {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr Vec3 along_x(1.0, 0.0, 0.0), along_y(0.0, 1.0, 0.0), along_z(0.0, 0.0, 1.0);
 constexpr double ring_share = 20.0 / 27.0;  // of the palm's arch
 

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "engine/base/math.hpp"
-#include "engine/base/pose.hpp"
 
 namespace bolt::hand {
 

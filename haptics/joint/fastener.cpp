@@ -1,6 +1,7 @@
 #include "haptics/joint/fastener.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 

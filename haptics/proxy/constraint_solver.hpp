@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 
 namespace bolt::proxy {
 

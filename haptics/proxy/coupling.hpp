@@ -2,7 +2,7 @@
 // Stanley and Brown, IROS 1995). What it renders is all that is felt of a contact.
 #pragma once
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "haptics/force/output_stage.hpp"
 
 namespace bolt::proxy {

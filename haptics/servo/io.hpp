@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "haptics/collision/contact.hpp"
 #include "haptics/force/output_stage.hpp"
 #include "haptics/joint/stage.hpp"

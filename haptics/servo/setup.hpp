@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "haptics/collision/jaw.hpp"
 #include "haptics/force/device_mapping.hpp"
 #include "haptics/force/guide.hpp"

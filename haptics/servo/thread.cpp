@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -19,7 +20,7 @@
 #include <system_error>
 #include <thread>
 
-#include "engine/base/triple_buffer.hpp"
+#include "engine/base/lock_free.hpp"
 #include "haptics/servo/denormals.hpp"
 
 namespace bolt::servo {

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "engine/base/triple_buffer.hpp"
+#include "engine/base/lock_free.hpp"
 
 namespace bolt::station {
 

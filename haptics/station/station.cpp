@@ -4,7 +4,7 @@
 #include <atomic>
 #include <string>
 
-#include "engine/base/spsc_ring.hpp"
+#include "engine/base/lock_free.hpp"
 #include "haptics/station/gloved_hand.hpp"
 
 namespace bolt::station {

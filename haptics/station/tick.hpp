@@ -7,7 +7,7 @@
 #include <span>
 #include <variant>
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/device_thread.hpp"
 #include "haptics/force/device_mapping.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "engine/base/math.hpp"
-#include "game/analysis/compare.hpp"
+#include "game/analysis/comparison.hpp"
 
 namespace bolt::analysis {
 

@@ -1,4 +1,4 @@
-#include "game/analysis/errors.hpp"
+#include "game/analysis/comparison.hpp"
 
 #include <doctest/doctest.h>
 

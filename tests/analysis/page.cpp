@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "game/plot/text.hpp"
+#include "game/plot/html.hpp"
 #include "tests/analysis/curves.hpp"
 #include "tests/report/well_formed.hpp"
 

@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "engine/assets/topology.hpp"
+#include "engine/assets/model.hpp"
 #include "engine/base/random.hpp"
 
 using namespace bolt;

@@ -1,4 +1,4 @@
-#include "engine/assets/topology.hpp"
+#include "engine/assets/model.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // Feeding samples while sound devices appear and disappear, in simulated time.
 
-#include "engine/audio/feeder.hpp"
+#include "engine/audio/speaker.hpp"
 
 #include <doctest/doctest.h>
 

@@ -13,7 +13,6 @@
 #include <fstream>
 #include <vector>
 
-#include "engine/audio/openal.hpp"
 #include "engine/audio/sink.hpp"
 #include "engine/base/file.hpp"
 #include "tests/support/eventually.hpp"

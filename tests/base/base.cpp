@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "engine/base/error.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/hash.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/nearest.hpp"
 #include "engine/base/random.hpp"
+#include "engine/base/result.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace bolt;

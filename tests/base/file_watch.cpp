@@ -1,8 +1,7 @@
-#include "engine/base/file_watch.hpp"
+#include "engine/base/file.hpp"
 
 #include <doctest/doctest.h>
 
-#include "engine/base/file.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace bolt;

@@ -7,9 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "engine/base/lock_free.hpp"
 #include "engine/base/random.hpp"
-#include "engine/base/spsc_ring.hpp"
-#include "engine/base/triple_buffer.hpp"
 
 using namespace bolt;
 

@@ -3,8 +3,8 @@
 #include <span>
 
 #include "engine/assets/image.hpp"
-#include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
+#include "engine/base/result.hpp"
 #include "tests/support/screen_picture.hpp"
 
 namespace {

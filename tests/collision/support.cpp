@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "engine/assets/gltf.hpp"
-#include "engine/assets/topology.hpp"
+#include "engine/assets/model.hpp"
 
 namespace contact_test {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "engine/assets/model.hpp"
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
 #include "haptics/collision/mesh.hpp"
-#include "tools/verify/oracle/surface.hpp"
+#include "tools/verify/oracle/contact_oracle.hpp"
 
 namespace contact_test {
 

@@ -8,7 +8,7 @@
 
 #include "content/format/assembly.hpp"
 #include "game/session/contact_models.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 #include "tools/verify/contact/near_poses.hpp"

@@ -1,5 +1,5 @@
 // The contact oracle against closed forms and against plain loops over all triangles.
-#include "tools/verify/oracle/surface.hpp"
+#include "tools/verify/oracle/contact_oracle.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 
 #include "engine/base/random.hpp"
 #include "tests/collision/support.hpp"
-#include "tools/author/geometry/crossing.hpp"
+#include "tools/author/geometry/bvh.hpp"
 
 using namespace bolt;
 using namespace bolt::contact_oracle;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/joint/published.hpp"
 #include "haptics/joint/design.hpp"
+#include "haptics/joint/published.hpp"
 #include "support.hpp"
 
 using namespace bolt;

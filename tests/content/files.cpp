@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "content/format/assembly.hpp"
 #include "content/format/embedded.hpp"
 #include "content/format/json_document.hpp"
-#include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
 #include "support.hpp"
 #include "tests/support/folder.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "engine/base/random.hpp"
-#include "game/trainees/trainee_state.hpp"
+#include "game/trainees/behaviour.hpp"
 #include "tests/dead_ends/desk.hpp"
 
 namespace dead_ends {

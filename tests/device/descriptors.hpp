@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/emulate/descriptor_writer.hpp"
+#include "tools/emulate/hid_device.hpp"
 
 namespace bolt::test {
 

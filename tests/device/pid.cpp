@@ -2,11 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include "haptics/device/wheel.hpp"
 #include "haptics/device/hid_devices.hpp"
+#include "haptics/device/wheel.hpp"
 #include "tests/device/descriptors.hpp"
 #include "tools/emulate/puck.hpp"
-#include "tools/emulate/wheel_descriptors.hpp"
+#include "tools/emulate/wheel.hpp"
 
 using namespace bolt;
 using namespace bolt::device;

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "tools/emulate/emulated_transport.hpp"
+#include "tools/emulate/hid_device.hpp"
 #include "tools/emulate/puck.hpp"
 
 using namespace bolt;

@@ -6,7 +6,7 @@
 
 #include "haptics/device/wheel.hpp"
 #include "tests/device/driver_contract.hpp"
-#include "tools/emulate/emulated_transport.hpp"
+#include "tools/emulate/hid_device.hpp"
 
 using namespace bolt;
 using namespace bolt::device;

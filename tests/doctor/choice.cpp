@@ -1,4 +1,4 @@
-#include "game/station/choice.hpp"
+#include "game/station/station_setup.hpp"
 
 #include <doctest/doctest.h>
 

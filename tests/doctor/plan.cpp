@@ -1,5 +1,5 @@
 // What somebody asks for becomes a station, or words about what is wrong with it.
-#include "game/station/plan.hpp"
+#include "game/station/station_setup.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include "haptics/hand/kinematics.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/emulate/serial_glove.hpp"
+#include "tools/emulate/glove.hpp"
 
 using namespace bolt;
 using namespace bolt::station;

@@ -1,4 +1,4 @@
-#include "engine/ecs/access.hpp"
+#include "engine/ecs/system.hpp"
 
 #include <doctest/doctest.h>
 

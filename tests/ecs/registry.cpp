@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "engine/ecs/schedule.hpp"
+#include "engine/ecs/system.hpp"
 
 using namespace bolt::ecs;
 

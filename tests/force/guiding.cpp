@@ -2,7 +2,7 @@
 
 #include <initializer_list>
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
 #include "haptics/force/guide.hpp"
 

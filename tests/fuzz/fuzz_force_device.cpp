@@ -8,10 +8,10 @@
 #include <memory>
 #include <optional>
 
-#include "haptics/device/wheel.hpp"
 #include "haptics/device/pid.hpp"
 #include "haptics/device/space_mouse.hpp"
-#include "tools/emulate/wheel_descriptors.hpp"
+#include "haptics/device/wheel.hpp"
+#include "tools/emulate/wheel.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/image.hpp"
-#include "engine/assets/topology.hpp"
+#include "engine/assets/model.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include "engine/base/file.hpp"
 #include "support.hpp"
 #include "tests/support/folder.hpp"
+#include "tools/author/geometry/check_model.hpp"
 #include "tools/author/geometry/scene.hpp"
-#include "tools/author/geometry/watertight.hpp"
 
 using namespace bolt;
 using namespace geometry_test;

@@ -4,7 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "support.hpp"
-#include "tools/author/geometry/misplacement.hpp"
+#include "tools/author/geometry/check_model.hpp"
 
 using namespace bolt;
 using namespace geometry_test;

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include "tools/author/geometry/hexagon.hpp"
+#include "tools/author/geometry/scene.hpp"
 
 using namespace bolt;
 using namespace geometry_test;

@@ -10,7 +10,7 @@
 #include "content/format/assembly.hpp"
 #include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
-#include "tools/author/geometry/box.hpp"
+#include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/check.hpp"
 
 namespace geometry_test {

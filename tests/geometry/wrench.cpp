@@ -6,8 +6,7 @@
 
 #include "engine/base/random.hpp"
 #include "support.hpp"
-#include "tools/author/geometry/crossing.hpp"
-#include "tools/author/geometry/swing.hpp"
+#include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/wrench.hpp"
 
 using namespace bolt;
@@ -251,8 +250,8 @@ TEST_CASE("crossings of triangles: found in trees as one by one, turned and shif
     int crossings = 0;
     for (int round = 0; round < 200; ++round) {
         const auto still = cloud(40, 0.1), moving = cloud(30, 0.1);
-        const auto pose =
-            geometry::Pose::turned(random.uniform(-4.0, 4.0), Vec3{random.uniform(-1.0, 1.0), 0.1, 0.2});
+        const auto pose = geometry::TurnAboutY::turned(random.uniform(-4.0, 4.0),
+                                                       Vec3{random.uniform(-1.0, 1.0), 0.1, 0.2});
         bool any = false;
         for (const auto& m : moving)
             for (const auto& s : still) any = any || geometry::cross({pose(m.a), pose(m.b), pose(m.c), 0}, s);

@@ -9,7 +9,7 @@
 #include "tests/golden/stage.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/skip.hpp"
-#include "tools/verify/imagediff/compare.hpp"
+#include "tools/verify/imagediff/flip.hpp"
 
 using namespace bolt;
 using test::Folder;

@@ -9,7 +9,7 @@
 
 #include "engine/assets/image.hpp"
 #include "engine/base/file.hpp"
-#include "tools/verify/imagediff/compare.hpp"
+#include "tools/verify/imagediff/flip.hpp"
 
 namespace bolt::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/gpu/device.hpp"
-#include "engine/render/picture.hpp"
+#include "engine/render/renderer.hpp"
 
 namespace bolt::test {
 

@@ -1,4 +1,4 @@
-#include "engine/gpu/device_choice.hpp"
+#include "engine/gpu/device.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "engine/gpu/descriptors.hpp"
+#include "engine/gpu/frames.hpp"
 #include "engine/gpu/pipeline.hpp"
 #include "tests/gpu/shaders.hpp"
 #include "tests/gpu/support.hpp"

@@ -1,4 +1,4 @@
-#include "engine/gpu/swapchain_choice.hpp"
+#include "engine/gpu/swapchain.hpp"
 
 #include <doctest/doctest.h>
 

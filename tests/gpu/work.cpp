@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "engine/base/file.hpp"
-#include "engine/gpu/descriptors.hpp"
-#include "engine/gpu/transfer.hpp"
+#include "engine/gpu/frames.hpp"
+#include "engine/gpu/resources.hpp"
 #include "tests/gpu/shaders.hpp"
 #include "tests/gpu/support.hpp"
 #include "tests/support/folder.hpp"

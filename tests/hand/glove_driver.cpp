@@ -10,7 +10,7 @@
 
 #include "tests/support/eventually.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/emulate/serial_glove.hpp"
+#include "tools/emulate/glove.hpp"
 
 using namespace bolt;
 using namespace bolt::hand;

@@ -1,8 +1,8 @@
 // A hand at a handle, and answers about it by brute force.
 #pragma once
 
-#include "haptics/hand/kinematics.hpp"
 #include "haptics/hand/grasp.hpp"
+#include "haptics/hand/kinematics.hpp"
 #include "tests/collision/support.hpp"
 
 namespace grasp_test {

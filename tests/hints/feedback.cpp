@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "game/lesson/terms.hpp"
 #include "tests/hints/bench.hpp"
 
 using namespace bolt;

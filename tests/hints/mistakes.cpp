@@ -1,4 +1,4 @@
-#include "game/lesson/mistakes.hpp"
+#include "game/lesson/feedback.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "content/format/assembly.hpp"
+#include "game/lesson/feedback.hpp"
 #include "game/lesson/hints.hpp"
-#include "game/lesson/mistakes.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/hints/bench.hpp"
 #include "tests/support/haptic_world.hpp"

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "game/lesson/controls.hpp"
+#include "game/lesson/hints.hpp"
 #include "tests/hints/bench.hpp"
 
 using namespace bolt;

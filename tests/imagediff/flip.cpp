@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "engine/base/random.hpp"
-#include "tools/verify/imagediff/compare.hpp"
 
 using namespace bolt;
 using namespace bolt::imagediff;

@@ -10,8 +10,8 @@
 
 #include "content/format/assembly.hpp"
 #include "support.hpp"
+#include "tools/author/import/materials.hpp"
 #include "tools/author/import/names.hpp"
-#include "tools/author/import/pick_material.hpp"
 
 using namespace import_test;
 using namespace bolt::step_import;

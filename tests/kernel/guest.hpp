@@ -9,7 +9,7 @@
 
 #include "haptics/device/hid_devices.hpp"
 #include "haptics/device/hid_transport.hpp"
-#include "tools/emulate/uhid.hpp"
+#include "tools/emulate/hid_device.hpp"
 
 namespace bolt::test {
 

@@ -7,7 +7,7 @@
 #include "haptics/device/hid_transport.hpp"
 #include "tests/kernel/guest.hpp"
 #include "tools/emulate/puck.hpp"
-#include "tools/emulate/wheel_descriptors.hpp"
+#include "tools/emulate/wheel.hpp"
 
 using namespace bolt;
 using namespace bolt::device;

@@ -2,7 +2,7 @@
 #include <sys/stat.h>
 
 #include "tests/kernel/guest.hpp"
-#include "tools/emulate/descriptor_writer.hpp"
+#include "tools/emulate/hid_device.hpp"
 #include "tools/emulate/puck.hpp"
 #include "tools/emulate/wheel.hpp"
 

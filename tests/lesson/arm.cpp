@@ -1,12 +1,12 @@
 // Simulated hands: what they do under a force, held against the closed form, and that they know of it by
 // nothing else.
-#include "game/trainees/arm.hpp"
+#include "game/trainees/human_model.hpp"
 
 #include <doctest/doctest.h>
 
 #include "content/format/assembly.hpp"
 #include "game/lesson/lesson.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
 
 using namespace bolt;

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "content/format/assembly.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/lesson/script.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "content/format/assembly.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/lesson/script.hpp"
 

@@ -5,11 +5,10 @@
 #include <filesystem>
 
 #include "content/format/assembly.hpp"
+#include "game/session/export.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/session/replay.hpp"
-#include "game/session/servo_setup.hpp"
 #include "game/session/session_file.hpp"
-#include "game/session/summary.hpp"
-#include "game/trainees/train.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/support/folder.hpp"
 

@@ -1,5 +1,5 @@
 // What a simulated trainee notices of the nut in its hand, held against what it was given to feel.
-#include "game/trainees/delayed_perception.hpp"
+#include "game/trainees/human_model.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 
 #include "content/format/assembly.hpp"
 #include "game/lesson/lesson.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
 
 using namespace bolt;

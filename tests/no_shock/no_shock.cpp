@@ -9,8 +9,8 @@
 #include <fstream>
 #include <span>
 
+#include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"
-#include "game/plot/style.hpp"
 #include "tests/no_shock/script.hpp"
 
 using namespace bolt;

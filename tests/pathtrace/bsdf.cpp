@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "engine/shading/albedo.hpp"
 #include "engine/shading/ggx.hpp"
 #include "tests/pathtrace/about.hpp"
 #include "tools/verify/pathtrace/bsdf.hpp"

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "tests/pathtrace/about.hpp"
+#include "tools/verify/pathtrace/camera.hpp"
 #include "tools/verify/pathtrace/environment.hpp"
 #include "tools/verify/pathtrace/sampler.hpp"
-#include "tools/verify/pathtrace/tone.hpp"
 
 using namespace bolt::pathtrace;
 using bolt::about;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/gpu/barrier.hpp"
+#include "engine/gpu/resources.hpp"
 
 namespace bolt::test {
 

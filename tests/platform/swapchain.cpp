@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "engine/gpu/barrier.hpp"
+#include "engine/gpu/resources.hpp"
 #include "tests/platform/fault.hpp"
 #include "tests/platform/show_case.hpp"
 #include "tests/support/eventually.hpp"

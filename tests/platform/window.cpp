@@ -8,7 +8,7 @@
 #include <deque>
 #include <optional>
 
-#include "engine/platform/keys.hpp"
+#include "engine/platform/input.hpp"
 #include "tests/platform/window_user.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/screen_picture.hpp"

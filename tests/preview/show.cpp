@@ -1,5 +1,5 @@
 // The preview in a window, with somebody at it, and a GPU that goes.
-#include "tools/author/preview/show.hpp"
+#include "tools/author/preview/preview.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "engine/gpu/device_loss_policy.hpp"
+#include "engine/gpu/device.hpp"
 #include "tests/platform/window_user.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/screen_picture.hpp"

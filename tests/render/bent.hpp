@@ -3,7 +3,7 @@
 
 #include <glm/matrix.hpp>
 
-#include "engine/render/deformation.hpp"
+#include "engine/render/gpu_model.hpp"
 
 namespace bolt::test {
 

@@ -9,9 +9,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/assets/gltf.hpp"
-#include "engine/assets/topology.hpp"
+#include "engine/assets/model.hpp"
 #include "engine/base/random.hpp"
-#include "engine/gpu/transfer.hpp"
+#include "engine/gpu/resources.hpp"
 #include "tests/render/bent.hpp"
 #include "tests/render/support.hpp"
 

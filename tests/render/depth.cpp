@@ -9,7 +9,7 @@
 #include <string>
 
 #include "engine/assets/gltf.hpp"
-#include "engine/gpu/transfer.hpp"
+#include "engine/gpu/resources.hpp"
 #include "tests/render/support.hpp"
 #include "tools/verify/pathtrace/camera.hpp"
 #include "tools/verify/pathtrace/scene.hpp"

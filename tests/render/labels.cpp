@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/text/layout.hpp"
-#include "engine/text/utf8.hpp"
 #include "tests/render/support.hpp"
 
 using namespace bolt;

@@ -7,8 +7,8 @@
 
 #include "engine/base/random.hpp"
 #include "tests/render/support.hpp"
+#include "tools/verify/pathtrace/camera.hpp"
 #include "tools/verify/pathtrace/render.hpp"
-#include "tools/verify/pathtrace/tone.hpp"
 
 using namespace bolt;
 

@@ -1,4 +1,4 @@
-#include "engine/render/picture.hpp"
+#include "engine/render/renderer.hpp"
 
 #include <doctest/doctest.h>
 

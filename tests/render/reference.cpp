@@ -7,8 +7,8 @@
 #include "engine/assets/gltf.hpp"
 #include "tests/render/support.hpp"
 #include "tools/verify/imagediff/flip.hpp"
+#include "tools/verify/pathtrace/camera.hpp"
 #include "tools/verify/pathtrace/render.hpp"
-#include "tools/verify/pathtrace/tone.hpp"
 
 using namespace bolt;
 

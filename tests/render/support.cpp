@@ -4,7 +4,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "engine/gpu/transfer.hpp"
+#include "engine/gpu/resources.hpp"
 
 namespace bolt::test {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/render/camera.hpp"
-#include "engine/render/picture.hpp"
+#include "engine/render/renderer.hpp"
 #include "tests/gpu/support.hpp"
 
 namespace bolt::test {

@@ -1,4 +1,4 @@
-#include "game/analysis/torque_envelope.hpp"
+#include "game/analysis/comparison.hpp"
 
 #include <doctest/doctest.h>
 

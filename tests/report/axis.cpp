@@ -1,4 +1,4 @@
-#include "game/plot/axis.hpp"
+#include "game/plot/svg.hpp"
 
 #include <doctest/doctest.h>
 

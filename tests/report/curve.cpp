@@ -1,4 +1,4 @@
-#include "game/analysis/curve.hpp"
+#include "game/analysis/joint_curve.hpp"
 
 #include <doctest/doctest.h>
 

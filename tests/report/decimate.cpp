@@ -1,4 +1,4 @@
-#include "game/plot/decimate.hpp"
+#include "game/plot/svg.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/base/random.hpp"
-#include "game/analysis/stream.hpp"
+#include "game/analysis/joint_curve.hpp"
 
 using namespace bolt::analysis;
 using namespace bolt::plot;

@@ -5,12 +5,11 @@
 
 #include <cmath>
 
-#include "game/analysis/quartiles.hpp"
+#include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/feel_section.hpp"
-#include "game/report/guiding_study.hpp"
-#include "game/session/device_text.hpp"
+#include "game/session/session_file.hpp"
 #include "haptics/servo/tool_contact.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"

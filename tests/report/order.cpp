@@ -1,4 +1,4 @@
-#include "game/analysis/order.hpp"
+#include "game/analysis/session_data.hpp"
 
 #include <doctest/doctest.h>
 

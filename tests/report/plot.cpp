@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "game/plot/label_layout.hpp"
-#include "game/plot/style.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/svg.hpp"
 #include "tests/report/well_formed.hpp"
 
 using namespace bolt::plot;

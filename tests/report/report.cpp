@@ -7,11 +7,9 @@
 
 #include "engine/base/math.hpp"
 #include "game/plot/html.hpp"
-#include "game/plot/text.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/joint_plot.hpp"
 #include "game/report/learning_curves.hpp"
-#include "game/report/section.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
-#include "game/analysis/torque_envelope.hpp"
-#include "game/plot/text.hpp"
+#include "game/analysis/comparison.hpp"
+#include "game/plot/html.hpp"
 #include "game/report/report.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"

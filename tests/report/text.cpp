@@ -1,4 +1,4 @@
-#include "game/plot/text.hpp"
+#include "game/plot/html.hpp"
 
 #include <doctest/doctest.h>
 

@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include "game/motion/path_planning.hpp"
-#include "game/scene/resting_place.hpp"
 #include "game/scene/systems.hpp"
+#include "game/scene/workplace.hpp"
 #include "tests/trainer/player.hpp"
 
 using namespace bolt;

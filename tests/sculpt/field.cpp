@@ -3,8 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/base/random.hpp"
-#include "tools/assets/sculpt/cut.hpp"
-#include "tools/assets/sculpt/surface_nets.hpp"
+#include "tools/assets/sculpt/mesh.hpp"
 
 using namespace bolt;
 using namespace bolt::sculpt;

@@ -10,7 +10,7 @@ using namespace bolt::sculpt;
 
 namespace {
 
-TriMesh bent(const assets::Model& hand, const Pose& pose) {
+TriMesh bent(const assets::Model& hand, const HandPosture& pose) {
     const Result<assets::Model> out = posed(hand, pose);
     REQUIRE(out.has_value());
     return test::as_stored(*out);
@@ -31,7 +31,7 @@ std::size_t digit_of(const Vec3& p) {
 
 TEST_CASE("Skin: at rest the skinned mesh is the mesh") {
     const TriMesh rest = test::as_stored(test::hands().right);
-    const TriMesh same = bent(test::hands().right, Pose());
+    const TriMesh same = bent(test::hands().right, HandPosture());
     double furthest = 0.0;
     for (std::size_t i = 0; i < rest.positions.size(); ++i) {
         furthest = std::max(furthest, glm::length(rest.positions[i] - same.positions[i]));
@@ -42,7 +42,7 @@ TEST_CASE("Skin: at rest the skinned mesh is the mesh") {
 TEST_CASE("Skin: a bent finger does not move its neighbours") {
     const TriMesh rest = test::as_stored(test::hands().right);
     for (std::size_t moved = 0; moved < 5; ++moved) {
-        Pose pose;
+        HandPosture pose;
         const Digit& digit = digits[moved];
         for (std::size_t k = 1; k + 1 < digit.count; ++k) pose.flex(digit.first + k, 60.0);
         const TriMesh now = bent(test::hands().right, pose);
@@ -73,7 +73,7 @@ TEST_CASE("Skin: poses keep the volume and flip hardly any triangle") {
         const double whole = volume(weld(rest));
         for (const std::string_view name : pose_names) {
             CAPTURE(name);
-            const Pose pose = *named_pose(name);
+            const HandPosture pose = *named_pose(name);
             const Result<assets::Model> out = posed(hand, left ? mirrored(pose) : pose);
             REQUIRE(out.has_value());
             const TriMesh now = test::as_stored(*out);
@@ -105,7 +105,7 @@ TEST_CASE("Skin: poses keep the volume and flip hardly any triangle") {
 
 TEST_CASE("Skin: in a fist the tips reach the palm, in a pinch thumb and index meet") {
     const assets::Model& hand = test::hands().right;
-    const Result<Skeleton> rest = posed_joints(hand, Pose());
+    const Result<Skeleton> rest = posed_joints(hand, HandPosture());
     const Result<Skeleton> fist = posed_joints(hand, *named_pose("fist"));
     const Result<Skeleton> pinch = posed_joints(hand, *named_pose("pinch"));
     REQUIRE((rest && fist && pinch));
@@ -121,12 +121,12 @@ TEST_CASE("Skin: in a fist the tips reach the palm, in a pinch thumb and index m
 
 TEST_CASE("Skin: a model that is not a hand is rejected") {
     assets::Model nothing;
-    CHECK_FALSE(posed(nothing, Pose()).has_value());
+    CHECK_FALSE(posed(nothing, HandPosture()).has_value());
     assets::Model lacking = test::hands().right;
     for (assets::Node& node : lacking.nodes) {
         if (node.name == "ring_distal") node.name = "ring_dsital";
     }
-    const Result<assets::Model> out = posed(lacking, Pose());
+    const Result<assets::Model> out = posed(lacking, HandPosture());
     REQUIRE_FALSE(out.has_value());
     CHECK(out.error().what.find("ring_distal") != std::string::npos);
     CHECK_FALSE(named_pose("wave").has_value());

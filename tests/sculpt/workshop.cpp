@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "tools/assets/sculpt/environment.hpp"
 #include "tools/assets/sculpt/mesh.hpp"
-#include "tools/assets/sculpt/room.hpp"
 
 using namespace bolt;
 using namespace bolt::sculpt;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <unistd.h>
+
 #include <chrono>
 #include <mutex>
 

@@ -1,4 +1,4 @@
-#include "game/session/chunk.hpp"
+#include "game/session/tick.hpp"
 
 #include <doctest/doctest.h>
 

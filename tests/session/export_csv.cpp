@@ -1,4 +1,4 @@
-#include "game/session/export_csv.hpp"
+#include "game/session/export.hpp"
 
 #include <doctest/doctest.h>
 #include <signal.h>

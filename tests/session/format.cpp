@@ -4,8 +4,8 @@
 #include <bit>
 #include <limits>
 
-#include "game/session/device_text.hpp"
-#include "game/session/timing_rows.hpp"
+#include "game/session/session_file.hpp"
+#include "game/session/tables.hpp"
 #include "haptics/servo/thread.hpp"
 #include "tests/session/support.hpp"
 #include "tests/support/oracle.hpp"

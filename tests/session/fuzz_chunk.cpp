@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "game/session/chunk.hpp"
+#include "game/session/tick.hpp"
 
 using namespace bolt::session;
 

@@ -1,4 +1,4 @@
-#include "game/session/replay_device.hpp"
+#include "game/session/replay.hpp"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "game/session/device_text.hpp"
+#include "game/session/session_file.hpp"
 
 namespace bolt::session::test {
 

@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "game/session/file_lock.hpp"
+#include "game/session/database.hpp"
 #include "game/session/session_file.hpp"
 #include "tests/session/child.hpp"
 #include "tests/session/support.hpp"

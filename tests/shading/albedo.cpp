@@ -1,4 +1,4 @@
-#include "engine/shading/albedo.hpp"
+#include "engine/shading/ggx.hpp"
 
 #include <doctest/doctest.h>
 

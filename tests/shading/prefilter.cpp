@@ -1,4 +1,4 @@
-#include "engine/shading/prefilter.hpp"
+#include "engine/shading/environment.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,6 @@
 
 #include "game/sound/event_detection.hpp"
 
-#include "game/sound/materials.hpp"
 #include "haptics/servo/tool_contact.hpp"
 #include "tests/sound/support.hpp"
 #include "tests/support/forbidden.hpp"

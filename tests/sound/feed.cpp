@@ -1,11 +1,10 @@
 // Ticks on their way to the speaker, in bursts and without.
 
-#include "game/sound/feed.hpp"
+#include "game/sound/playback.hpp"
 
 #include <atomic>
 #include <thread>
 
-#include "game/sound/live.hpp"
 #include "tests/sound/support.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/forbidden.hpp"

@@ -1,6 +1,6 @@
 // What a replayed session leaves as a file: the lesson's own samples.
 
-#include "game/sound/soundtrack.hpp"
+#include "game/sound/playback.hpp"
 
 #include "engine/audio/sink.hpp"
 #include "engine/base/file.hpp"

@@ -10,7 +10,7 @@
 #include "tests/station/gloved.hpp"
 #include "tests/station/support.hpp"
 #include "tests/support/eventually.hpp"
-#include "tools/emulate/serial_glove.hpp"
+#include "tools/emulate/glove.hpp"
 
 using namespace bolt;
 using namespace bolt::station;

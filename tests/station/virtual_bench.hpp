@@ -4,9 +4,9 @@
 #include <deque>
 
 #include "game/session/lesson_session.hpp"
-#include "game/station/bench.hpp"
-#include "haptics/device/device_thread.hpp"
+#include "game/station/station_setup.hpp"
 #include "haptics/device/device.hpp"
+#include "haptics/device/device_thread.hpp"
 
 namespace bolt::test {
 

@@ -1,7 +1,7 @@
 // A world as haptic_system writes it, for tests that set the servo's values by hand.
 #pragma once
 
-#include "game/world/haptics.hpp"
+#include "game/world/world.hpp"
 
 namespace bolt::test {
 

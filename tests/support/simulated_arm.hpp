@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
 #include "haptics/force/output_limits.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/text/distance_field.hpp"
+#include "engine/text/atlas.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <numbers>
-
-#include "engine/text/atlas.hpp"
 
 using namespace bolt;
 using namespace bolt::text;

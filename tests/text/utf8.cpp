@@ -1,4 +1,4 @@
-#include "engine/text/utf8.hpp"
+#include "engine/text/layout.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,9 +4,8 @@
 #include <string>
 
 #include "game/lesson/lesson.hpp"
-#include "game/session/device_text.hpp"
 #include "game/session/replay.hpp"
-#include "game/trainees/train.hpp"
+#include "game/session/session_file.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"

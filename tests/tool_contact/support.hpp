@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "content/format/assembly.hpp"
-#include "engine/base/minimum_jerk.hpp"
+#include "engine/base/math.hpp"
 #include "game/session/contact_models.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 
 namespace bolt::test {
 

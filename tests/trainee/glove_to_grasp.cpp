@@ -16,7 +16,7 @@
 #include "tests/hand/test_tools.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/emulate/serial_glove.hpp"
+#include "tools/emulate/glove.hpp"
 
 using namespace bolt;
 using hand::Sensor;

@@ -1,4 +1,4 @@
-#include "game/trainer/captions.hpp"
+#include "game/trainer/hud.hpp"
 
 #include <doctest/doctest.h>
 

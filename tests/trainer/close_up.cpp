@@ -1,12 +1,12 @@
 // The close-up: its eye sees nut and jaw, and it covers nothing.
-#include "game/trainer/close_up.hpp"
+#include "game/trainer/lesson_view.hpp"
 
 #include <doctest/doctest.h>
 
 #include <filesystem>
 
 #include "game/trainer/mouse_hand.hpp"
-#include "game/view/close_up_eye.hpp"
+#include "game/view/camera.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"
 

@@ -1,6 +1,6 @@
 // Figures at the wrench, as they are said in every language.
 
-#include "game/scene/labels.hpp"
+#include "game/scene/annotations.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "game/scene/postures.hpp"
-#include "game/scene/resting_place.hpp"
+#include "game/scene/workplace.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "tests/collision/support.hpp"
 

@@ -1,6 +1,6 @@
 // What the plot of a pull shows.
 
-#include "game/trainer/plot.hpp"
+#include "game/trainer/hud.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // A hand that strains: as much as it pulls, smoothly, and not at all at rest.
-#include "game/scene/effort.hpp"
+#include "game/scene/postures.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 
 #include "game/scene/postures.hpp"
 #include "game/trainer/mouse_hand.hpp"
-#include "game/view/view_search.hpp"
+#include "game/view/camera.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/trainer/player.hpp"
 

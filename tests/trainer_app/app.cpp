@@ -6,7 +6,7 @@
 
 #include "game/session/replay.hpp"
 #include "game/session/session_file.hpp"
-#include "game/view/palette.hpp"
+#include "game/view/labels.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/trainer/one_joint.hpp"

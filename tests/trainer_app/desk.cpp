@@ -1,6 +1,6 @@
 #include "tests/trainer_app/desk.hpp"
 
-#include "engine/gpu/transfer.hpp"
+#include "engine/gpu/resources.hpp"
 
 namespace bolt::test {
 

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "engine/render/picture.hpp"
+#include "engine/render/renderer.hpp"
 #include "game/trainer/app.hpp"
 #include "tests/trainer_app/seat.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "game/view/label_places.hpp"
+#include "game/view/labels.hpp"
 #include "tests/trainer_app/desk.hpp"
 
 using namespace bolt;

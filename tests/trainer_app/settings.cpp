@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "engine/base/file.hpp"
-#include "game/scene/resting_place.hpp"
+#include "game/scene/workplace.hpp"
 #include "tests/trainer_app/desk.hpp"
 
 using namespace bolt;

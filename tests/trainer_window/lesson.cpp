@@ -8,7 +8,7 @@
 
 #include "game/session/replay.hpp"
 #include "game/session/session_file.hpp"
-#include "game/view/size.hpp"
+#include "game/view/pictures.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/trainer/one_joint.hpp"

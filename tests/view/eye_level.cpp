@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/base/random.hpp"
-#include "game/view/orbit.hpp"
+#include "game/view/camera.hpp"
 
 using namespace bolt;
 using namespace bolt::view;

@@ -1,4 +1,4 @@
-#include "game/view/label_places.hpp"
+#include "game/view/labels.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

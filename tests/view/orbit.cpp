@@ -1,4 +1,4 @@
-#include "game/view/orbit.hpp"
+#include "game/view/camera.hpp"
 
 #include <doctest/doctest.h>
 

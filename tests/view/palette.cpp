@@ -1,5 +1,5 @@
 // Colours that mean something stay apart for those who have no red or no green cones.
-#include "game/view/palette.hpp"
+#include "game/view/labels.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,11 +1,11 @@
 // Two eyes see what is nearer further apart.
-#include "game/view/stereo.hpp"
+#include "game/view/pictures.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "game/view/orbit.hpp"
+#include "game/view/camera.hpp"
 
 using namespace bolt;
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "game/view/size.hpp"
+#include "game/view/pictures.hpp"
 
 using namespace bolt;
 using namespace bolt::view;

@@ -10,7 +10,7 @@
 
 #include "engine/base/file.hpp"
 #include "engine/text/fonts.hpp"
-#include "engine/text/utf8.hpp"
+#include "engine/text/layout.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace bolt;

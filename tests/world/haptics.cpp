@@ -1,5 +1,5 @@
 // The components are the servo's snapshot, tick by tick.
-#include "game/world/haptics.hpp"
+#include "game/world/world.hpp"
 
 #include <doctest/doctest.h>
 

@@ -11,11 +11,10 @@
 #include <memory>
 #include <string>
 
-#include "engine/base/console.hpp"
+#include "engine/base/result.hpp"
 #ifdef BOLT_WITH_STEP
 #include "tools/author/import/guard.hpp"
 #include "tools/author/import/import_step.hpp"
-#include "tools/author/import/staging_folder.hpp"
 #endif
 
 namespace bolt::author {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/pose.hpp"
+#include "engine/base/math.hpp"
 #include "haptics/collision/mesh.hpp"
 
 namespace bolt::bench {

@@ -6,8 +6,7 @@
 #include <thread>
 
 #include "haptics/device/device_thread.hpp"
-#include "tools/bench/need.hpp"
-#include "tools/bench/tick_times.hpp"
+#include "tools/bench/harness.hpp"
 
 namespace {
 

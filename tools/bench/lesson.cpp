@@ -1,12 +1,13 @@
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "content/format/assembly.hpp"
-#include "game/session/servo_setup.hpp"
-#include "game/trainees/train.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
+#include "tools/bench/harness.hpp"
 
 namespace {
 
@@ -63,5 +64,68 @@ void headless_lesson_unrecorded(benchmark::State& state) {
     state.counters["x_real_time"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
 }
 BENCHMARK(headless_lesson_unrecorded)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+// The cost of a lesson per rendered frame: the servo ticks, the lesson that observes them and the session
+// that records them. A simulated expert works among obstacles. The counters are milliseconds of CPU time in a
+// frame of 1/60 s.
+
+namespace {
+
+using namespace bolt;
+using bench::guarded;
+using bench::need;
+
+constexpr double frame = 1.0 / 60.0, longest = 3600.0;  // s
+
+void lesson_frames(benchmark::State& state, const char* name, session::Obstacles obstacles) {
+    guarded(state, [&] {
+        const content::Loaded loaded = content::load_assembly(name);
+        if (!loaded.ok()) throw std::runtime_error(loaded.errors.front().message());
+        const auto file = std::filesystem::temp_directory_path() / "bolt-bench-frames.boltwright";
+        session::CourseOptions options;
+        options.obstacles = obstacles;
+        std::vector<double> frames, touching;
+        for (auto _ : state) {
+            const auto begun = need(session::Course::begin(loaded.assembly, options, file));
+            session::Course& course = *begun;
+            trainees::Operator expert(trainees::find_profile("expert").value(), 1, course.setup());
+            double spent = 0.0;
+            bool touches = false;
+            for (double shown = 0.0; !course.over() && course.time() < longest;) {
+                const servo::Input input = expert.act(course.setup(), course.state(), course.lesson());
+                const double start = bench::thread_microseconds();
+                const servo::Output output = need(course.step(input, expert.take_noticed()));
+                spent += 1e-3 * (bench::thread_microseconds() - start);
+                touches = touches || !output.touched.is_none();
+                if (course.time() < shown + frame) continue;
+                shown += frame;
+                frames.push_back(spent);
+                if (touches) touching.push_back(spent);
+                spent = 0.0;
+                touches = false;
+            }
+            state.counters["s"] = course.time();
+        }
+        for (const auto& [share_name, share] :
+             {std::pair("p50", 0.5), std::pair("p99", 0.99), std::pair("max", 1.0)}) {
+            state.counters[share_name] = bench::quantile(frames, share);
+            state.counters["touching_" + std::string(share_name)] = bench::quantile(touching, share);
+        }
+        double over = 0.0;
+        for (const double spent : frames) over += spent > 1.0 ? 1.0 : 0.0;
+        state.counters["over_1_ms"] = over / static_cast<double>(frames.size());
+        for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + end);
+    });
+}
+
+#define LESSON_FRAMES(name, ...) \
+    BENCHMARK_CAPTURE(lesson_frames, name, __VA_ARGS__)->Iterations(1)->Unit(benchmark::kMillisecond)
+
+LESSON_FRAMES(cover_m8, "cover-m8", session::Obstacles::required);
+LESSON_FRAMES(zq350, "zq350", session::Obstacles::required);
+// Baseline: without obstacles.
+LESSON_FRAMES(zq350_without_obstacles, "zq350", session::Obstacles::none);
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include "engine/assets/read/tinygltf.hpp"
 #include "engine/base/file.hpp"
 #include "engine/render/gpu_model.hpp"
+#include "tools/bench/harness.hpp"
 #include "tools/bench/machine.hpp"
-#include "tools/bench/need.hpp"
 
 namespace {
 

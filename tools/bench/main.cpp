@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "engine/assets/gltf.hpp"
-#include "engine/base/console.hpp"
+#include "engine/base/result.hpp"
 #include "tools/bench/machine.hpp"
 
 int main(int argc, char** argv) {

@@ -5,10 +5,10 @@
 #include <cstdlib>
 
 #include "content/format/assembly.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 #include "game/sound/event_detection.hpp"
 #include "game/sound/synth.hpp"
-#include "game/world/haptics.hpp"
+#include "game/world/world.hpp"
 
 namespace {
 

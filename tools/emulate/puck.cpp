@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/emulate/descriptor_writer.hpp"
+#include "tools/emulate/hid_device.hpp"
 
 namespace bolt::emulate {
 

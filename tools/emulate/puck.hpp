@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "tools/emulate/hid.hpp"
+#include "tools/emulate/hid_device.hpp"
 
 namespace bolt::emulate {
 

@@ -1,12 +1,21 @@
+// How the emulated wheels describe their reports.
+#pragma once
+
+#include "tools/emulate/hid_device.hpp"
+
+namespace bolt::emulate {
+
+// As OpenFFBoard's firmware numbers them; of its effects only constant force.
+Bytes board_descriptor();
+
+// Another wheel's: other numbers, an axis without a sign, controls as a list, one effect in a fixed place,
+// no start delay.
+Bytes other_wheel_descriptor();
+
 // A wheel on a motor, as an OpenFFBoard shows itself or as others with USB's force feedback do, and a hand at
 // it. It does what its reports say by fixed places in them, as a firmware does.
 //
 // Reports of an OpenFFBoard: ffb_defs.h and usb_hid_ffb_desc.h of its firmware.
-#pragma once
-
-#include "tools/emulate/hid.hpp"
-
-namespace bolt::emulate {
 
 struct WheelOptions {
     bool board = true;  // an OpenFFBoard. Else: another's numbers, no start delay, controls as a list, no

@@ -4,8 +4,7 @@
 #include <array>
 #include <cstring>
 
-#include "engine/assets/read/accessor.hpp"
-#include "engine/assets/read/sections.hpp"
+#include "engine/assets/read/document.hpp"
 
 namespace bolt::assets {
 

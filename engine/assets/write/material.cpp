@@ -1,4 +1,4 @@
-#include "engine/assets/write/sections.hpp"
+#include "engine/assets/write/writer.hpp"
 
 namespace bolt::assets {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "engine/assets/image.hpp"
-#include "engine/assets/write/sections.hpp"
+#include "engine/assets/write/writer.hpp"
 
 namespace bolt::assets {
 

@@ -4,6 +4,66 @@
 
 namespace bolt::render {
 
+namespace {
+
+Status add(gpu::Device& device, const RenderTargets& targets, gpu::Image& to, VkFormat format,
+           VkImageUsageFlags usage, VkSampleCountFlagBits samples, std::uint32_t divisor = 1) {
+    if (to.get() != VK_NULL_HANDLE) return {};
+    gpu::ImageInfo info;
+    info.extent = {(targets.extent.width + divisor - 1) / divisor,
+                   (targets.extent.height + divisor - 1) / divisor};
+    info.layers = targets.layers;
+    info.array = true;  // shaders read the layer of their view
+    info.format = format;
+    info.samples = samples;
+    info.usage = usage;
+    return assign(to, gpu::Image::create(device, info));
+}
+
+constexpr VkImageUsageFlags drawn_and_read = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+constexpr VkImageUsageFlags depth_and_read =
+    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+
+}  // namespace
+
+Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers) {
+    RenderTargets t;
+    t.extent = extent;
+    t.layers = layers;
+    BOLT_TRY(add(device, t, t.depth, depth_format, depth_and_read, samples));
+    BOLT_TRY(add(device, t, t.surfaces, surface_format, drawn_and_read, samples));
+    const VkImageUsageFlags seen = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    BOLT_TRY(add(device, t, t.picture, color_format, seen, VK_SAMPLE_COUNT_1_BIT));
+    return t;
+}
+
+Status add_wide_targets(gpu::Device& device, RenderTargets& t) {
+    BOLT_TRY(add(device, t, t.wide_colors, wide_color_format, drawn_and_read, samples));
+    return add(device, t, t.wide_roughs, wide_rough_format, drawn_and_read, samples);
+}
+
+Status add_forward_targets(gpu::Device& device, RenderTargets& t) {
+    BOLT_TRY(add(device, t, t.drawn, layer_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples));
+    return add(device, t, t.over, layer_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
+}
+
+Status add_mark_target(gpu::Device& device, RenderTargets& t) {
+    return add(device, t, t.marks, mark_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
+}
+
+Status add_occlusion_targets(gpu::Device& device, RenderTargets& t) {
+    constexpr VkSampleCountFlagBits one = VK_SAMPLE_COUNT_1_BIT;
+    BOLT_TRY(add(device, t, t.small_depth, depth_format, depth_and_read, one, 2));
+    BOLT_TRY(add(device, t, t.raw_occlusion, occlusion_format, drawn_and_read, one, 2));
+    return add(device, t, t.occlusion, occlusion_format, drawn_and_read, one, 2);
+}
+
+Status add_kept_depth(gpu::Device& device, RenderTargets& t) {
+    return add(device, t, t.kept_depth, depth_format,
+               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+               VK_SAMPLE_COUNT_1_BIT);
+}
+
 std::uint32_t view_mask(std::uint32_t views) { return views > 1 ? (1U << views) - 1U : 0U; }
 
 void draw_views(gpu::GraphicsInfo& info, std::uint32_t views) {
@@ -94,5 +154,78 @@ VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
 }
 
 void draw_screen(VkCommandBuffer commands) { vkCmdDraw(commands, 6, 1, 0, 0); }
+
+namespace {
+
+Result<VkDescriptorSet> maps_set(PassContext& context, const gpu::Pipeline& pipeline, const GpuModel& model,
+                                 const MaterialMaps& maps) {
+    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 1));
+    for (const gpu::Binding& map : pipeline.bindings) {  // only those that this pass uses
+        if (map.set != 1) continue;
+        const int which = maps.textures.at(map.binding);
+        const GpuTexture& texture =
+            which >= 0 ? model.textures[static_cast<std::size_t>(which)] : context.white;
+        writer.image(map.binding, texture.image.view(), texture.sampler.get());
+    }
+    return writer.finish();
+}
+
+}  // namespace
+
+gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const PipelineKind& kind, std::uint32_t views) {
+    gpu::GraphicsInfo info;
+    info.vertex = &shaders.at("scene.vert");
+    info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0},
+                    {1, VK_FORMAT_R16G16B16A16_SNORM, 1, offsetof(VertexAttributes, normal)},
+                    {2, VK_FORMAT_R16G16B16A16_SNORM, 1, offsetof(VertexAttributes, tangent)},
+                    {3, VK_FORMAT_R32G32_SFLOAT, 1, offsetof(VertexAttributes, texcoord)},
+                    {4, VK_FORMAT_R8G8B8A8_UNORM, 1, offsetof(VertexAttributes, color)},
+                    {5, VK_FORMAT_R32G32_SFLOAT, 1, offsetof(VertexAttributes, texcoord)}};
+    info.strides = {sizeof(glm::vec3), sizeof(VertexAttributes)};
+    if ((kind.features & SCENE_SECOND_UV) != 0) {
+        info.streams.back() = {5, VK_FORMAT_R32G32_SFLOAT, 2, 0};
+        info.strides.push_back(sizeof(glm::vec2));
+    }
+    info.depth = depth_format;
+    info.samples = samples;
+    draw_views(info, views);
+    info.cull = kind.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+    info.constants |= kind.features;
+    return info;
+}
+
+Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing& drawing) {
+    const VkCommandBuffer commands = context.frame.commands();
+    const gpu::Pipeline* pipeline = nullptr;
+    const Draw* bound = nullptr;
+    const MaterialMaps* maps = nullptr;
+    for (const Draw& d : list.draws) {
+        if (!drawing.wanted(d.kind)) continue;
+        BOLT_TRY_ASSIGN(auto wanted, drawing.pipeline(d.kind));
+        if (std::exchange(pipeline, wanted) != wanted) {
+            if (drawing.area) {
+                const VkRect2D area = drawing.area(d.kind);
+                vkCmdSetScissor(commands, 0, 1, &area);
+            }
+            BOLT_TRY_ASSIGN(auto set, drawing.frame_set(*wanted));
+            bind(commands, *wanted, set);
+            maps = nullptr;
+        }
+        const MaterialMaps& needed = d.model->maps[d.model->parts[d.part].material];
+        const bool has_maps = pipeline->sets.size() > 1;
+        if (has_maps && (maps == nullptr || bound->model != d.model || maps->textures != needed.textures)) {
+            BOLT_TRY_ASSIGN(auto set, maps_set(context, *wanted, *d.model, needed));
+            bind(commands, *wanted, set, 1);
+        }
+        maps = &needed;
+        if (bound == nullptr || !same_geometry(*bound, d)) bind_geometry(commands, d);
+        bound = &d;
+        if (pipeline->push_size > 0)
+            vkCmdPushConstants(commands, pipeline->layout.get(), pipeline->push_stages, 0, sizeof d.material,
+                               &d.material);
+        draw(commands, d);
+    }
+    return {};
+}
 
 }  // namespace bolt::render

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+
 #include <cmath>
 #include <gp_Ax3.hxx>
 #include <string>

@@ -1,7 +1,7 @@
 #include "tools/assets/sculpt/content_files.hpp"
 
 #include "engine/assets/gltf.hpp"
-#include "engine/assets/radiance_file.hpp"
+#include "engine/assets/image.hpp"
 #include "engine/base/file.hpp"
 #include "tools/assets/sculpt/environment.hpp"
 #include "tools/assets/sculpt/hand.hpp"

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "tools/assets/sculpt/field.hpp"
-#include "tools/assets/sculpt/room.hpp"
 
 namespace bolt::sculpt {
 namespace {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/math.hpp"
+#include "tools/assets/sculpt/mesh.hpp"
 
 namespace bolt::sculpt {
 
@@ -34,5 +35,16 @@ Vec3 gradient(const Field& field, const Vec3& p, double h);
 
 // Newton steps onto the zero surface.
 Vec3 project(const Field& field, Vec3 p, double h, int steps);
+
+// The zero surface of a field as triangles: naive surface nets (S. F. Gibson, MERL TR99-24), each vertex then
+// brought onto the surface and spread evenly along it.
+
+struct Box {
+    Vec3 low, high;
+};
+
+// The surface must lie inside the box and the field must not fall faster than twice the distance: blocks of
+// cells are passed over on the word of their centre.
+TriMesh extract(const Field& field, const Box& box, double cell, int relaxations = 3);
 
 }  // namespace bolt::sculpt

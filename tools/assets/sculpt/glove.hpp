@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "tools/assets/sculpt/hand_shape.hpp"
-#include "tools/assets/sculpt/raster.hpp"
+#include "tools/assets/sculpt/textures.hpp"
 
 namespace bolt::sculpt {
 

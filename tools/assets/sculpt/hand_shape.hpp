@@ -6,7 +6,6 @@
 
 #include "haptics/hand/kinematics.hpp"
 #include "tools/assets/sculpt/field.hpp"
-#include "tools/assets/sculpt/surface_nets.hpp"
 
 namespace bolt::sculpt {
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "engine/assets/gltf.hpp"
-#include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/program.hpp"
-#include "haptics/hand/measured_hand.hpp"
+#include "engine/base/result.hpp"
 #include "haptics/hand/kinematics.hpp"
+#include "haptics/hand/measured_hand.hpp"
 #include "tools/assets/sculpt/content_files.hpp"
 #include "tools/assets/sculpt/pose.hpp"
 

@@ -1,7 +1,11 @@
 #include "tools/assets/sculpt/mesh.hpp"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <map>
 #include <utility>
 
@@ -77,6 +81,156 @@ void relax_tangentially(TriMesh& mesh, double strength) {
         step -= normals[i] * (glm::dot(step, normals[i]) / length2);
         mesh.positions[i] += step;
     }
+}
+
+namespace {
+
+constexpr double snap = 0.25;  // of an edge
+
+bool opposite(double a, double b) { return (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0); }
+
+void snap_to_line(TriMesh& mesh, std::vector<double>& values) {
+    std::vector<double> nearest(values.size(), snap);
+    std::vector<Vec3> target = mesh.positions;
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (const auto& [a, b] : {std::pair(t[i], t[(i + 1) % 3]), std::pair(t[(i + 1) % 3], t[i])}) {
+                if (!opposite(values[a], values[b])) continue;
+                const double part = values[a] / (values[a] - values[b]);
+                if (part >= nearest[a]) continue;
+                nearest[a] = part;
+                target[a] = mesh.positions[a] + part * (mesh.positions[b] - mesh.positions[a]);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (nearest[i] < snap) values[i] = 0.0;
+    }
+    mesh.positions = std::move(target);
+}
+
+}  // namespace
+
+void cut(TriMesh& mesh, const std::function<double(const Vec3&)>& value) {
+    std::vector<double> values;
+    values.reserve(mesh.positions.size());
+    for (const Vec3& p : mesh.positions) values.push_back(value(p));
+    snap_to_line(mesh, values);
+
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
+    const auto split = [&](std::uint32_t a, std::uint32_t b) {
+        const auto key = std::minmax(a, b);
+        const auto next = static_cast<std::uint32_t>(mesh.positions.size());
+        const auto [entry, fresh] = middle.try_emplace(std::pair(key.first, key.second), next);
+        if (fresh) {
+            const double part = values[key.first] / (values[key.first] - values[key.second]);
+            mesh.positions.push_back(mesh.positions[key.first] +
+                                     part * (mesh.positions[key.second] - mesh.positions[key.first]));
+            values.push_back(0.0);
+        }
+        return entry->second;
+    };
+    std::vector<Triangle> out;
+    out.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        int crossed = 0;
+        std::size_t whole = 0;  // the edge that is not crossed, when two are
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (opposite(values[t[i]], values[t[(i + 1) % 3]])) {
+                ++crossed;
+            } else {
+                whole = i;
+            }
+        }
+        if (crossed == 0) {
+            out.push_back(t);
+        } else if (crossed == 1) {
+            std::size_t edge = 0;
+            while (!opposite(values[t[edge]], values[t[(edge + 1) % 3]])) ++edge;
+            const std::uint32_t a = t[edge];
+            const std::uint32_t b = t[(edge + 1) % 3];
+            const std::uint32_t c = t[(edge + 2) % 3];
+            const std::uint32_t m = split(a, b);
+            out.push_back({a, m, c});
+            out.push_back({m, b, c});
+        } else {
+            const std::uint32_t a = t[whole];
+            const std::uint32_t b = t[(whole + 1) % 3];
+            const std::uint32_t tip = t[(whole + 2) % 3];
+            const std::uint32_t mb = split(b, tip);
+            const std::uint32_t ma = split(tip, a);
+            out.push_back({ma, mb, tip});
+            out.push_back({a, b, mb});
+            out.push_back({a, mb, ma});
+        }
+    }
+    mesh.triangles = std::move(out);
+}
+
+namespace {
+
+// Now and then a collapse folds the surface flat: two triangles back to back on the same three vertices, and
+// an edge with four. Without the pair the surface is whole again.
+void drop_folds(LabelledMesh& mesh) {
+    const auto key = [](Triangle t) {
+        std::sort(t.begin(), t.end());
+        return t;
+    };
+    std::map<Triangle, int> count;
+    for (const Triangle& t : mesh.mesh.triangles) ++count[key(t)];
+    LabelledMesh out;
+    out.mesh.positions = std::move(mesh.mesh.positions);
+    for (std::size_t i = 0; i < mesh.mesh.triangles.size(); ++i) {
+        if (count[key(mesh.mesh.triangles[i])] > 1) continue;
+        out.mesh.triangles.push_back(mesh.mesh.triangles[i]);
+        out.labels.push_back(mesh.labels[i]);
+    }
+    mesh = std::move(out);
+}
+
+}  // namespace
+
+LabelledMesh simplify(const LabelledMesh& fine, std::size_t target) {
+    // A vertex on the line between two labels stands once for each: the simplifier takes that for a seam and
+    // collapses it only along itself.
+    std::map<std::pair<int, std::uint32_t>, unsigned> known;
+    std::vector<std::uint32_t> origin;
+    std::vector<int> label_of;
+    std::vector<glm::vec3> positions;
+    std::vector<unsigned> indices;
+    for (std::size_t t = 0; t < fine.mesh.triangles.size(); ++t) {
+        for (const std::uint32_t v : fine.mesh.triangles[t]) {
+            const auto next = static_cast<unsigned>(origin.size());
+            const auto [entry, fresh] = known.try_emplace({fine.labels[t], v}, next);
+            if (fresh) {
+                origin.push_back(v);
+                label_of.push_back(fine.labels[t]);
+                positions.emplace_back(fine.mesh.positions[v]);
+            }
+            indices.push_back(entry->second);
+        }
+    }
+    std::vector<unsigned> kept(indices.size());
+    kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), &positions[0].x,
+                                 positions.size(), sizeof(glm::vec3), target * 3, 1.0F, 0, nullptr));
+    meshopt_optimizeVertexCache(kept.data(), kept.data(), kept.size(), positions.size());
+
+    LabelledMesh out;
+    std::map<std::uint32_t, std::uint32_t> place;
+    for (std::size_t i = 0; i < kept.size(); i += 3) {
+        Triangle triangle{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = origin[kept[i + k]];
+            const auto next = static_cast<std::uint32_t>(out.mesh.positions.size());
+            const auto [entry, fresh] = place.try_emplace(from, next);
+            if (fresh) out.mesh.positions.push_back(fine.mesh.positions[from]);
+            triangle[k] = entry->second;
+        }
+        out.mesh.triangles.push_back(triangle);
+        out.labels.push_back(label_of[kept[i]]);
+    }
+    drop_folds(out);
+    return out;
 }
 
 }  // namespace bolt::sculpt

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/base/math.hpp"
@@ -31,5 +32,22 @@ TriMesh weld(const TriMesh& mesh);
 // Moves vertices towards the centre of their neighbours, in the tangent plane given by the area-weighted
 // normals.
 void relax_tangentially(TriMesh& mesh, double strength);
+
+// Cutting a mesh along the zero line of a value at its vertices, so that the border between two materials is
+// a smooth curve and not a saw.
+
+// Afterwards no triangle has the line inside. Vertices close to the line move onto it instead of leaving
+// slivers.
+void cut(TriMesh& mesh, const std::function<double(const Vec3&)>& value);
+
+// Fewer triangles where the surface is flat (meshoptimizer's quadrics), keeping the lines between labels.
+
+struct LabelledMesh {
+    TriMesh mesh;
+    std::vector<int> labels;  // one a triangle
+};
+
+// Vertices of the result are vertices of the input. `target` triangles at most, unless topology forbids.
+LabelledMesh simplify(const LabelledMesh& fine, std::size_t target);
 
 }  // namespace bolt::sculpt

@@ -13,15 +13,15 @@ struct FingerFlexion {
     double proximal, intermediate, distal, sideways;
 };
 
-void bend(Pose& pose, std::size_t digit, const FingerFlexion& flexion) {
+void bend(HandPosture& pose, std::size_t digit, const FingerFlexion& flexion) {
     const std::size_t first = digits[digit].first;
     pose.set(first + 1, flexion.proximal, flexion.sideways, 0.0);
     pose.flex(first + 2, flexion.intermediate);
     pose.flex(first + 3, flexion.distal);
 }
 
-Pose fist() {
-    Pose pose;
+HandPosture fist() {
+    HandPosture pose;
     bend(pose, 1, {72, 86, 48, -9});
     bend(pose, 2, {74, 88, 50, -1});
     bend(pose, 3, {74, 87, 50, 7});
@@ -32,8 +32,8 @@ Pose fist() {
     return pose;
 }
 
-Pose pinch() {
-    Pose pose;
+HandPosture pinch() {
+    HandPosture pose;
     bend(pose, 1, {44, 43, 22, -7});
     bend(pose, 2, {22, 26, 12, 0});
     bend(pose, 3, {16, 22, 10, 0});
@@ -45,8 +45,8 @@ Pose pinch() {
 }
 
 // Around the handle of a wrench, some 25 mm by 10 mm.
-Pose grip() {
-    Pose pose;
+HandPosture grip() {
+    HandPosture pose;
     bend(pose, 1, {62, 76, 40, -8});
     bend(pose, 2, {65, 80, 42, -1});
     bend(pose, 3, {66, 80, 42, 6});
@@ -57,8 +57,8 @@ Pose grip() {
     return pose;
 }
 
-Pose open() {
-    Pose pose;
+HandPosture open() {
+    HandPosture pose;
     for (std::size_t d = 1; d < 5; ++d) bend(pose, d, {-8, -13, -8, 0});
     return pose;
 }
@@ -67,7 +67,7 @@ struct Joints {
     std::array<glm::dmat4, joint_count> global{};
 };
 
-Result<Joints> pose_joints(const assets::Model& hand, const Pose& pose) {
+Result<Joints> pose_joints(const assets::Model& hand, const HandPosture& pose) {
     const auto malformed = [](const std::string& what) {
         return fail(ErrorCode::bad_content, what, "a hand with the joints of XR_EXT_hand_tracking");
     };
@@ -137,16 +137,16 @@ Result<assets::Model> skinned(const assets::Model& hand, const Joints& joints) {
 
 }  // namespace
 
-void Pose::flex(std::size_t joint, double degrees) { set(joint, degrees, 0.0, 0.0); }
+void HandPosture::flex(std::size_t joint, double degrees) { set(joint, degrees, 0.0, 0.0); }
 
-void Pose::set(std::size_t joint, double flexion, double sideways, double roll) {
+void HandPosture::set(std::size_t joint, double flexion, double sideways, double roll) {
     turn[joint] = glm::angleAxis(to_radians(sideways), Vec3(0, 1, 0)) *
                   glm::angleAxis(to_radians(-flexion), Vec3(1, 0, 0)) *
                   glm::angleAxis(to_radians(roll), Vec3(0, 0, 1));
 }
 
-std::optional<Pose> named_pose(std::string_view name) {
-    if (name == "relaxed") return Pose();
+std::optional<HandPosture> named_pose(std::string_view name) {
+    if (name == "relaxed") return HandPosture();
     if (name == "open") return open();
     if (name == "fist") return fist();
     if (name == "pinch") return pinch();
@@ -154,8 +154,8 @@ std::optional<Pose> named_pose(std::string_view name) {
     return std::nullopt;
 }
 
-Pose mirrored(const Pose& pose) {
-    Pose out;
+HandPosture mirrored(const HandPosture& pose) {
+    HandPosture out;
     for (std::size_t i = 0; i < joint_count; ++i) {
         const Quat& q = pose.turn[i];
         out.turn[i] = Quat(q.w, q.x, -q.y, -q.z);
@@ -163,7 +163,7 @@ Pose mirrored(const Pose& pose) {
     return out;
 }
 
-Result<Skeleton> posed_joints(const assets::Model& hand, const Pose& pose) {
+Result<Skeleton> posed_joints(const assets::Model& hand, const HandPosture& pose) {
     const Result<Joints> joints = pose_joints(hand, pose);
     if (!joints) return tl::unexpected(joints.error());
     Skeleton out;
@@ -174,7 +174,7 @@ Result<Skeleton> posed_joints(const assets::Model& hand, const Pose& pose) {
     return out;
 }
 
-Result<assets::Model> posed(const assets::Model& hand, const Pose& pose) {
+Result<assets::Model> posed(const assets::Model& hand, const HandPosture& pose) {
     const Result<Joints> joints = pose_joints(hand, pose);
     if (!joints) return tl::unexpected(joints.error());
     return skinned(hand, *joints);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/assets/sculpt/mesh.hpp"
 #include "tools/assets/sculpt/quantise.hpp"
-#include "tools/assets/sculpt/simplify.hpp"
 
 namespace bolt::sculpt {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "engine/assets/model.hpp"
 #include "tools/assets/sculpt/field.hpp"
-#include "tools/assets/sculpt/surface_nets.hpp"
 
 namespace bolt::sculpt {
 

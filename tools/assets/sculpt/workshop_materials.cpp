@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
+#include "tools/assets/sculpt/environment.hpp"
 #include "tools/assets/sculpt/field.hpp"
-#include "tools/assets/sculpt/noise.hpp"
-#include "tools/assets/sculpt/raster.hpp"
-#include "tools/assets/sculpt/room.hpp"
+#include "tools/assets/sculpt/textures.hpp"
 
 namespace bolt::sculpt {
 

@@ -7,10 +7,8 @@
 #include "content/format/json_document.hpp"
 #include "engine/assets/gltf.hpp"
 
-#include "tools/author/geometry/check_levels.hpp"
-#include "tools/author/geometry/check_nodes.hpp"
-#include "tools/author/geometry/check_stack.hpp"
-#include "tools/author/geometry/check_wrench.hpp"
+#include "tools/author/geometry/check_joint.hpp"
+#include "tools/author/geometry/check_model.hpp"
 
 namespace bolt::geometry {
 

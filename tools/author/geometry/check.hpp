@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "content/format/assembly.hpp"
-#include "engine/base/error.hpp"
+#include "engine/base/result.hpp"
 
 namespace bolt::geometry {
 

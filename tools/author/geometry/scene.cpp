@@ -1,8 +1,13 @@
 #include "tools/author/geometry/scene.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+#include <vector>
 
 namespace bolt::geometry {
 
@@ -110,6 +115,145 @@ Scene flatten(const assets::Model& model) {
             stack.push_back({*child, own});
     }
     return scene;
+}
+
+namespace {
+
+Vec3 moved(const glm::dmat4& m, const Vec3& p) { return Vec3(m * glm::dvec4(p, 1.0)); }
+
+Fastener find_fastener(const Scene& scene, int joint_node, std::string name, const glm::dmat4& to_joint) {
+    Fastener fastener;
+    fastener.name = std::move(name);
+    const auto found = scene.by_name.find(fastener.name);
+    if (found == scene.by_name.end()) return fastener;
+    for (const int node : found->second) {
+        if (!scene.is_under(node, joint_node)) continue;
+        for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+            if (!scene.is_under(scene.parts[i].node, node)) continue;
+            fastener.parts.insert(i);
+            for (const Triangle& t : scene.parts[i].triangles) {
+                fastener.triangles.push_back(
+                    {moved(to_joint, t.a), moved(to_joint, t.b), moved(to_joint, t.c), i});
+                const Triangle& own = fastener.triangles.back();
+                for (const Vec3& p : {own.a, own.b, own.c}) fastener.box.add(p);
+            }
+        }
+    }
+    return fastener;
+}
+
+Box moved(const glm::dmat4& m, const Box& box) {
+    const Vec3 middle = moved(m, box.middle()), half = box.half();
+    const Vec3 reach =
+        glm::abs(Vec3(m[0])) * half.x + glm::abs(Vec3(m[1])) * half.y + glm::abs(Vec3(m[2])) * half.z;
+    return {middle - reach, middle + reach};
+}
+
+// Something of the box may be within the radius of the Y axis and above the floor.
+bool is_near(const Box& box, double radius, double floor) {
+    const double x = std::max({box.low.x, -box.high.x, 0.0}), z = std::max({box.low.z, -box.high.z, 0.0});
+    return box.high.y > floor && std::hypot(x, z) < radius;
+}
+
+}  // namespace
+
+bool JointParts::owns(std::uint32_t part) const {
+    return bolt.parts.contains(part) || washer_head.parts.contains(part) || washer_nut.parts.contains(part) ||
+           nut.parts.contains(part);
+}
+
+JointParts find_joint_parts(const Scene& scene, int joint_node, std::string_view id) {
+    JointParts parts;
+    parts.to_assembly = scene.nodes[static_cast<std::size_t>(joint_node)].world;
+    parts.to_joint = glm::inverse(parts.to_assembly);
+    const auto find = [&](const char* what) {
+        return find_fastener(scene, joint_node, std::string(id) + what, parts.to_joint);
+    };
+    parts.bolt = find("_bolt");
+    parts.washer_head = find("_washer_head");
+    parts.washer_nut = find("_washer_nut");
+    parts.nut = find("_nut");
+    return parts;
+}
+
+std::vector<Triangle> surroundings(const Scene& scene, const glm::dmat4& to_joint, double radius,
+                                   double floor, const std::set<std::uint32_t>& left_out) {
+    std::vector<Triangle> result;
+    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+        const Part& part = scene.parts[i];
+        if (left_out.contains(i) || part.triangles.empty() ||
+            !is_near(moved(to_joint, part.box), radius, floor))
+            continue;
+        for (const Triangle& t : part.triangles) {
+            const Triangle own{moved(to_joint, t.a), moved(to_joint, t.b), moved(to_joint, t.c), i};
+            Box box;
+            for (const Vec3& p : {own.a, own.b, own.c}) box.add(p);
+            if (is_near(box, radius, floor)) result.push_back(own);
+        }
+    }
+    return result;
+}
+
+namespace {
+
+struct Flat {
+    double angle, distance, area;
+};
+
+// Triangles that stand upright near the distance of a flat: neither the bore, nor the chamfers, nor a collar.
+std::vector<Flat> upright(std::span<const Triangle> triangles, double corner) {
+    std::vector<Flat> flats;
+    for (const Triangle& t : triangles) {
+        Vec3 n = normal_of(t);
+        const double twice = std::sqrt(glm::dot(n, n));
+        if (twice <= 0.0) continue;
+        n /= twice;
+        if (std::abs(n.y) > 0.02) continue;
+        const double distance = glm::dot(n, t.a);
+        if (std::abs(distance) < 0.8 * corner || std::abs(distance) > 0.95 * corner) continue;
+        // Whichever way round the triangle is wound.
+        const double side = distance < 0.0 ? -1.0 : 1.0;
+        flats.push_back({std::atan2(side * n.z, side * n.x), std::abs(distance), 0.5 * twice});
+    }
+    return flats;
+}
+
+}  // namespace
+
+std::optional<Hexagon> measure_hexagon(std::span<const Triangle> triangles) {
+    Hexagon hexagon;
+    double corner = 0.0;
+    Box box;
+    for (const Triangle& t : triangles)
+        for (const Vec3& p : {t.a, t.b, t.c}) {
+            corner = std::max(corner, std::hypot(p.x, p.z));
+            box.add(p);
+        }
+    const std::vector<Flat> flats = upright(triangles, corner);
+    // Six directions 60° apart point the same way when their angles are taken six times.
+    std::complex<double> sum;
+    for (const Flat& flat : flats) sum += std::polar(flat.area, 6.0 * flat.angle);
+    if (flats.empty()) return std::nullopt;
+    const double phase = std::arg(sum) / 6.0;
+    constexpr double window = to_radians(2.0);
+    std::array<double, 6> support{};
+    for (std::size_t k = 0; k < 6; ++k)
+        for (const Flat& flat : flats)
+            if (std::abs(wrap(flat.angle - phase - static_cast<double>(k) * pi / 3.0, 2.0 * pi)) < window)
+                support[k] = std::max(support[k], flat.distance);
+    if (*std::min_element(support.begin(), support.end()) <= 0.0) return std::nullopt;
+    const std::array<double, 3> widths = {support[0] + support[3], support[1] + support[4],
+                                          support[2] + support[5]};
+    const auto [least, most] = std::minmax_element(widths.begin(), widths.end());
+    hexagon.across_flats = (widths[0] + widths[1] + widths[2]) / 3.0;
+    hexagon.unevenness = *most - *least;
+    for (std::size_t k = 0; k < 6; ++k) {
+        const double angle = phase + static_cast<double>(k) * pi / 3.0;
+        hexagon.centre += support[k] / 3.0 * Vec3{std::cos(angle), 0.0, std::sin(angle)};
+    }
+    hexagon.low = box.low.y;
+    hexagon.high = box.high.y;
+    return hexagon;
 }
 
 }  // namespace bolt::geometry

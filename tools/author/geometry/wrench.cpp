@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace bolt::geometry {
 
@@ -148,6 +149,157 @@ Bvh posed(const Wrench& wrench, bool turned_over) {
     for (Triangle& t : triangles)
         for (Vec3* p : {&t.a, &t.b, &t.c}) *p = {p->x, side * p->z, -side * p->y};
     return Bvh(std::move(triangles));
+}
+
+namespace {
+
+constexpr double resolution = to_radians(0.01);
+
+struct Probe {
+    const Bvh& surroundings;
+    const Bvh& wrench;
+    double height;
+
+    // What the wrench touches at this angle.
+    [[nodiscard]] std::uint32_t operator()(double angle) const {
+        const auto hit =
+            first_crossing(surroundings, wrench, TurnAboutY::turned(angle, Vec3{0.0, height, 0.0}));
+        return hit ? surroundings.triangles()[*hit].part : no_part;
+    }
+};
+
+// A degree, or less for a wrench so long that something could slip through between two samples: the end of
+// its handle moves by no more than the wrench is thick, and it is wider than thick.
+int sample_count(const Bvh& wrench) {
+    const Box box = wrench.box();
+    const double thickness = std::max(2.0 * box.half().y, 1e-3);
+    return std::max(360, static_cast<int>(std::ceil(2.0 * pi * box.high.x / thickness)));
+}
+
+// The end of what is free between a free angle and one that is not, and what stands there.
+double find_edge(const Probe& probe, double free, double blocked, std::uint32_t& part) {
+    while (std::abs(blocked - free) > resolution) {
+        const double middle = 0.5 * (free + blocked);
+        const std::uint32_t hit = probe(middle);
+        if (hit == no_part) {
+            free = middle;
+        } else {
+            blocked = middle;
+            part = hit;
+        }
+    }
+    return free;
+}
+
+}  // namespace
+
+const Arc* Swing::widest() const {
+    const auto it = std::max_element(arcs.begin(), arcs.end(),
+                                     [](const Arc& a, const Arc& b) { return a.width() < b.width(); });
+    return it == arcs.end() ? nullptr : &*it;
+}
+
+Swing free_swing(const Bvh& surroundings, const Bvh& wrench, double height) {
+    const Probe probe{surroundings, wrench, height};
+    const int samples = sample_count(wrench);
+    const double step = 2.0 * pi / samples;
+    std::vector<std::uint32_t> hits;
+    std::map<std::uint32_t, int> counts;
+    for (int i = 0; i < samples; ++i) {
+        hits.push_back(probe(i * step));
+        if (hits.back() != no_part) ++counts[hits.back()];
+    }
+    Swing swing;
+    if (counts.empty()) {
+        swing.arcs.push_back({0.0, 2.0 * pi, no_part, no_part});
+        return swing;
+    }
+    const auto most = std::max_element(counts.begin(), counts.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    swing.blocking = most->first;
+    const auto at = [&](int i) { return hits[static_cast<std::size_t>((i + samples) % samples)]; };
+    for (int i = 0; i < samples; ++i) {
+        if (at(i) != no_part || at(i - 1) == no_part) continue;
+        int last = i;
+        while (at(last + 1) == no_part) ++last;
+        Arc arc;
+        arc.before = at(i - 1);
+        arc.after = at(last + 1);
+        arc.from = find_edge(probe, i * step, (i - 1) * step, arc.before);
+        arc.to = find_edge(probe, last * step, (last + 1) * step, arc.after);
+        swing.arcs.push_back(arc);
+    }
+    return swing;
+}
+
+bool cover(std::vector<std::pair<double, double>> intervals, double period) {
+    std::vector<std::pair<double, double>> parts;
+    for (const auto& [from, to] : intervals) {
+        if (to - from >= period) return true;
+        const double start = from - period * std::floor(from / period), end = start + (to - from);
+        parts.emplace_back(start, std::min(end, period));
+        if (end > period) parts.emplace_back(0.0, end - period);
+    }
+    std::sort(parts.begin(), parts.end());
+    double reached = 0.0;
+    for (const auto& [from, to] : parts) {
+        if (from > reached) return false;
+        reached = std::max(reached, to);
+    }
+    return reached >= period;
+}
+
+namespace {
+
+constexpr double step = 3e-3;                   // m; thinner than any wrench that is modelled
+constexpr double turn_step = to_radians(10.0);  // between the angles that are tried
+constexpr double most_lift = 2.0;               // m; what a wrench has passed by then is behind it
+constexpr double jaw_to_tip = 1.7;              // head sizes to draw the jaw off a hexagon
+
+struct Path {
+    const Bvh& surroundings;
+    const Bvh& wrench;
+    double angle;
+    std::uint32_t hit = no_part;  // what stopped it
+
+    bool free(const Vec3& from, const Vec3& direction, double distance) {
+        for (double gone = 0.0; gone < distance + step; gone += step) {
+            const Vec3 shift = from + std::min(gone, distance) * direction;
+            const auto found = first_crossing(surroundings, wrench, TurnAboutY::turned(angle, shift));
+            if (!found) continue;
+            hit = surroundings.triangles()[*found].part;
+            return false;
+        }
+        return true;
+    }
+};
+
+}  // namespace
+
+std::uint32_t blocked_by(const Bvh& surroundings, const Bvh& wrench, const Swing& swing,
+                         const Approach& approach) {
+    if (surroundings.nodes().empty()) return no_part;
+    const Vec3 start{0.0, approach.height, 0.0}, up{0.0, 1.0, 0.0};
+    const double lift = std::clamp(surroundings.box().high.y - approach.height, 0.0, most_lift) + 2.0 * step;
+    std::uint32_t hit = swing.blocking;
+    for (const Arc& arc : swing.arcs) {
+        const int tries = 1 + static_cast<int>(arc.width() / turn_step);
+        for (int i = 0; i < tries; ++i) {
+            const double angle = arc.from + (i + 0.5) / tries * arc.width();
+            Path path{surroundings, wrench, angle};
+            if (path.free(start, up, lift)) return no_part;
+            // Off the nut, the jaw's bottom ahead: towards the handle.
+            const double away = angle + approach.jaw_angle, off = jaw_to_tip * approach.head_size;
+            const Vec3 direction{std::cos(away), 0.0, -std::sin(away)};
+            Path sideways{surroundings, wrench, angle};
+            if (sideways.free(start, direction, off) &&
+                (sideways.free(start + off * direction, up, lift) ||
+                 sideways.free(start + off * direction, direction, 2.0 * approach.reach)))
+                return no_part;
+            hit = sideways.hit;
+        }
+    }
+    return hit;
 }
 
 }  // namespace bolt::geometry

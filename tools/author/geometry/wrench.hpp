@@ -3,6 +3,9 @@
 // to the flat; the mouth of the jaw opens at -X, turned by the head angle about Z.
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "content/format/assembly.hpp"
 #include "engine/base/result.hpp"
 #include "tools/author/geometry/bvh.hpp"
@@ -37,5 +40,44 @@ Result<Wrench> model_wrench(const Scene& scene, const content::WrenchDesign& des
 
 // The wrench on a nut whose axis is +Y, its handle along +X; turned over, its head points to the other side.
 Bvh posed(const Wrench& wrench, bool turned_over);
+
+// How far a wrench that is on a nut can swing about the nut's axis before it touches something.
+
+inline constexpr std::uint32_t no_part = std::numeric_limits<std::uint32_t>::max();
+
+// Angles of the handle, rad, at which nothing is touched: from < to. What stops it at either end.
+struct Arc {
+    double from = 0.0, to = 0.0;
+    std::uint32_t before = no_part, after = no_part;
+
+    [[nodiscard]] double width() const { return to - from; }
+};
+
+// All free arcs of a turn, by angle; none: it fits nowhere, and `blocking` is what is most in the way.
+struct Swing {
+    std::vector<Arc> arcs;
+    std::uint32_t blocking = no_part;
+
+    [[nodiscard]] const Arc* widest() const;  // nullptr: there is none
+};
+
+// `wrench` on the nut's axis +Y with its handle along +X, `height` above the joint's origin.
+Swing free_swing(const Bvh& surroundings, const Bvh& wrench, double height);
+
+// Angles [from, to], taken modulo `period`, leave no gap.
+bool cover(std::vector<std::pair<double, double>> intervals, double period);
+
+// Whether a wrench that fits on a nut can be brought there: lifted off along the bolt, or drawn off sideways.
+
+struct Approach {
+    double height = 0.0;     // of the wrench on the nut, above the joint's origin
+    double jaw_angle = 0.0;  // of the jaw to the handle, rad about +Y
+    double head_size = 0.0;  // m
+    double reach = 0.0;      // m, of the wrench
+};
+
+// What is in the way of every path from every free angle; no_part: there is a path.
+std::uint32_t blocked_by(const Bvh& surroundings, const Bvh& wrench, const Swing& swing,
+                         const Approach& approach);
 
 }  // namespace bolt::geometry

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "haptics/joint/fastener.hpp"
 #include "haptics/joint/design.hpp"
+#include "haptics/joint/fastener.hpp"
 
 namespace bolt::step_import {
 

@@ -4,6 +4,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopoDS_Face.hxx>
+#include <array>
 #include <cstdint>
 #include <gp_XY.hxx>
 #include <vector>
@@ -40,5 +41,25 @@ class FaceSurface {
     std::vector<gp_XY> uv_;
     std::vector<bool> pole_u_, pole_v_;
 };
+
+// Splits triangles inside a face until they keep the deflection: the mesher keeps it along edges, but may
+// miss it by half inside a sphere or a fillet. The sides on the face's rim stay, so that neighbours still
+// fit.
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+// Appends corners to `surface` and `corners` (positions, m) and replaces triangles.
+void refine(FaceSurface& surface, std::vector<Vec3>& corners, Triangles& triangles, double deflection);
+
+// Largest distance (m) of the triangles from their surface, looked at in the middle of sides and triangles.
+double deviation(const FaceSurface& surface, const std::vector<Vec3>& corners, const Triangles& triangles);
+
+// The lay of a machined surface (ISO 21920: the direction of its marks), as tangents for anisotropic
+// materials. The highlight of brushed metal is drawn out across the lay, so the tangent stands across it:
+// along the axis of what was turned, outward on a turned face, one way on a milled one.
+
+// Unit tangents at the corners of a face, perpendicular to the normals; scene frame.
+std::vector<Vec3> tangents_across_lay(const TopoDS_Face& face, const std::vector<Vec3>& corners,
+                                      const std::vector<Vec3>& normals);
 
 }  // namespace bolt::step_import

@@ -14,8 +14,7 @@
 #include <limits>
 #include <optional>
 
-#include "tools/author/import/faces.hpp"
-#include "tools/author/import/frame.hpp"
+#include "tools/author/import/step_document.hpp"
 
 namespace bolt::step_import {
 

@@ -8,19 +8,17 @@
 #include <new>
 #include <optional>
 
-#include "content/format/embedded.hpp"
 #include "content/format/assembly.hpp"
+#include "content/format/embedded.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
-#include "tools/author/geometry/check_levels.hpp"
-#include "tools/author/import/contact.hpp"
+#include "tools/author/geometry/check_model.hpp"
 #include "tools/author/import/draft.hpp"
 #include "tools/author/import/joints.hpp"
-#include "tools/author/import/lod.hpp"
-#include "tools/author/import/pick_material.hpp"
-#include "tools/author/import/render_mesh.hpp"
-#include "tools/author/import/scene.hpp"
+#include "tools/author/import/levels.hpp"
+#include "tools/author/import/materials.hpp"
 #include "tools/author/import/step_document.hpp"
+#include "tools/author/import/tree.hpp"
 
 namespace bolt::step_import {
 
@@ -305,7 +303,7 @@ class Import {
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
             const int shape = tree_.nodes[n].shape;
             if (shape < 0) continue;
-            const Pose pose = world(tree_, static_cast<int>(n));
+            const Placement pose = world(tree_, static_cast<int>(n));
             const auto part = static_cast<std::size_t>(tree_.shapes[static_cast<std::size_t>(shape)].part);
             for (const Vec3& point : geometry_[part].mesh.points) {
                 low = glm::min(low, pose.point(point));

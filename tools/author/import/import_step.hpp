@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/error.hpp"
 #include "engine/base/math.hpp"
+#include "engine/base/result.hpp"
 
 namespace bolt::step_import {
 

@@ -116,7 +116,7 @@ class JointFinder {
             poses_.push_back(world(tree, node));
             const PartGeometry* part = part_of(node);
             if (part == nullptr || part->fastener.kind == FastenerKind::none) continue;
-            const Pose& pose = poses_.back();
+            const Placement& pose = poses_.back();
             Placed placed{node, &part->fastener, pose.point(part->fastener.origin),
                           pose.direction(part->fastener.axis), std::abs(pose.scale)};
             of_kind_[part->fastener.kind].push_back(placed);
@@ -142,7 +142,7 @@ class JointFinder {
   private:
     const Tree& tree_;
     const std::vector<PartGeometry>& parts_;
-    std::vector<Pose> poses_;
+    std::vector<Placement> poses_;
     std::map<FastenerKind, std::vector<Placed>> of_kind_;
     JointSearch search_;
     std::map<int, int> bolt_of_nut_;  // nodes
@@ -422,7 +422,7 @@ int make_group(Tree& tree, const JointCandidate& joint) {
 
 // The group of the author's own should stand where the geometry says.
 void check_group(const Tree& tree, const JointCandidate& joint, std::vector<std::string>& remarks) {
-    const Pose pose = world(tree, joint.group);
+    const Placement pose = world(tree, joint.group);
     const double off = glm::length(pose.position - joint.seat) / mm;
     const double turn = glm::dot(pose.direction({0.0, 1.0, 0.0}), joint.axis);
     const std::string& name = tree.nodes[static_cast<std::size_t>(joint.group)].name;

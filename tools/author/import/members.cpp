@@ -19,7 +19,7 @@ struct Span {
 };
 
 // Radius of the part's hole around the bolt; 0: it has none.
-double hole_around(const PartGeometry& part, const Pose& pose, const Clamping& bolt) {
+double hole_around(const PartGeometry& part, const Placement& pose, const Clamping& bolt) {
     double hole = 0.0;
     for (const Hole& one : part.holes) {
         const double radius = one.radius * std::abs(pose.scale);
@@ -31,8 +31,9 @@ double hole_around(const PartGeometry& part, const Pose& pose, const Clamping& b
 }
 
 // The median of eight lines around the bolt, beside the hole's chamfer.
-std::optional<Span> measure(const PartGeometry& part, const Pose& pose, const Clamping& bolt, double radius) {
-    const Pose local = inverse(pose);
+std::optional<Span> measure(const PartGeometry& part, const Placement& pose, const Clamping& bolt,
+                            double radius) {
+    const Placement local = inverse(pose);
     const Vec3 aside = std::abs(bolt.axis.y) < 0.9 ? Vec3{0.0, 1.0, 0.0} : Vec3{1.0, 0.0, 0.0};
     const Vec3 u = glm::normalize(glm::cross(bolt.axis, aside)), v = glm::cross(bolt.axis, u);
     std::array<Span, 8> spans;
@@ -60,7 +61,7 @@ std::optional<Span> measure(const PartGeometry& part, const Pose& pose, const Cl
 }
 
 // Heights of the whole part along the bolt.
-std::pair<double, double> extent(const PartGeometry& part, const Pose& pose, const Clamping& bolt) {
+std::pair<double, double> extent(const PartGeometry& part, const Placement& pose, const Clamping& bolt) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Vec3& point : part.mesh.points) {
         const double height = glm::dot(pose.point(point) - bolt.origin, bolt.axis);
@@ -71,7 +72,7 @@ std::pair<double, double> extent(const PartGeometry& part, const Pose& pose, con
 }
 
 // Between two members that do not meet at the bolt: their raised faces, then a part that fills what is left.
-void close_gap(const std::vector<const PartGeometry*>& parts, const std::vector<Pose>& poses,
+void close_gap(const std::vector<const PartGeometry*>& parts, const std::vector<Placement>& poses,
                const Clamping& bolt, Span& below, Span& above, std::vector<Span>& spans) {
     const auto of = [&](int node) {
         const auto n = static_cast<std::size_t>(node);
@@ -102,7 +103,7 @@ bool coaxial(const Vec3& p, const Vec3& a, const Vec3& q, const Vec3& b) {
 }
 
 std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& parts,
-                                        const std::vector<Pose>& poses, const Clamping& bolt) {
+                                        const std::vector<Placement>& poses, const Clamping& bolt) {
     std::vector<Span> spans;
     for (std::size_t n = 0; n < parts.size(); ++n) {
         if (parts[n] == nullptr) continue;

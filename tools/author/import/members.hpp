@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tools/author/import/fasteners.hpp"
-#include "tools/author/import/frame.hpp"
+#include "tools/author/import/step_document.hpp"
 
 namespace bolt::step_import {
 
@@ -36,6 +36,6 @@ bool coaxial(const Vec3& p, const Vec3& a, const Vec3& q, const Vec3& b);
 // From head to nut. `parts` and `poses` by node; null: no member. Where the parts around the bolt leave a
 // gap, what closes it elsewhere counts: the raised faces of two flanges and the gasket between them.
 std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& parts,
-                                        const std::vector<Pose>& poses, const Clamping& bolt);
+                                        const std::vector<Placement>& poses, const Clamping& bolt);
 
 }  // namespace bolt::step_import

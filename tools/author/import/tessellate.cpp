@@ -15,10 +15,7 @@
 #include <numeric>
 
 #include "tools/author/import/face_surface.hpp"
-#include "tools/author/import/faces.hpp"
-#include "tools/author/import/frame.hpp"
-#include "tools/author/import/lay.hpp"
-#include "tools/author/import/refine.hpp"
+#include "tools/author/import/step_document.hpp"
 
 namespace bolt::step_import {
 

@@ -41,14 +41,14 @@ Tree make_tree(const StepDocument& document) {
     return tree;
 }
 
-Pose world(const Tree& tree, int node) {
-    Pose pose = at(tree, node).local;
+Placement world(const Tree& tree, int node) {
+    Placement pose = at(tree, node).local;
     for (int up = at(tree, node).parent; up >= 0; up = at(tree, up).parent) pose = at(tree, up).local * pose;
     return pose;
 }
 
 void move_under(Tree& tree, int node, int parent) {
-    const Pose here = world(tree, node);
+    const Placement here = world(tree, node);
     TreeNode& moved = at(tree, node);
     std::vector<int>& old = moved.parent >= 0 ? at(tree, moved.parent).children : tree.roots;
     std::erase(old, node);
@@ -71,6 +71,31 @@ int make_names_unique(Tree& tree) {
         for (TreeNode& node : tree.nodes)
             if (node.fixed == fixed) node.name = names.take(node.name);
     return names.renamed();
+}
+
+assets::Model make_model(const Tree& tree, const std::vector<assets::Mesh>& meshes,
+                         const std::vector<assets::Material>& materials) {
+    assets::Model model;
+    model.generator = "Boltwright bolt-author import-step";
+    model.materials = materials;
+    model.roots = tree.roots;
+    std::vector<int> mesh_of(meshes.size(), -1);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        if (meshes[i].primitives.empty()) continue;
+        mesh_of[i] = static_cast<int>(model.meshes.size());
+        model.meshes.push_back(meshes[i]);
+    }
+    for (const TreeNode& node : tree.nodes) {
+        assets::Node made;
+        made.name = node.name;
+        made.translation = glm::vec3(node.local.position);
+        made.rotation = glm::quat(node.local.rotation);
+        made.scale = glm::vec3(static_cast<float>(node.local.scale));
+        made.children = node.children;
+        if (node.shape >= 0) made.mesh = mesh_of[static_cast<std::size_t>(node.shape)];
+        model.nodes.push_back(std::move(made));
+    }
+    return model;
 }
 
 }  // namespace bolt::step_import

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/author/import/frame.hpp"
+#include "engine/assets/model.hpp"
 #include "tools/author/import/step_document.hpp"
 
 namespace bolt::step_import {
@@ -20,7 +20,7 @@ struct Shape {
 struct TreeNode {
     std::string name;
     bool fixed = false;  // the name is needed as it is: others give way
-    Pose local;
+    Placement local;
     int shape = -1;
     int parent = -1;
     std::vector<int> children;
@@ -34,7 +34,7 @@ struct Tree {
 
 Tree make_tree(const StepDocument& document);
 
-Pose world(const Tree& tree, int node);
+Placement world(const Tree& tree, int node);
 
 // Puts `node` under `parent` (−1: a root) where it stands in the world.
 void move_under(Tree& tree, int node, int parent);
@@ -44,5 +44,11 @@ int common_parent(const Tree& tree, int a, int b);
 
 // Adds _2, _3 … where a name is taken; returns how many had to be changed.
 int make_names_unique(Tree& tree);
+
+// The tree with one mesh a shape, as a glTF model.
+
+// `meshes`: by TreeNode::shape; one without primitives leaves its nodes empty.
+assets::Model make_model(const Tree& tree, const std::vector<assets::Mesh>& meshes,
+                         const std::vector<assets::Material>& materials);
 
 }  // namespace bolt::step_import

@@ -2,10 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "engine/base/console.hpp"
-#include "game/view/size.hpp"
+#include "engine/base/result.hpp"
+#include "game/view/pictures.hpp"
 #include "tools/author/commands.hpp"
-#include "tools/author/preview/show.hpp"
+#include "tools/author/preview/preview.hpp"
 
 namespace bolt::author {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/platform/input.hpp"
-#include "game/view/orbit.hpp"
+#include "game/view/camera.hpp"
 
 namespace bolt::author {
 

@@ -6,10 +6,10 @@
 #include <CLI/CLI.hpp>
 
 #include "content/format/assembly.hpp"
-#include "engine/base/console.hpp"
 #include "engine/base/program.hpp"
+#include "engine/base/result.hpp"
 #include "game/session/contact_models.hpp"
-#include "game/session/servo_setup.hpp"
+#include "game/session/lesson_session.hpp"
 #include "tools/verify/contact/near_poses.hpp"
 #include "tools/verify/contact/penetration_runs.hpp"
 

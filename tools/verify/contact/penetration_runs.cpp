@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/base/minimum_jerk.hpp"
+#include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
 #include "haptics/joint/nut.hpp"
 #include "haptics/servo/engagement.hpp"

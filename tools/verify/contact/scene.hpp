@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "haptics/collision/narrow_phase.hpp"
-#include "tools/verify/oracle/surface.hpp"
+#include "tools/verify/oracle/contact_oracle.hpp"
 
 namespace bolt::contact_validation {
 

@@ -6,8 +6,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
+
+#include "engine/base/result.hpp"
 
 namespace bolt::imagediff {
 
@@ -25,5 +28,22 @@ std::vector<float> flip(const Picture& reference, const Picture& test,
                         float pixels_per_degree = usual_pixels_per_degree);
 
 double mean(std::span<const float> values);
+
+// Compares two pictures.
+
+struct Difference {
+    int largest = 0;       // of any channel, of 255
+    double changed = 0.0;  // share of pixels with any difference
+    double mean_flip = 0.0;
+    std::vector<float> flips;  // a pixel
+};
+
+Result<Picture> read_png(const std::filesystem::path& path);
+
+// An error if the sizes differ.
+Result<Difference> compare(const Picture& reference, const Picture& test);
+
+// The flips as grey levels.
+Status write_flips(const std::filesystem::path& path, const Picture& size, const std::vector<float>& flips);
 
 }  // namespace bolt::imagediff

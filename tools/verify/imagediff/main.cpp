@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/base/console.hpp"
 #include "engine/base/program.hpp"
-#include "tools/verify/imagediff/compare.hpp"
+#include "engine/base/result.hpp"
+#include "tools/verify/imagediff/flip.hpp"
 
 namespace {
 

@@ -1,6 +1,5 @@
 #include "tools/verify/pathtrace/bsdf.hpp"
 
-#include "engine/shading/albedo.hpp"
 #include "engine/shading/ggx.hpp"
 
 namespace bolt::pathtrace {

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/shading/radiance.hpp"
+#include "engine/shading/environment.hpp"
 
 namespace bolt::pathtrace {
 

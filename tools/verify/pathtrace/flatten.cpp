@@ -4,7 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/assets/topology.hpp"
+#include "engine/assets/model.hpp"
 
 namespace bolt::pathtrace {
 

@@ -7,11 +7,11 @@
 
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/image.hpp"
-#include "engine/base/console.hpp"
 #include "engine/base/file.hpp"
+#include "engine/base/result.hpp"
+#include "tools/verify/pathtrace/camera.hpp"
 #include "tools/verify/pathtrace/options.hpp"
 #include "tools/verify/pathtrace/render.hpp"
-#include "tools/verify/pathtrace/tone.hpp"
 
 namespace {
 

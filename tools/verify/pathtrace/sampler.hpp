@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
-#include "engine/shading/radical_inverse.hpp"
+#include "engine/shading/ggx.hpp"
 
 namespace bolt::pathtrace {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "tools/assets/models/glyphs.hpp"
-#include "tools/assets/models/reducer/casing_parts.hpp"
+#include "tools/assets/models/reducer/casing.hpp"
 #include "tools/assets/models/reducer/shapes.hpp"
 
 namespace bolt::models::reducer {

@@ -1,6 +1,7 @@
 #include "tools/assets/models/reducer/shapes.hpp"
 
 #include <fmt/format.h>
+
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Common.hxx>

@@ -1,0 +1,154 @@
+#include "engine/audio/sink.hpp"
+
+#include <AL/al.h>
+#include <AL/alc.h>
+#include <AL/alext.h>
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace bolt::audio {
+
+namespace {
+
+struct CloseDevice {
+    void operator()(ALCdevice* device) const { alcCloseDevice(device); }
+};
+struct DestroyContext {
+    void operator()(ALCcontext* context) const { alcDestroyContext(context); }
+};
+using Device = std::unique_ptr<ALCdevice, CloseDevice>;
+using Context = std::unique_ptr<ALCcontext, DestroyContext>;
+
+tl::unexpected<Error> no_sound(std::string what) {
+    return fail(ErrorCode::no_device, std::move(what),
+                "expected a sound card, PulseAudio or PipeWire; ALSOFT_DRIVERS chooses among them");
+}
+
+tl::unexpected<Error> gone() {
+    Error error;
+    error.code = ErrorCode::no_device;
+    error.what = "the sound device was disconnected";
+    error.lost = true;
+    return fail(std::move(error));
+}
+
+void say_nothing(const char*, int, const char*, int, const char*, ...) {}
+
+// Without a sound card, ALSA prints eight lines to the console; silence them, because the error is reported
+// once. ALSA is present only if OpenAL loaded it, so it is not linked.
+void hush_alsa() {
+    void* alsa = dlopen("libasound.so.2", RTLD_LAZY);
+    if (alsa == nullptr) return;
+    using Handler = void (*)(const char*, int, const char*, int, const char*, ...);
+    using Set = int (*)(Handler);
+    if (auto* set = reinterpret_cast<Set>(dlsym(alsa, "snd_lib_error_set_handler")); set != nullptr)
+        set(say_nothing);
+}
+
+class OpenAl final : public Sink {
+  public:
+    OpenAl(Device device, Context context) : device_(std::move(device)), context_(std::move(context)) {}
+    ~OpenAl() override {
+        if (source_ != 0) {
+            alSourceStop(source_);
+            alSourcei(source_, AL_BUFFER, 0);
+            alDeleteSources(1, &source_);
+        }
+        if (buffers_[0] != 0) alDeleteBuffers(static_cast<ALsizei>(buffers_.size()), buffers_.data());
+        set_context(nullptr);
+    }
+
+    Status prepare() {
+        if (!set_context(context_.get())) return no_sound("OpenAL cannot activate its context");
+        alGetError();
+        alGenBuffers(static_cast<ALsizei>(buffers_.size()), buffers_.data());
+        alGenSources(1, &source_);
+        if (alGetError() != AL_NO_ERROR) return no_sound("OpenAL cannot create a source");
+        alSourcei(source_, AL_SOURCE_RELATIVE, AL_TRUE);  // independent of the listener's position
+        free_.assign(buffers_.begin(), buffers_.end());
+        return {};
+    }
+
+    [[nodiscard]] std::string name() const override {
+        const ALCchar* name = alcGetString(device_.get(), ALC_DEVICE_SPECIFIER);
+        return name != nullptr ? name : "OpenAL";
+    }
+
+    Result<std::size_t> room() override {
+        ALCint connected = ALC_TRUE;
+        if (alcIsExtensionPresent(device_.get(), "ALC_EXT_disconnect") == ALC_TRUE)
+            alcGetIntegerv(device_.get(), ALC_CONNECTED, 1, &connected);
+        if (connected != ALC_TRUE) return gone();
+        ALint done = 0;
+        alGetSourcei(source_, AL_BUFFERS_PROCESSED, &done);
+        for (; done > 0; --done) {
+            ALuint buffer = 0;
+            alSourceUnqueueBuffers(source_, 1, &buffer);
+            if (alGetError() != AL_NO_ERROR) return gone();
+            free_.push_back(buffer);
+        }
+        play_on();
+        return free_.size();
+    }
+
+    Status play(std::span<const float, block> samples) override {
+        if (free_.empty()) return fail(ErrorCode::failed, "the sound device has no free buffer");
+        std::array<std::int16_t, block> pcm{};
+        std::transform(samples.begin(), samples.end(), pcm.begin(), to_pcm16);
+        const ALuint buffer = free_.back();
+        alBufferData(buffer, AL_FORMAT_MONO16, pcm.data(), static_cast<ALsizei>(sizeof pcm), rate);
+        alSourceQueueBuffers(source_, 1, &buffer);
+        if (alGetError() != AL_NO_ERROR) return gone();
+        free_.pop_back();
+        play_on();
+        return {};
+    }
+
+    Status set_volume(double volume) override {
+        alSourcef(source_, AL_GAIN, static_cast<ALfloat>(volume));
+        return {};
+    }
+
+  private:
+    // Start playback at first and after an underrun, which stops the source; wait until the queue is full to
+    // avoid another underrun.
+    void play_on() {
+        ALint state = AL_INITIAL;
+        alGetSourcei(source_, AL_SOURCE_STATE, &state);
+        if (state != AL_PLAYING && free_.empty()) alSourcePlay(source_);
+    }
+
+    // Set the context for this thread only if OpenAL supports it, so that other contexts are not disturbed.
+    bool set_context(ALCcontext* context) {
+        if (alcIsExtensionPresent(nullptr, "ALC_EXT_thread_local_context") != ALC_TRUE)
+            return alcMakeContextCurrent(context) == ALC_TRUE;
+        using Set = ALCboolean (*)(ALCcontext*);
+        const auto set = reinterpret_cast<Set>(alcGetProcAddress(nullptr, "alcSetThreadContext"));
+        return set(context) == ALC_TRUE;
+    }
+
+    Device device_;
+    Context context_;
+    std::array<ALuint, in_queue> buffers_{};
+    std::vector<ALuint> free_;
+    ALuint source_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Sink>> open_openal() {
+    hush_alsa();
+    Device device(alcOpenDevice(nullptr));
+    if (!device) return no_sound("no sound device can be opened");
+    const std::array<ALCint, 3> wished{ALC_FREQUENCY, rate, 0};
+    Context context(alcCreateContext(device.get(), wished.data()));
+    if (!context) return no_sound("the sound device accepts no context");
+    auto sink = std::make_unique<OpenAl>(std::move(device), std::move(context));
+    BOLT_TRY(sink->prepare());
+    return sink;
+}
+
+}  // namespace bolt::audio

@@ -1,0 +1,110 @@
+// A ring buffer from one writer thread to one reader thread that loses nothing. Neither side blocks or
+// allocates; a push into a full ring fails and leaves the value with the writer.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace bolt {
+
+// Both counters grow without being reduced: their difference is the number of stored values, also after an
+// overflow.
+template <class T>
+class SpscRing {
+  public:
+    // `capacity` is rounded up to a power of two.
+    explicit SpscRing(std::size_t capacity) : slots_(std::bit_ceil(capacity)) {}
+    SpscRing(const SpscRing&) = delete;
+    SpscRing& operator=(const SpscRing&) = delete;
+
+    [[nodiscard]] std::size_t capacity() const { return slots_.size(); }
+
+    // Writer only. Returns false if the ring is full; the value is then not stored.
+    [[nodiscard]] bool push(const T& value) {
+        const std::size_t at = pushed_.load(std::memory_order_relaxed);
+        if (at - seen_popped_ == slots_.size()) {
+            seen_popped_ = popped_.load(std::memory_order_acquire);
+            if (at - seen_popped_ == slots_.size()) return false;
+        }
+        slots_[at & (slots_.size() - 1)] = value;
+        pushed_.store(at + 1, std::memory_order_release);
+        return true;
+    }
+
+    // Reader only. Returns false if the ring is empty.
+    [[nodiscard]] bool pop(T& value) {
+        const std::size_t at = popped_.load(std::memory_order_relaxed);
+        if (at == seen_pushed_) {
+            seen_pushed_ = pushed_.load(std::memory_order_acquire);
+            if (at == seen_pushed_) return false;
+        }
+        value = std::move(slots_[at & (slots_.size() - 1)]);
+        popped_.store(at + 1, std::memory_order_release);
+        return true;
+    }
+
+    // The number of stored values. Either side may call it; the other side may change the number meanwhile.
+    [[nodiscard]] std::size_t size() const {
+        const std::size_t popped = popped_.load(std::memory_order_acquire);
+        return pushed_.load(std::memory_order_acquire) - popped;
+    }
+
+  private:
+    static constexpr std::size_t cache_line = 64;  // bytes, see triple_buffer.hpp
+    std::vector<T> slots_;
+    alignas(cache_line) std::atomic<std::size_t> pushed_{0};
+    std::size_t seen_popped_ = 0;  // the writer's copy, refreshed only when the ring seems full
+    alignas(cache_line) std::atomic<std::size_t> popped_{0};
+    std::size_t seen_pushed_ = 0;  // the reader's copy, refreshed only when the ring seems empty
+};
+
+// The latest value, from one writer thread to one reader thread; neither ever blocks. Values that the reader
+// does not poll in time are overwritten; use spsc_ring.hpp for values that must not be lost.
+
+// Three slots: the writer's, the reader's, and one in the middle that each side exchanges with its own. The
+// exchange is the only shared operation. Its release publishes the written slot; its acquire ensures that the
+// other side has finished with the slot that comes back.
+template <class T>
+class TripleBuffer {
+  public:
+    explicit TripleBuffer(const T& initial = T{}) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
+    TripleBuffer(const TripleBuffer&) = delete;
+    TripleBuffer& operator=(const TripleBuffer&) = delete;
+
+    // Writer only. The slot holds an older value until it is filled. The reader sees nothing before
+    // publish().
+    T& slot() { return slots_[writers_].value; }
+    void publish() { writers_ = middle_.exchange(writers_ | unseen, std::memory_order_acq_rel) & index; }
+    void write(const T& value) {
+        slot() = value;
+        publish();
+    }
+
+    // Reader only. Returns true if latest() now gives a newer value.
+    bool update() {
+        if ((middle_.load(std::memory_order_relaxed) & unseen) == 0) return false;
+        readers_ = middle_.exchange(readers_, std::memory_order_acq_rel) & index;
+        return true;
+    }
+    const T& latest() const { return slots_[readers_].value; }
+
+  private:
+    static constexpr std::uint8_t index = 3, unseen = 4;
+    static constexpr std::size_t cache_line = 64;  // bytes; avoids false sharing between the two cores
+    struct alignas(cache_line) Slot {
+        T value;
+    };
+    static_assert(std::atomic<std::uint8_t>::is_always_lock_free);
+
+    std::array<Slot, 3> slots_;
+    alignas(cache_line) std::atomic<std::uint8_t> middle_{1};
+    alignas(cache_line) std::uint8_t writers_ = 0;
+    alignas(cache_line) std::uint8_t readers_ = 2;
+};
+
+}  // namespace bolt

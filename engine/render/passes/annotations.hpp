@@ -1,0 +1,71 @@
+// Outlines of marked objects, visible through occluders: draws their shapes as flat marks, then searches a
+// ring around every pixel. Works only in the area that the marks cover.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "engine/render/passes/pass.hpp"
+#include "engine/render/scene.hpp"
+#include "engine/text/atlas.hpp"
+#include "shaders/labels.h"
+
+namespace bolt::render {
+
+class OutlinePass {
+  public:
+    static Result<OutlinePass> create(const PassMaker& maker, std::uint32_t views);
+
+    // Blends the lines into `targets.picture`, a colour target before and after.
+    Status draw(PassContext& context, RenderTargets& targets, const DrawList& list);
+
+  private:
+    Status draw_marks(PassContext& context, const RenderTargets& targets, const DrawList& list);
+
+    gpu::Pipeline marks_, lines_;
+    gpu::Sampler clamped_;
+};
+
+// Labels prepared for the GPU: one quad per glyph, the farthest label first.
+
+struct LabelBatch {
+    std::vector<shared::LabelFrame> labels;
+    std::vector<shared::LabelQuad> quads;
+};
+
+// Returns nullopt if the atlas is full. Labels are sorted by depth for `clip_from_world`, the first eye.
+std::optional<LabelBatch> make_label_batch(std::span<const Label> labels, const glm::mat4& clip_from_world,
+                                           const text::Fonts& fonts, text::Atlas& atlas);
+
+// Blends labels over the finished picture. The scene's depth determines where parts hide them.
+
+class LabelPass {
+  public:
+    static Result<LabelPass> create(const PassMaker& maker);
+
+    // Call it once per frame, before any view is drawn. Fonts are loaded for the first label.
+    Status prepare(PassContext& context, std::span<const Eye> eyes);
+
+    // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in use `depth_read`.
+    Status draw(PassContext& context, const RenderTargets& targets);
+
+  private:
+    Status load(gpu::Device& device);
+    Result<LabelBatch> batch(const Scene& scene, const Eye& eye);
+    Status upload(PassContext& context);
+    Result<const gpu::Pipeline*> pipeline(gpu::Device& device, std::uint32_t views);
+
+    const gpu::PipelineCache* cache_ = nullptr;
+    const Shaders* shaders_ = nullptr;
+    std::map<std::uint32_t, gpu::Pipeline> pipelines_;  // by number of views
+    gpu::Sampler smooth_, nearest_;
+    text::Fonts fonts_;
+    std::unique_ptr<text::Atlas> atlas_;
+    gpu::Image image_;   // the glyph atlas
+    bool fresh_ = true;  // the image has no contents yet
+    gpu::TransientRange labels_, quads_;
+    std::uint32_t count_ = 0;  // quads in this frame
+};
+
+}  // namespace bolt::render

@@ -1,0 +1,257 @@
+#include "engine/render/passes/shadows.hpp"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "engine/base/hash.hpp"
+#include "engine/gpu/resources.hpp"
+#include "engine/render/camera.hpp"
+
+namespace bolt::render {
+
+namespace {
+
+using gpu::ResourceUse;
+
+// Hashes everything that determines the static shadow map; never 0, which stands for "no map yet".
+std::uint64_t static_map_key(const Scene& scene, const glm::mat4& shadow_from_world) {
+    Fnv1a hash;
+    const auto add = [&](const void* data, std::size_t size) {
+        hash.add(std::span(static_cast<const std::byte*>(data), size));
+    };
+    add(glm::value_ptr(shadow_from_world), sizeof shadow_from_world);
+    for (const Object& object : scene.objects) {
+        if (!casts_shadow(object) || object.moves) continue;
+        add(&object.model, sizeof object.model);
+        add(&object.mesh, sizeof object.mesh);
+        add(glm::value_ptr(object.world), sizeof object.world);
+        if (object.deformation == nullptr) continue;
+        const Deformation& bent = *object.deformation;
+        add(bent.joints.data(), bent.joints.size() * sizeof(glm::mat4));
+        add(bent.weights.data(), bent.weights.size() * sizeof(float));
+    }
+    return hash.value() != 0 ? hash.value() : 1;
+}
+
+Scene casters(const Scene& scene, bool moving) {
+    Scene some;
+    for (const Object& object : scene.objects)
+        if (casts_shadow(object) && object.moves == moving) some.objects.push_back(object);
+    return some;
+}
+
+Result<gpu::Image> make_map(gpu::Device& device, std::uint32_t size) {
+    gpu::ImageInfo info;
+    info.format = depth_format;
+    info.extent = {size, size};
+    info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return gpu::Image::create(device, info);
+}
+
+void copy_map(VkCommandBuffer commands, const gpu::Image& from, const gpu::Image& to) {
+    gpu::image_barrier(commands, from.get(), ResourceUse::depth_read, ResourceUse::transfer_from,
+                       depth_range);
+    gpu::image_barrier_discarding(commands, to.get(), ResourceUse::depth_read, ResourceUse::transfer_to,
+                                  depth_range);
+    VkImageCopy region{};
+    region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+    region.extent = {from.info().extent.width, from.info().extent.height, 1};
+    vkCmdCopyImage(commands, from.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.get(),
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    gpu::image_barrier(commands, from.get(), ResourceUse::transfer_from, ResourceUse::depth_read,
+                       depth_range);
+    gpu::image_barrier(commands, to.get(), ResourceUse::transfer_to, ResourceUse::depth_target, depth_range);
+}
+
+}  // namespace
+
+Result<ShadowPass> ShadowPass::create(const PassMaker& maker, std::uint32_t size) {
+    ShadowPass pass;
+    gpu::GraphicsInfo info;
+    info.vertex = &maker.shaders.at("shadow.vert");
+    info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0}};
+    info.strides = {sizeof(glm::vec3)};
+    info.depth = depth_format;
+    info.cull = VK_CULL_MODE_NONE;
+    info.depth_compare = VK_COMPARE_OP_LESS;
+    info.depth_clamp = true;
+    info.depth_bias_slope = 1.5F;
+    BOLT_TRY(assign(pass.pipeline_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)));
+    BOLT_TRY(assign(pass.still_, make_map(maker.device, size)));
+    BOLT_TRY(gpu::submit_and_wait(maker.device, [&](VkCommandBuffer commands) {
+        gpu::image_barrier(commands, pass.still_.get(), ResourceUse::undefined, ResourceUse::depth_read,
+                           depth_range);
+    }));
+    return pass;
+}
+
+bool ShadowPass::describe(const Scene& scene, shared::FrameData& frame) {
+    if (!casts_shadow(scene)) return false;
+    Scene still = casters(scene, false);
+    if (still.objects.empty()) still = casters(scene, true);
+    frame.shadow_from_world = shadow_view(bounds(still), glm::vec3(scene.lights.front().light.direction));
+    return true;
+}
+
+Status ShadowPass::draw(PassContext& context) {
+    drawn_ = false;
+    if (context.shared.shadows == 0) return {};
+    // Level-of-detail errors below the size of a texel are not visible.
+    const glm::mat4& m = context.shared.shadow_from_world;
+    DetailLimits detail;
+    detail.allowed_m = 1.0F / (glm::length(glm::vec3(m[0].x, m[1].x, m[2].x)) * 0.5F *
+                               static_cast<float>(still_.info().extent.width));
+    const std::uint64_t key = static_map_key(context.scene, m);
+    const DrawList moving = make_draw_list(casters(context.scene, true), {}, detail, context.deformed);
+    moving_ = !moving.draws.empty();
+    if (key == still_key_ && !moving_) return {};
+    context.frame.begin_timing("shadow");
+    if (key != still_key_) {
+        still_key_ = 0;
+        const DrawList list = make_draw_list(casters(context.scene, false), {}, detail, context.deformed);
+        gpu::image_barrier_discarding(context.frame.commands(), still_.get(), ResourceUse::depth_read,
+                                      ResourceUse::depth_target, depth_range);
+        BOLT_TRY(draw_into(context, still_, list, true));
+        still_key_ = key;
+        drawn_ = true;
+    }
+    if (moving_) {
+        if (all_.get() == VK_NULL_HANDLE) {
+            BOLT_TRY(assign(all_, make_map(context.device, still_.info().extent.width)));
+            gpu::image_barrier(context.frame.commands(), all_.get(), ResourceUse::undefined,
+                               ResourceUse::depth_read, depth_range);
+        }
+        copy_map(context.frame.commands(), still_, all_);
+        BOLT_TRY(draw_into(context, all_, moving, false));
+    }
+    context.frame.end_timing();
+    return {};
+}
+
+Status ShadowPass::draw_into(PassContext& context, const gpu::Image& target, const DrawList& list,
+                             bool clear) {
+    BOLT_TRY_ASSIGN(auto instances, upload_transient<shared::Instance>(context.frame, list.instances));
+    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline_, 0));
+    BOLT_TRY_ASSIGN(auto set, writer.range(0, context.frame_block).range(1, instances).finish());
+    const VkCommandBuffer commands = context.frame.commands();
+    VkRenderingAttachmentInfo depth = attachment(
+        target.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
+    depth.clearValue.depthStencil.depth = 1.0F;
+    const VkRenderingInfo rendering = rendering_info(target.info().extent, 1, {}, &depth);
+    vkCmdBeginRendering(commands, &rendering);
+    set_area(commands, target.info().extent);
+    bind(commands, pipeline_, set);
+    draw_all(commands, list, [](const Draw&) { return true; });
+    vkCmdEndRendering(commands);
+    gpu::image_barrier(commands, target.get(), ResourceUse::depth_target, ResourceUse::depth_read,
+                       depth_range);
+    return {};
+}
+
+using gpu::ResourceUse;
+
+namespace {
+
+template <class Bind>
+Result<VkDescriptorSet> make_set(PassContext& context, const gpu::Pipeline& pipeline, const Bind& bind_to) {
+    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 0));
+    bind_to(writer);
+    return writer.finish();
+}
+
+}  // namespace
+
+Result<OcclusionPass> OcclusionPass::create(const PassMaker& maker, std::uint32_t views) {
+    OcclusionPass pass;
+    gpu::GraphicsInfo info;
+    draw_views(info, views);
+    info.vertex = &maker.shaders.at("screen.vert");
+    info.cull = VK_CULL_MODE_NONE;
+    info.depth = depth_format;
+    const auto make = [&](gpu::Pipeline& to, const char* fragment) {
+        info.fragment = &maker.shaders.at(fragment);
+        return assign(to, gpu::make_graphics_pipeline(maker.device, maker.cache, info));
+    };
+    info.depth_compare = VK_COMPARE_OP_ALWAYS;
+    BOLT_TRY(make(pass.shrink_, "shrink.frag"));
+    info.depth_compare = VK_COMPARE_OP_LESS;  // farther away than the drawn geometry
+    info.depth_write = false;
+    info.colors = {occlusion_format};
+    BOLT_TRY(make(pass.slices_, "occlusion.frag"));
+    BOLT_TRY(make(pass.smooth_, "smooth.frag"));
+    gpu::SamplerInfo nearest;
+    nearest.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    nearest.filter = VK_FILTER_NEAREST;
+    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(maker.device, nearest)));
+    return pass;
+}
+
+Status OcclusionPass::shrink(PassContext& context, const RenderTargets& targets) {
+    BOLT_TRY_ASSIGN(const auto set, make_set(context, shrink_, [&](gpu::DescriptorWriter& w) {
+                        w.image(3, targets.depth.view(), nearest_.get(),
+                                VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+                    }));
+    const VkCommandBuffer commands = context.frame.commands();
+    const gpu::Image& small = targets.small_depth;
+    gpu::image_barrier_discarding(commands, small.get(), ResourceUse::depth_read, ResourceUse::depth_target,
+                                  depth_range);
+    const VkRenderingAttachmentInfo depth =
+        attachment(small.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                   VK_ATTACHMENT_STORE_OP_STORE);
+    const VkRenderingInfo rendering = rendering_info(small.info().extent, context.views, {}, &depth);
+    vkCmdBeginRendering(commands, &rendering);
+    set_area(commands, small.info().extent);
+    bind(commands, shrink_, set);
+    draw_screen(commands);
+    vkCmdEndRendering(commands);
+    gpu::image_barrier(commands, small.get(), ResourceUse::depth_target, ResourceUse::depth_read,
+                       depth_range);
+    return {};
+}
+
+void OcclusionPass::fill(PassContext& context, const RenderTargets& targets, const gpu::Pipeline& pipeline,
+                         VkDescriptorSet set, const gpu::Image& target) {
+    const VkCommandBuffer commands = context.frame.commands();
+    gpu::image_barrier_discarding(commands, target.get(), ResourceUse::sampled, ResourceUse::color_target);
+    VkRenderingAttachmentInfo color = attachment(target.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                                 VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
+    color.clearValue.color = {{1.0F, 1.0F, 1.0F, 1.0F}};
+    const VkRenderingAttachmentInfo depth =
+        attachment(targets.small_depth.view(), VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+                   VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
+    const VkRenderingInfo rendering =
+        rendering_info(target.info().extent, context.views, {&color, 1}, &depth);
+    vkCmdBeginRendering(commands, &rendering);
+    set_area(commands, target.info().extent);
+    bind(commands, pipeline, set);
+    draw_screen(commands);
+    vkCmdEndRendering(commands);
+    gpu::image_barrier(commands, target.get(), ResourceUse::color_target, ResourceUse::sampled);
+}
+
+Status OcclusionPass::draw(PassContext& context, RenderTargets& targets) {
+    BOLT_TRY(add_occlusion_targets(context.device, targets));
+    const VkSampler nearest = nearest_.get();
+    constexpr VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+    BOLT_TRY_ASSIGN(const auto slices_set, make_set(context, slices_, [&](gpu::DescriptorWriter& w) {
+                        w.range(0, context.frame_block)
+                            .image(3, targets.small_depth.view(), nearest, depth_layout)
+                            .image(5, targets.surfaces.view(), nearest);
+                    }));
+    BOLT_TRY_ASSIGN(const auto smooth_set, make_set(context, smooth_, [&](gpu::DescriptorWriter& w) {
+                        w.range(0, context.frame_block)
+                            .image(3, targets.small_depth.view(), nearest, depth_layout)
+                            .image(4, targets.raw_occlusion.view(), nearest)
+                            .image(5, targets.surfaces.view(), nearest);
+                    }));
+
+    context.frame.begin_timing("occlusion");
+    BOLT_TRY(shrink(context, targets));
+    fill(context, targets, slices_, slices_set, targets.raw_occlusion);
+    fill(context, targets, smooth_, smooth_set, targets.occlusion);
+    context.frame.end_timing();
+    return {};
+}
+
+}  // namespace bolt::render

@@ -1,0 +1,342 @@
+#include "game/analysis/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/math.hpp"
+#include "engine/base/nearest.hpp"
+#include "game/analysis/session_data.hpp"
+
+namespace bolt::analysis {
+
+namespace {
+constexpr std::size_t most_samples = std::size_t{1} << 18U;
+constexpr double least_step = 1e-6;  // rad
+constexpr double least_turn = to_radians(1.0);
+}  // namespace
+
+AdvanceBuilder::AdvanceBuilder(joint::Direction direction)
+    : sign_(direction == joint::Direction::tighten ? 1.0 : -1.0), step_(least_step) {
+    curve_.direction = direction;
+}
+
+void AdvanceBuilder::restart(double nut_angle, double torque, joint::Stage stage) {
+    curve_.angle.assign(1, 0.0);
+    curve_.torque.assign(1, torque);
+    curve_.stage.assign(1, stage);
+    curve_.passed_over = 0;
+    origin_ = nut_angle;
+    anchor_ = 0.0;
+}
+
+// Of each pair of samples the one with more torque is kept, so that peaks stay.
+void AdvanceBuilder::thin() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < curve_.size(); i += 2, ++kept) {
+        const bool second =
+            i + 1 < curve_.size() && std::abs(curve_.torque[i + 1]) > std::abs(curve_.torque[i]);
+        const std::size_t from = second ? i + 1 : i;
+        curve_.angle[kept] = curve_.angle[from];
+        curve_.torque[kept] = curve_.torque[from];
+        curve_.stage[kept] = curve_.stage[from];
+    }
+    curve_.angle.resize(kept);
+    curve_.torque.resize(kept);
+    curve_.stage.resize(kept);
+    step_ = std::max(2.0 * step_, curve_.angle.back() / static_cast<double>(most_samples));
+}
+
+void AdvanceBuilder::add(double nut_angle, double torque, joint::Stage stage) {
+    if (!std::isfinite(nut_angle) || !std::isfinite(torque)) return;
+    const bool loosening = curve_.direction == joint::Direction::loosen;
+    if (curve_.empty() || (loosening && nut_angle > origin_ + step_)) {
+        restart(nut_angle, torque, stage);
+        return;
+    }
+    const double turned = sign_ * (nut_angle - origin_);
+    if (curve_.size() == 1 && turned <= step_) {
+        if (sign_ * torque > sign_ * curve_.torque[0]) curve_.torque[0] = torque;
+        ++curve_.passed_over;
+        return;
+    }
+    if (turned <= anchor_ + step_) {
+        // Within a step that has grown, the sample with more torque stands for it: peaks stay.
+        const bool further = turned > curve_.angle.back() + least_step;
+        if (further && std::abs(torque) > std::abs(curve_.torque.back())) {
+            curve_.angle.back() = turned;
+            curve_.torque.back() = torque;
+            curve_.stage.back() = stage;
+        }
+        if (!further) ++curve_.passed_over;
+        return;
+    }
+    if (curve_.size() == most_samples) thin();
+    anchor_ = turned;
+    curve_.angle.push_back(turned);
+    curve_.torque.push_back(torque);
+    curve_.stage.push_back(stage);
+}
+
+Curve AdvanceBuilder::take() { return std::move(curve_); }
+
+Curve advance_curve(std::span<const double> angle, std::span<const double> torque,
+                    joint::Direction direction) {
+    // A rig counts its angle upwards whichever way it turns, or as we do: what it ran through says which.
+    const std::size_t count = std::min(angle.size(), torque.size());
+    if (count == 0) return {};
+    const double counts_up = angle[count - 1] >= angle[0] ? 1.0 : -1.0;
+    const double sign = direction == joint::Direction::tighten ? 1.0 : -1.0;
+    AdvanceBuilder builder(direction);
+    for (std::size_t i = 0; i < count; ++i)
+        builder.add(sign * counts_up * (angle[i] - angle[0]), torque[i], joint::Stage::navigation);
+    Curve curve = builder.take();
+    curve.stage.clear();
+    return curve;
+}
+
+Result<std::vector<std::optional<Curve>>> advance_curves(const session::Reader& session, std::size_t joints,
+                                                         joint::Direction direction) {
+    std::vector<AdvanceBuilder> builders(joints, AdvanceBuilder(direction));
+    BOLT_TRY(session.for_each_chunk([&](std::uint64_t, std::span<const session::TickRecord> ticks) {
+        for (const session::TickRecord& tick : ticks) {
+            if (tick.joint < 0 || static_cast<std::size_t>(tick.joint) >= joints) continue;
+            const auto stage = static_cast<joint::Stage>(std::min<int>(tick.stage, joint::stage_count - 1));
+            builders[static_cast<std::size_t>(tick.joint)].add(
+                static_cast<double>(tick.nut_angle), static_cast<double>(tick.wrench_torque), stage);
+        }
+    }));
+    std::vector<std::optional<Curve>> curves;
+    for (AdvanceBuilder& builder : builders) {
+        Curve curve = builder.take();
+        const double sign = direction == joint::Direction::tighten ? 1.0 : -1.0;
+        const bool loaded =
+            std::any_of(curve.torque.begin(), curve.torque.end(), [&](double t) { return sign * t > 0.0; });
+        const bool turned = !curve.empty() && curve.angle.back() >= least_turn;
+        curves.push_back(loaded && turned ? std::optional<Curve>(std::move(curve)) : std::nullopt);
+    }
+    return curves;
+}
+
+namespace {
+
+// Angle at which the torque first passes the level, between samples.
+double passing(const analysis::Curve& curve, double level) {
+    std::size_t i = 0;
+    while (i < curve.size() && curve.torque[i] < level) ++i;
+    if (i == 0) return curve.angle.front();
+    if (i == curve.size()) return curve.angle.back();
+    const double rise = curve.torque[i] - curve.torque[i - 1];
+    const double part = rise > 0.0 ? (level - curve.torque[i - 1]) / rise : 1.0;
+    return curve.angle[i - 1] + part * (curve.angle[i] - curve.angle[i - 1]);
+}
+
+double highest(const analysis::Curve& curve) {
+    return *std::max_element(curve.torque.begin(), curve.torque.end());
+}
+
+std::size_t breakaway(const analysis::Curve& curve) {
+    return static_cast<std::size_t>(std::min_element(curve.torque.begin(), curve.torque.end()) -
+                                    curve.torque.begin());
+}
+
+}  // namespace
+
+Result<Alignment> align(const analysis::Curve& ours, const analysis::Curve& measured, double share) {
+    if (ours.empty() || measured.empty()) return fail(ErrorCode::failed, "there is no curve to align");
+    Alignment a;
+    if (measured.direction == joint::Direction::loosen) {
+        const std::size_t our = breakaway(ours), their = breakaway(measured);
+        a.our_angle = ours.angle[our];
+        a.measured_angle = measured.angle[their];
+        a.torque = measured.torque[their];
+    } else {
+        const double end = std::min(highest(ours), highest(measured));
+        if (!(end > 0.0))
+            return fail(ErrorCode::failed, "the curves have no torque in common to be aligned by",
+                        "tightening torque in both");
+        a.torque = share * end;
+        a.our_angle = passing(ours, a.torque);
+        a.measured_angle = passing(measured, a.torque);
+    }
+    a.shift = a.our_angle - a.measured_angle;
+    return a;
+}
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+// An angle that was shifted there and back is the same to this, rad.
+constexpr double slack = 1e-9;
+
+struct Reading {
+    double torque = 0.0;
+    joint::Stage stage = joint::Stage::navigation;
+};
+
+Reading read_at(const analysis::Curve& curve, double angle) {
+    const auto after = std::upper_bound(curve.angle.begin(), curve.angle.end(), angle);
+    const auto i = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(after - curve.angle.begin(), 1, std::ssize(curve.angle) - 1));
+    const double part =
+        std::clamp((angle - curve.angle[i - 1]) / (curve.angle[i] - curve.angle[i - 1]), 0.0, 1.0);
+    return {curve.torque[i - 1] + part * (curve.torque[i] - curve.torque[i - 1]),
+            curve.stage[part < 1.0 ? i - 1 : i]};
+}
+
+// While collecting, mape holds the sum.
+void collect(StageError& error, double relative) {
+    ++error.count;
+    error.mre = std::max(error.mre, relative);
+    error.mape += relative;
+}
+
+void finish(StageError& error) {
+    error.mape = error.count > 0 ? error.mape / static_cast<double>(error.count) : nan;
+    if (error.count == 0) error.mre = nan;
+}
+
+StageError pool(const StageError& a, const StageError& b) {
+    StageError sum;
+    sum.below = a.below + b.below;
+    for (const StageError& e : {a, b}) {
+        if (e.count == 0) continue;
+        sum.count += e.count;
+        sum.mre = std::max(sum.mre, e.mre);
+        sum.mape += e.mape * static_cast<double>(e.count);
+    }
+    finish(sum);
+    return sum;
+}
+
+}  // namespace
+
+Errors errors_of(const analysis::Curve& ours, const analysis::Curve& measured, double shift, double floor) {
+    Errors errors;
+    errors.floor = floor;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        const double angle = measured.angle[i] + shift;
+        const bool inside =
+            ours.size() > 1 && angle >= ours.angle.front() - slack && angle <= ours.angle.back() + slack;
+        if (!inside) {
+            ++errors.outside;
+            continue;
+        }
+        const Reading reading = read_at(ours, angle);
+        const double actual = measured.torque[i];
+        StageError& stage = errors.stage[static_cast<std::size_t>(reading.stage)];
+        if (std::abs(actual) < floor || actual == 0.0) {
+            ++stage.below;
+            ++errors.all.below;
+            continue;
+        }
+        const double relative = std::abs(reading.torque - actual) / std::abs(actual);
+        collect(stage, relative);
+        collect(errors.all, relative);
+    }
+    for (StageError& stage : errors.stage) finish(stage);
+    finish(errors.all);
+    return errors;
+}
+
+Errors pool(const Errors& a, const Errors& b) {
+    Errors sum;
+    for (std::size_t i = 0; i < sum.stage.size(); ++i) sum.stage[i] = pool(a.stage[i], b.stage[i]);
+    sum.all = pool(a.all, b.all);
+    sum.outside = a.outside + b.outside;
+    sum.floor = std::max(a.floor, b.floor);
+    return sum;
+}
+
+double floor_of(const analysis::Curve& measured, double share) {
+    double highest = 0.0;
+    for (const double torque : measured.torque) highest = std::max(highest, std::abs(torque));
+    return share * highest;
+}
+
+namespace {
+
+std::vector<std::string> ids_of(const content::Assembly& assembly) {
+    std::vector<std::string> ids;
+    for (const content::AssemblyJoint& joint : assembly.joints) ids.push_back(joint.design.id);
+    return ids;
+}
+
+tl::unexpected<Error> unknown_joint(std::string_view joint, const std::vector<std::string>& ids) {
+    const std::string near = nearest(joint, ids);
+    return fail(ErrorCode::usage, fmt::format("there is no joint '{}' in the session", joint),
+                near.empty() ? fmt::format("one of {}", fmt::join(ids, ", ")) : fmt::format("'{}'", near));
+}
+
+std::string_view verb(joint::Direction direction) {
+    return direction == joint::Direction::tighten ? "tightened" : "loosened";
+}
+
+}  // namespace
+
+std::vector<MeasuredCurve> measured_curves(const Measured& measured) {
+    std::vector<MeasuredCurve> curves;
+    for (const Cycle& cycle : measured.cycles)
+        curves.push_back(
+            {cycle.name, analysis::advance_curve(cycle.angle, cycle.torque, measured.direction)});
+    return curves;
+}
+
+Result<JointComparison> compare_joint(std::string joint, analysis::Curve ours,
+                                      const std::vector<MeasuredCurve>& measured, const Options& options) {
+    JointComparison result;
+    result.joint = std::move(joint);
+    result.ours = std::move(ours);
+    for (const MeasuredCurve& cycle : measured) {
+        CycleComparison one;
+        BOLT_TRY_ASSIGN(const auto alignment, align(result.ours, cycle.curve, options.share));
+        one.alignment = alignment;
+        one.errors = errors_of(result.ours, cycle.curve, one.alignment.shift,
+                               floor_of(cycle.curve, options.floor_share));
+        result.errors = pool(result.errors, one.errors);
+        result.cycles.push_back(one);
+    }
+    return result;
+}
+
+Result<Comparison> compare(const session::Reader& session, const Measured& measured, std::string_view joint,
+                           const Options& options) {
+    BOLT_TRY_ASSIGN(const auto assembly, analysis::stored_assembly(session));
+    const std::vector<std::string> ids = ids_of(assembly);
+    if (!joint.empty() && std::find(ids.begin(), ids.end(), joint) == ids.end())
+        return unknown_joint(joint, ids);
+
+    BOLT_TRY_ASSIGN(auto ours, analysis::advance_curves(session, ids.size(), measured.direction));
+
+    Comparison result;
+    result.session = session.file();
+    result.title = title_of(assembly);
+    result.law = session.header().law;
+    result.variant = session.header().variant;
+    result.measured_file = measured.file;
+    result.source = measured.source;
+    result.direction = measured.direction;
+    result.measured = measured_curves(measured);
+    result.options = options;
+    for (std::size_t j = 0; j < ids.size(); ++j) {
+        if (!ours[j] || (!joint.empty() && ids[j] != joint)) continue;
+        BOLT_TRY_ASSIGN(auto one, compare_joint(ids[j], std::move(*ours[j]), result.measured, options));
+        result.errors = pool(result.errors, one.errors);
+        result.joints.push_back(std::move(one));
+    }
+    if (result.joints.empty()) {
+        Error error;
+        error.file = session.file();
+        error.what = joint.empty() ? fmt::format("no joint was {} in this session", verb(measured.direction))
+                                   : fmt::format("joint '{}' was not {} in this session", joint,
+                                                 verb(measured.direction));
+        error.expected =
+            fmt::format("a session in which it was {}, as in {}", verb(measured.direction), measured.file);
+        return fail(std::move(error));
+    }
+    return result;
+}
+
+}  // namespace bolt::analysis

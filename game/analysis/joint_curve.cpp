@@ -1,0 +1,191 @@
+#include "game/analysis/joint_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/base/math.hpp"
+
+namespace bolt::analysis {
+
+namespace {
+
+// A hand that holds still says nothing new; its last sample keeps the time.
+bool same_reading(const CurvePoint& a, const CurvePoint& b) {
+    return a.angle == b.angle && a.torque == b.torque && a.clamp == b.clamp && a.stage == b.stage &&
+           a.stroke == b.stroke;
+}
+
+}  // namespace
+
+CurveStream::CurveStream(std::size_t most_buckets) : most_(std::max<std::size_t>(2, most_buckets)) {}
+
+void CurveStream::join(Bucket& into, const Bucket& next) {
+    if (next.low.torque < into.low.torque) into.low = next.low;
+    if (next.high.torque > into.high.torque) into.high = next.high;
+    into.last = next.last;
+    into.count += next.count;
+}
+
+void CurveStream::halve() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < buckets_.size(); i += 2, ++kept) {
+        Bucket joined = buckets_[i];
+        if (i + 1 < buckets_.size()) join(joined, buckets_[i + 1]);
+        buckets_[kept] = joined;
+    }
+    buckets_.resize(kept);
+    share_ *= 2;
+}
+
+void CurveStream::add(const CurvePoint& point) {
+    if (!buckets_.empty() && same_reading(buckets_.back().last, point)) {
+        buckets_.back().last.time = point.time;
+        return;
+    }
+    const Bucket one{point, point, point, point, 1};
+    if (!buckets_.empty() && buckets_.back().count < share_) {
+        join(buckets_.back(), one);
+        return;
+    }
+    if (buckets_.size() == most_) halve();
+    buckets_.push_back(one);
+}
+
+std::vector<CurvePoint> CurveStream::points() const {
+    std::vector<CurvePoint> out;
+    for (const Bucket& bucket : buckets_) {
+        CurvePoint four[] = {bucket.first, bucket.low, bucket.high, bucket.last};
+        std::stable_sort(std::begin(four), std::end(four),
+                         [](const CurvePoint& a, const CurvePoint& b) { return a.time < b.time; });
+        for (const CurvePoint& p : four)
+            if (out.empty() || !same_reading(out.back(), p)) out.push_back(p);
+    }
+    return out;
+}
+
+namespace {
+
+constexpr std::size_t most_visits = 64;  // of one joint; what comes after is added to the last
+constexpr std::size_t most_spans = 64;
+constexpr double touch_angle = to_radians(0.5);
+constexpr double touch_torque = 0.01;  // N·m, where no snug torque is asked
+
+bool usable(const session::TickRecord& tick, std::size_t joints) {
+    return tick.joint >= 0 && static_cast<std::size_t>(tick.joint) < joints &&
+           tick.stage < joint::stage_count && std::isfinite(tick.nut_angle) &&
+           std::isfinite(tick.wrench_torque) && std::isfinite(tick.clamp);
+}
+
+void extend(std::vector<StageSpan>& spans, joint::Stage stage, double from, double to) {
+    if (!spans.empty() && (spans.back().stage == stage || spans.size() == most_spans))
+        spans.back().to = to;
+    else
+        spans.push_back({stage, from, to});
+}
+
+}  // namespace
+
+CurveBuilder::CurveBuilder(CurveRequest request)
+    : request_(std::move(request)),
+      sign_(request_.direction == joint::Direction::tighten ? 1.0 : -1.0),
+      joints_(request_.snug_torque.size()) {}
+
+void CurveBuilder::begin_visit(Building& joint, const CurvePoint& point, int pass) {
+    std::vector<Visit>& visits = joint.curve.visits;
+    if (visits.size() == most_visits) {
+        // Go on with the last one: its points so far are put back into the stream.
+        for (const CurvePoint& kept : visits.back().points) joint.stream.add(kept);
+        return;
+    }
+    Visit visit;
+    visit.pass = pass;
+    visit.begin = visit.end = point.time;
+    visit.begin_angle = point.angle;
+    visit.peak = point;
+    visits.push_back(std::move(visit));
+}
+
+void CurveBuilder::end_visit(Building& joint) {
+    if (joint.curve.visits.empty()) return;
+    joint.curve.visits.back().points = joint.stream.points();
+    joint.stream = CurveStream();
+    joint.gripped = false;
+}
+
+// The nut's first way through each angle tells the stages, the snug point and the run-down.
+void CurveBuilder::advance(Building& joint, const CurvePoint& point, double snug_torque) {
+    JointCurve& curve = joint.curve;
+    if (!joint.started) {
+        joint.started = true;
+        curve.start_angle = curve.end_angle = point.angle;
+        curve.run_down.torque_low = curve.run_down.torque_high = point.torque;
+    }
+    joint.contact = joint.contact || point.stage != joint::Stage::navigation;
+    if (!joint.contact) {
+        RunDown& run = curve.run_down;
+        run.time += request_.dt;
+        run.angle = std::max(run.angle, sign_ * (point.angle - curve.start_angle));
+        run.torque_low = std::min(run.torque_low, point.torque);
+        run.torque_high = std::max(run.torque_high, point.torque);
+    }
+    if (sign_ * (point.angle - curve.end_angle) > 0.0) {
+        extend(curve.stages, point.stage, curve.end_angle, point.angle);
+        curve.end_angle = point.angle;
+    }
+    if (std::isnan(curve.snug_angle) && snug_torque > 0.0 && sign_ * point.torque >= snug_torque)
+        curve.snug_angle = point.angle;
+}
+
+void CurveBuilder::take(Building& joint, CurvePoint point, double snug_torque) {
+    Visit& visit = joint.curve.visits.back();
+    if (!joint.gripped) ++visit.strokes;
+    joint.gripped = true;
+    point.stroke = static_cast<std::uint16_t>(std::min(visit.strokes, 65535));
+    advance(joint, point, snug_torque);
+    visit.end = point.time;
+    if (sign_ * point.torque > sign_ * visit.peak.torque) visit.peak = point;
+    visit.release = point;
+    const bool turned = std::abs(point.angle - visit.begin_angle) >= touch_angle;
+    const bool loaded = sign_ * point.torque >= std::max(0.5 * snug_torque, touch_torque);
+    visit.worked = visit.worked || turned || loaded;
+    joint.stream.add(point);
+}
+
+void CurveBuilder::add(std::uint64_t first_tick, std::span<const session::TickRecord> ticks) {
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+        const session::TickRecord& tick = ticks[i];
+        if (!usable(tick, joints_.size())) {
+            if (open_joint_ >= 0) joints_[static_cast<std::size_t>(open_joint_)].gripped = false;
+            continue;
+        }
+        const std::uint64_t at = first_tick + i;
+        const std::vector<std::uint64_t>& begins = request_.pass_begins;
+        const auto begun = std::upper_bound(begins.begin(), begins.end(), at) - begins.begin();
+        const int pass = std::max(0, static_cast<int>(begun) - 1);
+        const CurvePoint point{static_cast<double>(at) * request_.dt,   static_cast<double>(tick.nut_angle),
+                               static_cast<double>(tick.wrench_torque), static_cast<double>(tick.clamp),
+                               static_cast<joint::Stage>(tick.stage),   0};
+        if (tick.joint != open_joint_ || pass != open_pass_) {
+            if (open_joint_ >= 0) end_visit(joints_[static_cast<std::size_t>(open_joint_)]);
+            open_joint_ = tick.joint;
+            open_pass_ = pass;
+            begin_visit(joints_[static_cast<std::size_t>(tick.joint)], point, pass);
+        }
+        const auto index = static_cast<std::size_t>(tick.joint);
+        // As the lesson judges it, fingers make nothing snug.
+        const bool fingers = static_cast<servo::Grip>(tick.grip) == servo::Grip::fingers;
+        take(joints_[index], point, fingers ? 0.0 : request_.snug_torque[index]);
+    }
+}
+
+std::vector<JointCurve> CurveBuilder::finish() {
+    if (open_joint_ >= 0) end_visit(joints_[static_cast<std::size_t>(open_joint_)]);
+    std::vector<JointCurve> curves;
+    for (Building& joint : joints_) curves.push_back(std::move(joint.curve));
+    joints_.clear();
+    open_joint_ = -1;
+    return curves;
+}
+
+}  // namespace bolt::analysis

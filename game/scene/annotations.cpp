@@ -1,0 +1,209 @@
+#include "game/scene/annotations.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "game/lesson/feedback.hpp"
+
+namespace bolt::scene {
+
+namespace {
+
+constexpr int around = 20, along_arc = 18, along_head = 6;
+constexpr float line_opacity = 0.55F;
+
+// What of an arrow's length is its head, and how thick shaft and head are.
+struct Shape {
+    double head = 0.0, shaft_radius = 0.0, head_radius = 0.0, length = 1.0;
+    std::function<Pose(double)> spine;  // 0 … 1: a point, its z on along the arrow
+};
+
+// A ring of vertices; `lean`: of the normal, 0 outward, ±1 along the arrow.
+struct Ring {
+    double at = 0.0, radius = 0.0, lean = 0.0;
+};
+
+void add_ring(assets::Primitive& mesh, const Shape& shape, const Ring& ring, bool joined) {
+    const Pose place = shape.spine(ring.at);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const double outward = std::sqrt(1.0 - ring.lean * ring.lean);
+    for (int i = 0; i <= around; ++i) {
+        const double phi = 2.0 * pi * i / around;
+        const Vec3 out(std::cos(phi), std::sin(phi), 0.0);
+        mesh.positions.emplace_back(place * (ring.radius * out));
+        mesh.normals.emplace_back(place.orientation * (outward * out + ring.lean * Vec3(0, 0, 1)));
+    }
+    if (!joined) return;
+    constexpr std::uint32_t row = around + 1;
+    for (std::uint32_t i = 0; i < around; ++i) {
+        const std::uint32_t a = first - row + i, b = first + i;
+        for (const std::uint32_t index : {a, a + 1, b, b, a + 1, b + 1}) mesh.indices.push_back(index);
+    }
+}
+
+// Its end, the shaft, the shoulder and the head; each with normals of its own.
+assets::Primitive arrow_mesh(const Shape& shape) {
+    assets::Primitive mesh;
+    const double neck = 1.0 - shape.head;
+    add_ring(mesh, shape, {0.0, 0.0, -1.0}, false);
+    add_ring(mesh, shape, {0.0, shape.shaft_radius, -1.0}, true);
+    for (int i = 0; i <= along_arc; ++i)
+        add_ring(mesh, shape, {neck * i / along_arc, shape.shaft_radius, 0.0}, i > 0);
+    add_ring(mesh, shape, {neck, shape.shaft_radius, -1.0}, false);
+    add_ring(mesh, shape, {neck, shape.head_radius, -1.0}, true);
+    const double slope = shape.head_radius / std::hypot(shape.head_radius, shape.head * shape.length);
+    for (int i = 0; i <= along_head; ++i) {
+        const double share = static_cast<double>(i) / along_head;
+        add_ring(mesh, shape, {neck + shape.head * share, shape.head_radius * (1.0 - share), slope}, i > 0);
+    }
+    mesh.material = 0;
+    return mesh;
+}
+
+Pose on_line(double share) { return {Vec3(0.0, 0.0, share), Quat(1.0, 0.0, 0.0, 0.0)}; }
+
+Pose on_arc(double share) {
+    const double angle = share * arrow_sweep;
+    const Quat turned = glm::angleAxis(angle, Vec3(0, 0, 1));
+    return {turned * Vec3(1, 0, 0), turned * glm::angleAxis(-0.5 * pi, Vec3(1, 0, 0))};
+}
+
+void add_mesh(assets::Model& model, const char* name, assets::Primitive mesh) {
+    assets::Node node;
+    node.name = name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    model.roots.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(node);
+    model.meshes.push_back({name, {std::move(mesh)}, {}});
+}
+
+glm::dmat4 matrix(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& at, double scale) {
+    return {glm::dvec4(scale * x, 0.0), glm::dvec4(scale * y, 0.0), glm::dvec4(scale * z, 0.0),
+            glm::dvec4(at, 1.0)};
+}
+
+}  // namespace
+
+assets::Model arrow_model() {
+    assets::Model model;
+    assets::Material material;
+    material.name = "arrow";
+    material.metallic = 0.0F;
+    material.roughness = 0.6F;
+    model.materials.push_back(material);
+    add_mesh(model, "straight", arrow_mesh({0.4, 0.055, 0.17, 1.0, on_line}));
+    add_mesh(model, "round", arrow_mesh({0.3, 0.05, 0.15, arrow_sweep, on_arc}));
+    return model;
+}
+
+Arrow straight_arrow(const Vec3& from, const Vec3& to, const glm::vec4& color) {
+    const double length = glm::distance(from, to);
+    const Vec3 z = (to - from) / length;
+    const Vec3 x = glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0), z));
+    return {ArrowShape::straight, matrix(x, glm::cross(z, x), z, from, length), color};
+}
+
+Arrow round_arrow(const Turn& turn, const glm::vec4& color) {
+    const Vec3 x = glm::normalize(turn.from - turn.axis * glm::dot(turn.axis, turn.from));
+    return {ArrowShape::round, matrix(x, glm::cross(turn.axis, x), turn.axis, turn.middle, turn.radius),
+            color};
+}
+
+void show_arrow(World& world, const std::optional<Arrow>& arrow) {
+    world.view<Pointer, Placement>().each([&](ecs::Entity entity, Pointer& pointer, Placement& placement) {
+        pointer.shown = arrow && arrow->shape == pointer.shape;
+        if (!pointer.shown) {
+            world.remove<Outlined>(entity);
+            return;
+        }
+        placement.world = glm::mat4(arrow->world);
+        pointer.color = arrow->color;
+        world.add<Outlined>(entity, glm::vec4(glm::vec3(arrow->color), line_opacity));
+    });
+}
+
+namespace {
+
+constexpr glm::vec4 plate_color{0.06F, 0.07F, 0.08F, 0.82F};
+
+// How a torque lies to what is asked for now, by a sign and by colour; what is still below it is only a
+// number. Breakaway turns nothing (`turned`: with what the nut was turned), and is not too much.
+void show_standing(render::Label& label, const content::Window& window, double torque, double turned,
+                   const view::Palette& palette) {
+    if (torque < window.low) return;
+    const bool too_much = torque > window.high && turned > window.high;
+    label.color = too_much ? palette.wrong : palette.right;
+    label.text = fmt::format("{} {}", view::sign_of(too_much ? lesson::Verdict::high : lesson::Verdict::ok),
+                             label.text);
+}
+
+// Since when a nut's angle counts: out of its turn, and not snug, it says nothing.
+std::optional<double> counted_from(const lesson::Lesson& lesson, std::size_t joint) {
+    const lesson::JointTrack& track = lesson.joints[joint];
+    if (track.snug) return track.snug_angle;
+    const lesson::Step* due = lesson.due();
+    return due != nullptr && due->joint == joint ? std::optional(track.begin_angle) : std::nullopt;
+}
+
+std::string figures(const words::Words& words, const lesson::Lesson& lesson, const world::Joint& joint,
+                    bool wrench) {
+    if (!wrench)
+        return words::say(words, "hud.turns", {{"turns", words::Number{joint.angle / (2.0 * pi), 1}}});
+    std::string said = words::say(words, words::Number{std::abs(joint.torque), 0}) + " N·m   ";
+    const auto from = counted_from(lesson, joint.index);
+    if (from) said += fmt::format("{:+.0f}°   ", to_degrees(joint.angle - *from));
+    return said + words[lesson::term(joint.stage)];
+}
+
+}  // namespace
+
+render::Label plate(std::string text, const Vec3& at, float height) {
+    render::Label label;
+    label.text = std::move(text);
+    label.position = glm::vec3(at);
+    label.height = height;
+    label.anchor = {0.5F, 0.0F};
+    label.plate = plate_color;
+    label.color = label_color;
+    label.through = 1.0F;
+    return label;
+}
+
+Vec3 above_nut(const servo::Setup& setup, const ecs::Access<const world::Joint>& joints, std::size_t joint) {
+    return world::nut_centre(joints, setup, joint) + 0.03 * setup.nuts[joint].axis;
+}
+
+std::optional<render::Label> work_label(const words::Words& words, const lesson::Lesson& lesson,
+                                        const servo::Setup& setup, const WorkAccess& world,
+                                        const view::Palette& palette) {
+    const std::int16_t engaged = world.only<world::ToolContact>().joint;
+    if (engaged < 0) return std::nullopt;
+    const auto joint = static_cast<std::size_t>(engaged);
+    const world::Joint& now = world::joint_at(world, joint);
+    const bool wrench = world.only<world::Hand>().wrench;
+    const lesson::Step* due = lesson.due();
+    const double torque = std::abs(now.torque);
+    const bool fits = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
+    render::Label label = plate(figures(words, lesson, now, wrench), above_nut(setup, world, joint), 22.0F);
+    if (wrench && lesson.mode != lesson::Mode::assessment)
+        show_standing(label, fits ? lesson::window(lesson, *due) : lesson.assembly->joints[joint].spec.torque,
+                      torque, lesson.joints[joint].turned_torque, palette);
+    label.moved_px = {0.0F, 34.0F};
+    return label;
+}
+
+render::Label clamp_label(const words::Words& words, const content::Assembly& assembly,
+                          const servo::Setup& setup, const ecs::Access<const world::Joint>& joints,
+                          std::size_t joint) {
+    const double clamp = world::joint_at(joints, joint).clamp;
+    const std::string force = words::say(words, words::Number{clamp / 1e3, 1});
+    render::Label label = plate(fmt::format("{} {} kN", assembly.joints[joint].design.id, force),
+                                above_nut(setup, joints, joint), 15.0F);
+    label.moved_px = {0.0F, 8.0F};
+    return label;
+}
+
+}  // namespace bolt::scene

@@ -1,0 +1,69 @@
+#include "game/world/world.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace bolt::world {
+
+namespace {
+
+Pose pose_of_input(const servo::Input& input) {
+    const servo::ToolPose pose = servo::pose_of(input.device);
+    return {pose.position, pose.orientation};
+}
+
+void write_hand(Hand& hand, const Snapshot& servo) {
+    const bool engaged = servo.output.joint >= 0;
+    hand.doing = engaged ? Doing::holding : Doing::resting;
+    hand.wrench = servo.input.grip == servo::Grip::wrench;
+    hand.pinches = servo.input.grip == servo::Grip::fingers;
+    hand.nut = engaged ? std::optional(static_cast<std::size_t>(servo.output.joint)) : std::nullopt;
+    hand.pose = hand.to = pose_of_input(servo.input);
+}
+
+}  // namespace
+
+void write_joints(const WriteHaptics& world, std::span<const joint::JointState> joints,
+                  std::span<const double> rounded) {
+    for (Joint& joint : world.pool<Joint>().components()) {
+        const joint::JointState& state = joints[joint.index];
+        joint.stage = state.stage;
+        joint.condition = state.condition;
+        joint.angle = state.nut.angle;
+        joint.speed = state.nut.speed;
+        joint.torque = state.torque;
+        joint.clamp = state.clamp;
+        joint.rounded = joint.index < rounded.size() ? rounded[joint.index] : 0.0;
+    }
+}
+
+void write_output(const WriteHaptics& world, const servo::Output& output) {
+    world.only<Tool>().pose = output.tool;
+    world.only<ToolContact>() = {output.joint, output.slipped, output.touched, output.contacts,
+                                 output.clicked};
+    world.only<DeviceForce>() = {output.force, output.torque, output.fault};
+}
+
+void write_snapshot(const WriteHaptics& world, const Snapshot& servo) {
+    write_joints(world, servo.state.joints, servo.state.rounded);
+    write_output(world, servo.output);
+    world.only<GuidingForce>() = {servo.input.guide, servo.state.guiding_command.force,
+                                  servo.state.guiding_command.torque};
+    write_hand(world.only<Hand>(), servo);
+}
+
+const Joint& joint_at(const ecs::Access<const Joint>& world, std::size_t index) {
+    const auto joints = world.pool<Joint>().components();
+    // Joints are created in their order and never destroyed, so the first guess is right.
+    if (index < joints.size() && joints[index].index == index) return joints[index];
+    const auto found =
+        std::find_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.index == index; });
+    assert(found != joints.end());
+    return *found;
+}
+
+Vec3 nut_centre(const ecs::Access<const Joint>& world, const servo::Setup& setup, std::size_t joint) {
+    return servo::nut_centre(setup.nuts[joint], joint_at(world, joint).angle);
+}
+
+}  // namespace bolt::world

@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "content/format/assembly.hpp"
+#include "engine/base/file.hpp"
+#include "engine/base/nearest.hpp"
+#include "engine/base/result.hpp"
+#include "game/plot/html.hpp"
+#include "game/plot/plot.hpp"
+#include "game/plot/svg.hpp"
+#include "haptics/joint/design.hpp"
+#include "haptics/joint/group.hpp"
+#include "tools/author/commands.hpp"
+
+// A joint's torque–angle curve as a drawing: stages shaded, target window, clamp force beside it.
+
+namespace bolt::author {
+
+// A whole SVG file. Angles count from the first contact (tightening) or from where the run begins
+// (loosening).
+std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint::CurveSample> run,
+                      joint::Direction direction, std::string_view title);
+
+namespace {
+
+constexpr double lead_in = 20.0;  // degrees drawn before the first contact
+
+std::size_t first_contact(std::span<const joint::CurveSample> run) {
+    const auto touches = [](const joint::CurveSample& s) { return s.stage != joint::Stage::navigation; };
+    return static_cast<std::size_t>(std::find_if(run.begin(), run.end(), touches) - run.begin());
+}
+
+}  // namespace
+
+std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint::CurveSample> run,
+                      joint::Direction direction, std::string_view title) {
+    const bool on = direction == joint::Direction::tighten;
+    const std::size_t contact = on ? std::min(first_contact(run), run.size() - 1) : 0;
+    const double zero = to_degrees(run[contact].angle);
+
+    plot::Plot plot;
+    plot.width = 760.0;
+    plot.height = 400.0;
+    plot.title = std::string(title);
+    std::vector<plot::Point> torque, clamp;
+    double highest_torque = 0.0, highest_clamp = 0.0;
+    for (const joint::CurveSample& s : run) {
+        const double x = to_degrees(s.angle) - zero;
+        if (on && x < -lead_in) continue;
+        torque.push_back({x, on ? s.torque : -s.torque});
+        clamp.push_back({x, s.clamp / 1e3});
+        highest_torque = std::max(highest_torque, torque.back().y);
+        highest_clamp = std::max(highest_clamp, s.clamp / 1e3);
+    }
+    const plot::Range shown{torque.front().x, torque.back().x};
+    plot.x = {plot::degree_ticks(shown, 9),
+              on ? "nut angle from first contact, °" : "nut angle turned back, °"};
+    plot.y = {plot::covering_ticks(0.0, std::max(highest_torque, on ? joint.spec.torque.high : 0.0)),
+              "torque, N·m"};
+    plot.y2 = plot::Axis{plot::covering_ticks(0.0, highest_clamp), "clamp, kN"};
+
+    constexpr std::string_view stage_styles[] = {"s0", "s1", "s2", "s3"};
+    for (std::size_t i = 0, begin = 0; i <= run.size(); ++i) {
+        if (i < run.size() && run[i].stage == run[begin].stage) continue;
+        const double low = std::max(to_degrees(run[begin].angle) - zero, shown.low);
+        const double high = to_degrees(run[std::min(i, run.size() - 1)].angle) - zero;
+        const auto stage = static_cast<std::size_t>(run[begin].stage);
+        if (high > low)
+            plot.bands.push_back(
+                {{low, high}, stage_styles[stage], std::string(name(run[begin].stage)), false, false});
+        begin = i;
+    }
+    if (on) {
+        plot.bands.push_back({{joint.spec.torque.low, joint.spec.torque.high}, "win", {}, true, false});
+        plot.rules.push_back({joint.spec.torque.target, "tgt", "target", true});
+    }
+    const double column = (shown.high - shown.low) / 1500.0;
+    plot.lines.push_back({plot::decimate(clamp, column), "ln cl", true});
+    plot.lines.push_back({plot::decimate(torque, column), "ln p2", false});
+    return plot::standalone(plot::draw(plot), plot::style_sheet());
+}
+
+namespace {
+
+struct CurveOptions {
+    std::string assembly, variant, joint, law, direction = "tighten", csv, svg;
+};
+
+Result<std::size_t> find_joint(const content::Assembly& assembly, const std::string& id) {
+    std::vector<std::string> ids;
+    for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+        if (assembly.joints[i].design.id == id) return i;
+        ids.push_back(assembly.joints[i].design.id);
+    }
+    const std::string best = nearest(id, ids);
+    return fail(ErrorCode::usage, fmt::format("{} has no joint \"{}\"", assembly.name, id),
+                best.empty() ? fmt::format("one of {}", fmt::join(ids, ", "))
+                             : fmt::format("did you mean {}?", best));
+}
+
+int run_curve(const CurveOptions& options) {
+    if (options.csv.empty() && options.svg.empty()) {
+        Error error;
+        error.code = ErrorCode::usage;
+        error.what = "there is nothing to write";
+        error.expected = "--csv FILE or --svg FILE";
+        return print_error(error);
+    }
+    const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
+    if (!loaded.ok()) return print_error(loaded.errors);
+    const content::Assembly& assembly = loaded.assembly;
+    Result<std::size_t> joint = find_joint(assembly, options.joint);
+    if (!joint) return print_error(joint.error());
+
+    const joint::Law law = options.law.empty()          ? assembly.law
+                           : options.law == "published" ? joint::Law::published
+                                                        : joint::Law::mechanistic;
+    joint::JointDesign design = assembly.joints[*joint].design;
+    design.friction.scatter = 0.0;  // the nominal joint
+    const joint::GroupParameters group = law == joint::Law::mechanistic
+                                             ? joint::make_group({&design, 1}, nullptr, 0)
+                                             : joint::make_published_group(assembly.published);
+    joint::CurveOptions curve;
+    curve.direction = options.direction == "loosen" ? joint::Direction::loosen : joint::Direction::tighten;
+    curve.torque = assembly.joints[*joint].spec.torque.target;
+
+    const std::vector<joint::CurveSample> run = joint::torque_angle_curve(group, curve);
+    if (!options.svg.empty()) {
+        const std::string title =
+            fmt::format("{} {}, law {}, {}", assembly.name, options.joint, name(law), options.direction);
+        const Status kept =
+            write_file(options.svg, curve_svg(assembly.joints[*joint], run, curve.direction, title));
+        if (!kept) return print_error(kept.error());
+    }
+    if (options.csv.empty()) return 0;
+    std::string text = "angle_deg,stage,torque_Nm,clamp_N\n";
+    for (const joint::CurveSample& s : run)
+        fmt::format_to(std::back_inserter(text), "{:.4f},{},{:.7g},{:.6g}\n", to_degrees(s.angle),
+                       name(s.stage), s.torque, s.clamp);
+    if (options.csv != "-") {
+        const Status kept = write_file(options.csv, text);
+        return kept ? 0 : print_error(kept.error());
+    }
+    const Status said = print(text);
+    return said ? 0 : print_error(said.error());
+}
+
+}  // namespace
+
+void add_curve(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<CurveOptions>();
+    CLI::App* curve =
+        app.add_subcommand("curve", "The torque-angle curve of a joint, turned at 30 degrees a second");
+    curve->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
+        ->required();
+    curve->add_option("--joint", options->joint, "Id of the joint")->required();
+    curve->add_option("--variant", options->variant, "Material variant; the assembly's default if not given");
+    curve->add_option("--law", options->law, "Torque law; the assembly's own if not given")
+        ->check(CLI::IsMember({"published", "mechanistic"}));
+    curve->add_option("--direction", options->direction)
+        ->check(CLI::IsMember({"tighten", "loosen"}))
+        ->capture_default_str();
+    curve->add_option("--csv", options->csv, "CSV file to write, - for stdout");
+    curve->add_option("--svg", options->svg, "Drawing to write");
+    curve->callback([options, &exit_code] { exit_code = run_curve(*options); });
+}
+
+namespace {
+
+struct TorqueOptions {
+    std::string size, property_class;
+    double mu = 0.12;
+    double pitch_mm = 0.0;
+    double utilisation = 0.9;
+    bool json = false;
+};
+
+int run_torque(const TorqueOptions& options) {
+    const std::string name =
+        options.pitch_mm > 0.0 ? fmt::format("{}x{:g}", options.size, options.pitch_mm) : options.size;
+    Result<joint::ThreadSize> size = joint::parse_thread(name);
+    if (!size) {
+        size.error().code = ErrorCode::usage;
+        return print_error(size.error());
+    }
+    Result<joint::PropertyClass> bolt = joint::property_class(options.property_class, size->size.d);
+    if (!bolt) {
+        bolt.error().code = ErrorCode::usage;
+        return print_error(bolt.error());
+    }
+    const joint::AssemblyPreload preload = joint::assembly_preload(
+        size->thread, *bolt, options.mu, options.mu,
+        joint::bearing_mean_diameter(size->size.head_bearing, size->size.hole), options.utilisation);
+    std::string text;
+    if (options.json) {
+        const nlohmann::ordered_json json = {{"size", name},
+                                             {"class", bolt->name},
+                                             {"mu", options.mu},
+                                             {"utilisation", options.utilisation},
+                                             {"preload_kN", preload.force / 1e3},
+                                             {"torque_Nm", preload.torque}};
+        text = json.dump() + "\n";
+    } else {
+        text = fmt::format("{} {}, mu {:g}, {:.0f} % of yield\npreload_kN {:.1f}\ntorque_Nm {:.1f}\n", name,
+                           bolt->name, options.mu, 100.0 * options.utilisation, preload.force / 1e3,
+                           preload.torque);
+    }
+    const Status said = print(text);
+    return said ? 0 : print_error(said.error());
+}
+
+}  // namespace
+
+void add_torque(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<TorqueOptions>();
+    CLI::App* torque =
+        app.add_subcommand("torque", "Assembly preload and tightening torque after VDI 2230 table A1");
+    torque->add_option("--size", options->size, "Thread: M4 to M39, or with its pitch, M16x1.5")->required();
+    torque->add_option("--class", options->property_class, "Property class: 8.8, 10.9, A2-70, ...")
+        ->required();
+    torque->add_option("--mu", options->mu, "Friction of thread and head")
+        ->check(CLI::Range(0.01, 1.0))
+        ->capture_default_str();
+    torque->add_option("--pitch", options->pitch_mm, "Pitch in mm of a fine thread")
+        ->check(CLI::PositiveNumber);
+    torque->add_option("--utilisation", options->utilisation, "Share of the yield strength")
+        ->check(CLI::Range(0.01, 1.0))
+        ->capture_default_str();
+    torque->add_flag("--json", options->json, "One JSON object");
+    torque->callback([options, &exit_code] { exit_code = run_torque(*options); });
+}
+
+}  // namespace bolt::author

@@ -1,0 +1,199 @@
+#include "tools/emulate/hid_device.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <linux/input.h>
+#include <linux/uhid.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+#include <thread>
+
+#include "haptics/device/hid_transport.hpp"
+
+namespace bolt::emulate {
+
+std::vector<Bytes> with_faults(std::vector<Bytes> reports, const HidFaults& faults, Random& random) {
+    for (Bytes& report : reports) {
+        if (report.size() > 1 && random.chance(faults.cut))
+            report.resize(1 + random.bits() % (report.size() - 1));
+        if (random.chance(faults.strange)) report[0] = 0x77;
+        if (report.size() > 1 && random.chance(faults.changed))
+            report[1 + random.bits() % (report.size() - 1)] = static_cast<std::uint8_t>(random.bits());
+    }
+    return reports;
+}
+
+namespace {
+
+constexpr double step = 0.00025;          // s
+constexpr std::size_t most_waiting = 64;  // reports that the kernel keeps for a reader; later ones are lost
+
+tl::unexpected<Error> gone() {
+    Error error;
+    error.code = ErrorCode::no_device;
+    error.what = "the emulated device was unplugged";
+    error.lost = true;
+    return fail(std::move(error));
+}
+
+}  // namespace
+
+Result<std::span<const std::uint8_t>> EmulatedTransport::read(double timeout) {
+    const double until = plug_.time + timeout;
+    while (true) {
+        if (plug_.pulled) return gone();
+        for (Bytes& report : plug_.device->advance(plug_.time))
+            if (waiting_.size() < most_waiting) waiting_.push_back(std::move(report));
+        if (!waiting_.empty() || plug_.time >= until) break;
+        plug_.time = std::min(plug_.time + step, until);
+    }
+    if (waiting_.empty()) return std::span<const std::uint8_t>();
+    read_ = std::move(waiting_.front());
+    waiting_.pop_front();
+    return std::span<const std::uint8_t>(read_);
+}
+
+Status EmulatedTransport::write(std::span<const std::uint8_t> report) {
+    plug_.time += plug_.write_takes;
+    if (plug_.pulled) return gone();
+    plug_.device->output(report);
+    return {};
+}
+
+Status EmulatedTransport::send_feature(std::span<const std::uint8_t> report) {
+    if (plug_.pulled) return gone();
+    plug_.device->set_feature(report);
+    return {};
+}
+
+Result<std::span<const std::uint8_t>> EmulatedTransport::get_feature(std::span<std::uint8_t> report) {
+    if (plug_.pulled) return gone();
+    const Bytes answer = plug_.device->get_feature(report[0]);
+    if (answer.empty()) return fail(ErrorCode::no_device, "the emulated device refuses");
+    const std::size_t n = std::min(answer.size(), report.size());
+    std::copy_n(answer.begin(), n, report.begin());
+    return std::span<const std::uint8_t>(report.data(), n);
+}
+
+namespace {
+
+void copy_text(std::span<std::uint8_t> to, const std::string& from) {
+    const std::size_t n = std::min(to.size() - 1, from.size());
+    std::copy_n(from.begin(), n, to.begin());
+}
+
+}  // namespace
+
+struct Uhid::Shared {
+    std::unique_ptr<HidDevice> device;
+    int file = -1;
+    std::mutex mutex;
+    std::atomic<bool> stop{false};
+    std::thread thread;
+
+    ~Shared() {
+        stop = true;
+        if (thread.joinable()) thread.join();
+        if (file >= 0) close(file);  // the kernel takes the device away with it
+    }
+
+    [[nodiscard]] bool send(const uhid_event& event) const {
+        return ::write(file, &event, sizeof event) == static_cast<ssize_t>(sizeof event);
+    }
+
+    void play() {
+        while (!stop) {
+            pollfd wait{file, POLLIN, 0};
+            poll(&wait, 1, 1);
+            const std::lock_guard lock(mutex);
+            uhid_event event{};
+            while (::read(file, &event, sizeof event) > 0) {
+                hear(event);
+                event = {};
+            }
+            for (const Bytes& report : device->advance(device::steady_seconds())) {
+                uhid_event in{};
+                in.type = UHID_INPUT2;
+                in.u.input2.size = static_cast<std::uint16_t>(report.size());
+                std::copy(report.begin(), report.end(), in.u.input2.data);
+                if (!send(in)) return;
+            }
+        }
+    }
+
+    void hear(const uhid_event& event) const {
+        const auto took = [&](std::uint32_t id) {
+            uhid_event reply{};
+            reply.type = UHID_SET_REPORT_REPLY;
+            reply.u.set_report_reply.id = id;
+            static_cast<void>(send(reply));
+        };
+        if (event.type == UHID_OUTPUT) {
+            const auto& o = event.u.output;
+            const std::span report(o.data, std::min<std::size_t>(o.size, UHID_DATA_MAX));
+            o.rtype == UHID_FEATURE_REPORT ? device->set_feature(report) : device->output(report);
+        } else if (event.type == UHID_SET_REPORT) {
+            const auto& s = event.u.set_report;
+            const std::span report(s.data, std::min<std::size_t>(s.size, UHID_DATA_MAX));
+            s.rtype == UHID_FEATURE_REPORT ? device->set_feature(report) : device->output(report);
+            took(s.id);
+        } else if (event.type == UHID_GET_REPORT) {
+            const Bytes answer = event.u.get_report.rtype == UHID_FEATURE_REPORT
+                                     ? device->get_feature(event.u.get_report.rnum)
+                                     : Bytes{};
+            uhid_event reply{};
+            reply.type = UHID_GET_REPORT_REPLY;
+            auto& r = reply.u.get_report_reply;
+            r.id = event.u.get_report.id;
+            r.err = answer.empty() ? EIO : 0;
+            r.size = static_cast<std::uint16_t>(answer.size());
+            std::copy(answer.begin(), answer.end(), r.data);
+            static_cast<void>(send(reply));
+        }
+    }
+};
+
+Uhid::Uhid(std::unique_ptr<Shared> shared) : shared_(std::move(shared)) {}
+Uhid::Uhid(Uhid&&) noexcept = default;
+Uhid& Uhid::operator=(Uhid&&) noexcept = default;
+Uhid::~Uhid() = default;
+
+void Uhid::with(const std::function<void(HidDevice&)>& look) const {
+    const std::lock_guard lock(shared_->mutex);
+    look(*shared_->device);
+}
+
+Result<Uhid> Uhid::plug_in(std::unique_ptr<HidDevice> device) {
+    auto shared = std::make_unique<Shared>();
+    shared->device = std::move(device);
+    shared->file = ::open("/dev/uhid", O_RDWR | O_CLOEXEC | O_NONBLOCK);
+    if (shared->file < 0)
+        return fail(ErrorCode::no_device, fmt::format("cannot open /dev/uhid: {}", std::strerror(errno)),
+                    "root, and the kernel's module uhid");
+    const HidDescription& design = shared->device->design();
+    uhid_event create{};
+    create.type = UHID_CREATE2;
+    auto& c = create.u.create2;
+    copy_text(c.name, design.name);
+    copy_text(c.uniq, design.serial);
+    if (design.descriptor.size() > HID_MAX_DESCRIPTOR_SIZE)
+        return fail(ErrorCode::failed, "the kernel takes no report descriptor as long as that");
+    c.rd_size = static_cast<std::uint16_t>(design.descriptor.size());
+    std::copy(design.descriptor.begin(), design.descriptor.end(), c.rd_data);
+    c.bus = BUS_USB;
+    c.vendor = design.vendor;
+    c.product = design.product;
+    if (!shared->send(create))
+        return fail(ErrorCode::failed,
+                    fmt::format("the kernel takes no such device: {}", std::strerror(errno)));
+    shared->thread = std::thread([s = shared.get()] { s->play(); });
+    return Uhid(std::move(shared));
+}
+
+}  // namespace bolt::emulate
